@@ -36,6 +36,7 @@ namespace
 constexpr double cells_by_default = 25000.;
 constexpr double flattest         = 1e-5; // quality; flatter cells spoil the condition of C
 constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
+constexpr double swept_by_default = 20.;  // size over the mean thickness of walls
 
 enum class MissingSize
 {
@@ -169,18 +170,29 @@ void judge_features(MeshedModel &result, const MeshOptions &options)
         ") and force small elements there: mesh.defeature removes what is smaller than a size, where it can");
 }
 
+/// By the mean thickness 2 V / A.
+double size_for_walls(const CadModel &model)
+{
+  const double size = swept_by_default * 2. * model.volume() / skin_area(model.faces);
+  const double largest =
+      std::max({model.max[0] - model.min[0], model.max[1] - model.min[1], model.max[2] - model.min[2]});
+  return std::min(size, largest);
+}
+
 /// All that is judged before meshing; @return the options with their size.
 MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &specification, MissingSize missing)
 {
   MeshOptions options = specification.mesh;
   if (options.size == 0. && missing == MissingSize::chosen)
-    options.size = size_for_cells(result.model, cells_by_default);
+    options.size =
+        options.plates == Plates::swept ? size_for_walls(result.model) : size_for_cells(result.model, cells_by_default);
   result.size = options.size;
   check_materials(result.model, specification);
   result.selection = select_all(result.model, specification);
   set_mesh_sizes(result.model, options, result.selection);
   judge_memory(result, specification, options);
-  judge_features(result, options);
+  if (options.plates != Plates::swept) // whose cells small features do not make smaller
+    judge_features(result, options);
   return options;
 }
 
@@ -191,12 +203,14 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
     return false;
   try
   {
-    result.extracted = swept_mesh(result.model, result.selection, specification, options);
+    result.extracted      = swept_mesh(result.model, result.selection, specification, options);
+    result.expected_cells = 0.; // which is of tetrahedra
     return true;
   }
   catch (const NotSwept &reason)
   {
     result.model.notes.push_back("plates are not swept but meshed in tetrahedra, as " + std::string(reason.what()));
+    judge_features(result, options);
     return false;
   }
 }

@@ -82,7 +82,9 @@ std::vector<std::string> features_of(const fem::GeometryReport &geometry)
                     " % of the surface belong to walls thinner than the elements, down to " +
                     fem::text(1e3 * walls.thinnest) + " mm; there elements are " + fem::text(walls.median_ratio) +
                     " times as large as the wall is thick (median)" +
-                    (walls.median_ratio > 2. ? ": bending comes out too stiff, see gestell modes --converge" : ""));
+                    (walls.median_ratio > 2. && geometry.n_of_kind[0] > 0
+                         ? ": bending comes out too stiff, see gestell modes --converge"
+                         : ""));
   return lines;
 }
 

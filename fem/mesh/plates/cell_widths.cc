@@ -9,36 +9,67 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double narrowest = 1. / 8.; // cell along an edge, of the size
-constexpr double growth    = 4.;      // from cell to cell
-constexpr double jump      = 8.;      // from the narrow cells to those amid them
-constexpr double rounding  = 1e-9;
+constexpr double along_edge = 0.7;      // width of the cell along an edge, of the thickness of the wall
+constexpr double narrowest  = 1. / 16.; // the same at most, of the size
+constexpr double at_minor   = 3.;       // times as wide along a plane beyond which most goes on
+constexpr double growth     = 4.;       // from cell to cell
+constexpr double jump       = 4.;       // from the narrow cells to those amid them
+constexpr double room       = 3.;       // widths of a cell that must be left where it is added
+constexpr double thick      = 1. / 4.;  // of the size: such walls have two cells through them
+constexpr double rounding   = 1e-9;
+
+/// Narrow cells that grow from a plane.
+struct Growing
+{
+  double              next;
+  std::vector<double> along = {0.}; // distances of limits from the plane
+
+  void add()
+  {
+    along.push_back(along.back() + next);
+    next *= growth;
+  }
+};
+
+/// Adds the narrower ones first, at both planes alike.
+void grow(Growing &low, Growing &high, double width, double size)
+{
+  const auto left = [&] { return (width - low.along.back() - high.along.back()) * (1. + rounding); };
+  for (double next = std::min(low.next, high.next); next < size && left() >= room * next;
+       next        = std::min(low.next, high.next))
+  {
+    const bool at_low = low.next == next, at_high = high.next == next;
+    if (at_low)
+      low.add();
+    if (at_high)
+      high.add();
+  }
+}
 
 } // namespace
 
 std::vector<double> cell_limits(const Sheet &sheet, double size, int layers)
 {
-  const double        width = sheet.width(), edge = std::min(sheet.thickness, narrowest * size);
-  std::vector<double> along = {0.}; // distances of limits from either plane
-  double              next  = edge;
-  if (width > 3. * edge)
-    while (next < size && width - 2. * (along.back() + next) >= next)
-    {
-      along.push_back(along.back() + next);
-      next *= growth;
-    }
-  const double amid  = width - 2. * along.back();
-  const double wide  = along.size() > 1 ? std::min(size, jump * next / growth) : size;
-  const int    least = width <= sheet.thickness * (1. + rounding) ? layers : 1;
-  const int    n     = std::max(least, static_cast<int>(std::ceil(amid / wide - rounding)));
+  const double edge   = std::min(along_edge * sheet.thickness, narrowest * size);
+  const auto   within = [&](bool minor) { return minor ? at_minor * edge : edge; };
+  Growing      low{within(sheet.mostly_goes_on[0])}, high{within(sheet.mostly_goes_on[1])};
+  const bool   is_wall = sheet.width() <= sheet.thickness * (1. + rounding);
+  if (!is_wall)
+    grow(low, high, sheet.width(), size);
+
+  const double amid   = sheet.width() - low.along.back() - high.along.back();
+  const double narrow = std::min(low.next, high.next) / growth;
+  const double wide   = low.along.size() + high.along.size() > 2 ? std::min(size, jump * narrow) : size;
+  const int    least  = !is_wall ? 1 : std::max(layers, sheet.width() > thick * size ? 2 : 1);
+  const int    n      = std::max(least, static_cast<int>(std::ceil(amid / wide - rounding)));
 
   std::vector<double> limits;
-  for (const double x : along)
+  for (const double x : low.along)
     limits.push_back(sheet.from + x);
   for (int i = 1; i < n; ++i)
-    limits.push_back(sheet.from + along.back() + amid * i / n);
-  for (std::size_t i = along.size(); i-- > 0;)
-    limits.push_back(sheet.to - along[i]);
+    limits.push_back(sheet.from + low.along.back() + amid * i / n);
+  for (std::size_t i = high.along.size(); i-- > 0;)
+    limits.push_back(sheet.to - high.along[i]);
   return limits;
 }
 

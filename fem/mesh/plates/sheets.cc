@@ -66,16 +66,32 @@ private:
           if ((divided(static_cast<int>(brick)) && divided(next)) || (divided(below(brick)) && divided(below(next))))
             join(facets_, brick, next);
     needed_.assign(lattice_.size(), 0);
+    faces_.assign(lattice_.size(), 0.);
+    inner_ = faces_;
     for (std::size_t brick = 0; brick < lattice_.size(); ++brick)
     {
-      const int other = below(brick);
+      const int    other = below(brick), in = root(facets_, static_cast<int>(brick));
+      const Index3 i = lattice_.place(brick);
+      const int    a = (d_ + 1) % 3, b = (d_ + 2) % 3;
+      const double area = lattice_.width(a, i[a]) * lattice_.width(b, i[b]);
+      if (other >= 0 && lattice_.solid[other] >= 0 && lattice_.solid[brick] >= 0)
+        inner_[in] += area;
+      else if (lattice_.solid[brick] >= 0 || (other >= 0 && lattice_.solid[other] >= 0))
+        faces_[in] += area;
       if ((other < 0 ? -1 : lattice_.solid[other]) != lattice_.solid[brick] ||
           (other < 0 ? -1 : lattice_.region[other]) != lattice_.region[brick])
-        needed_[root(facets_, static_cast<int>(brick))] = 1;
+        needed_[in] = 1;
     }
   }
 
-  void number(std::vector<int> &parent, Sheets &sheets) const
+  /// Of the plane below a brick.
+  bool mostly_goes_on(int brick)
+  {
+    const int in = root(facets_, brick);
+    return inner_[in] > faces_[in];
+  }
+
+  void number(std::vector<int> &parent, Sheets &sheets)
   {
     std::map<int, int> number_of; // of a root
     sheets.of_brick[d_].assign(lattice_.size(), -1);
@@ -91,6 +107,10 @@ private:
         sheet.first                = std::min(sheet.first, i);
         sheet.last                 = std::max(sheet.last, i + 1);
         sheets.of_brick[d_][brick] = entry->second;
+        if (i == sheet.first)
+          sheet.mostly_goes_on[0] = mostly_goes_on(static_cast<int>(brick));
+        if (const int next = after(brick, d_); i + 1 == sheet.last)
+          sheet.mostly_goes_on[1] = next >= 0 && mostly_goes_on(next);
       }
     for (Sheet &sheet : sheets.across[d_])
     {
@@ -101,8 +121,9 @@ private:
 
   const BrickLattice &lattice_;
   int                 d_;
-  std::vector<int>    facets_; // joined where one cut goes on into the next
-  std::vector<char>   needed_; // of the root
+  std::vector<int>    facets_;        // joined where one cut goes on into the next
+  std::vector<char>   needed_;        // of the root
+  std::vector<double> faces_, inner_; // area on faces and within material, of the root [m^2]
 };
 
 /// The narrower of the other two sides of a brick, once planes that cut nothing are gone.
@@ -112,16 +133,20 @@ void find_thickness(const BrickLattice &lattice, Sheets &sheets)
   for (int d = 0; d < 3; ++d)
     volume_of[d].resize(sheets.across[d].size());
   for (std::size_t brick = 0; brick < lattice.size(); ++brick)
-    if (lattice.solid[brick] >= 0 && lattice.region[brick] < 0)
+  {
+    if (lattice.solid[brick] < 0)
+      continue;
+    const Index3 i      = lattice.place(brick);
+    const double volume = lattice.width(0, i[0]) * lattice.width(1, i[1]) * lattice.width(2, i[2]);
+    const auto   width  = [&](int other)
     {
-      const Index3 i      = lattice.place(brick);
-      const double volume = lattice.width(0, i[0]) * lattice.width(1, i[1]) * lattice.width(2, i[2]);
-      for (int d = 0; d < 3; ++d)
-      {
-        const auto width = [&](int other) { return sheets.across[other][sheets.of_brick[other][brick]].width(); };
-        volume_of[d][sheets.of_brick[d][brick]][std::min(width((d + 1) % 3), width((d + 2) % 3))] += volume;
-      }
-    }
+      const int sheet = sheets.of_brick[other][brick];
+      return sheet >= 0 ? sheets.across[other][sheet].width() : lattice.width(other, i[other]); // of a region
+    };
+    for (int d = 0; d < 3; ++d)
+      if (const int sheet = sheets.of_brick[d][brick]; sheet >= 0)
+        volume_of[d][sheet][std::min(width((d + 1) % 3), width((d + 2) % 3))] += volume;
+  }
   for (int d = 0; d < 3; ++d)
     for (std::size_t s = 0; s < sheets.across[d].size(); ++s)
     {

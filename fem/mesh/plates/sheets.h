@@ -14,7 +14,9 @@ struct Sheet
   int    first = 0, last = 0; ///< planes of the lattice
   double from = 0., to = 0.;  ///< [m]
   double thickness = 0.;      ///< of the walls that make up most of it [m]
-  double width() const { return to - from; }
+  /// At `from`, `to`: whether faces lie on less than half of the plane, most of what it cuts going on beyond it.
+  std::array<bool, 2> mostly_goes_on{false, false};
+  double              width() const { return to - from; }
 };
 
 /**

@@ -4,6 +4,7 @@
 #include "fem/mesh/plates/cell_widths.h"
 #include "fem/mesh/plates/section_mesh.h"
 #include "fem/mesh/plates/swept_regions.h"
+#include "fem/mesh/plates/wall_statement.h"
 #include "fem/mesh/watched_meshing.h"
 #include "fem/values/vector3.h"
 
@@ -28,10 +29,8 @@ public:
       : model_(model), specification_(specification), options_(options), solids_(plate_solids(model)),
         lattice_(lattice_with_regions(solids_, model.diagonal())), sheets_(sheets_of(lattice_))
   {
-    (void)selection;
-    for (int d = 0; d < 3; ++d)
-      for (const Sheet &sheet : sheets_.across[d])
-        limits_[d].push_back(cell_limits(sheet, options.size, options.layers));
+    sort_faces();
+    divide_sheets(resolve_surface_sizes(options, selection), selection);
     judge_cells();
   }
 
@@ -49,7 +48,7 @@ public:
       add_region(region);
     mesh.cell_solid.insert(mesh.cell_solid.end(), solid_of_prism_.begin(), solid_of_prism_.end());
     mesh.takes_one_size = true;
-    sort_faces();
+    mesh.statements.push_back(wall_statement(lattice_, sheets_));
     add_skin(result_, head_of(specification_), options_.bodies,
              [&](const std::vector<int> &corners) { return surface_of(corners); });
     return std::move(result_);
@@ -59,6 +58,46 @@ private:
   std::array<int, 3> sheets_at(std::size_t brick) const
   {
     return {sheets_.of_brick[0][brick], sheets_.of_brick[1][brick], sheets_.of_brick[2][brick]};
+  }
+
+  /// @param sizes  of named surfaces [m]
+  void divide_sheets(const std::map<std::string, double> &sizes, const Selection &selection)
+  {
+    std::array<std::vector<double>, 3> largest; // cell of each sheet
+    for (int d = 0; d < 3; ++d)
+      largest[d].assign(sheets_.across[d].size(), options_.size);
+    for (const auto &[name, size] : sizes)
+      for (const PlateFace &face : solids_.faces)
+        if (const auto &tags = selection.at(name); std::count(tags.begin(), tags.end(), face.tag) > 0)
+          for (const std::size_t brick : bricks_at(face))
+            for (const int along : {(face.direction + 1) % 3, (face.direction + 2) % 3})
+              if (const int sheet = sheets_.of_brick[along][brick]; sheet >= 0)
+                largest[along][sheet] = std::min(largest[along][sheet], size);
+    for (int d = 0; d < 3; ++d)
+      for (std::size_t s = 0; s < largest[d].size(); ++s)
+        limits_[d].push_back(cell_limits(sheets_.across[d][s], largest[d][s], options_.layers));
+  }
+
+  /// Filled ones whose side lies on the face.
+  std::vector<std::size_t> bricks_at(const PlateFace &face) const
+  {
+    const int                d = face.direction, a = (d + 1) % 3, b = (d + 2) % 3;
+    const int                plane = lattice_.plane_at(d, face.level);
+    std::vector<std::size_t> bricks;
+    const auto               middle = [&](int along, int i)
+    { return 0.5 * (lattice_.planes[along][i] + lattice_.planes[along][i + 1]); };
+    for (int i = 0; i < lattice_.n(a); ++i)
+      for (int j = 0; j < lattice_.n(b); ++j)
+        for (const int k : {plane - 1, plane})
+        {
+          Index3 at;
+          at[d] = k;
+          at[a] = i;
+          at[b] = j;
+          if (lattice_.at(at) >= 0 && PlateSolids::contains(face, {middle(a, i), middle(b, j)}))
+            bricks.push_back(lattice_.index(at));
+        }
+    return bricks;
   }
 
   /// Before they are made.
