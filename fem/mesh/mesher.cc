@@ -223,6 +223,9 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   const auto        report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
   if (sweep(result, specification, options))
     return judge_memory(result, specification);
+  if (specification.mesh.size == 0.) // chosen for what is not swept
+    options.size = result.size = size_for_cells(result.model, cells_by_default);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / result.model.unit);
   std::optional<SizeField> field;
   if (!refined.empty())
     set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
