@@ -218,9 +218,9 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
                    MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
 {
-  const bool        script_has_sizes = has_size_fields();
-  const MeshOptions options          = prepare_geometry(result, specification, missing);
-  const auto        report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  const bool  script_has_sizes = has_size_fields();
+  MeshOptions options          = prepare_geometry(result, specification, missing);
+  const auto  report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
   if (sweep(result, specification, options))
     return judge_memory(result, specification);
   if (specification.mesh.size == 0.) // chosen for what is not swept

@@ -199,6 +199,26 @@ TEST(SweptPlates, KeepTheirSolidsApart)
   EXPECT_NEAR(of[1], 1e-9 * 100. * 80. * 20., 1e-15);
 }
 
+TEST(SweptPlates, HaveBoresThroughSeveralSolids)
+{
+  // The region around the bore takes all of the upper solid.
+  const double volume = 1e-9 * 10. * (1e4 + 3600. - 2. * 8. * 0.3826834323650898 * 15. * 15.);
+  const Mesh   mesh   = make_mesh(swept(draw("stacked.step",
+                                             []
+                                             {
+                                           occ::addBox(0., 0., 0., 100., 100., 10.);
+                                           occ::addBox(20., 20., 10., 60., 60., 10.);
+                                           gmsh::vectorpair              result;
+                                           std::vector<gmsh::vectorpair> map;
+                                           const int bore = occ::addCylinder(50., 50., -5., 0., 0., 40., 15.);
+                                           occ::cut({{3, 1}, {3, 2}}, {{3, bore}}, result, map);
+                                         }),
+                                        0.05));
+  EXPECT_EQ(mesh.solids.size(), 2u);
+  EXPECT_TRUE(mesh.cells.empty()) << mesh.notes.front();
+  EXPECT_NEAR(curved_volume(mesh), volume, 1e-9 * volume);
+}
+
 TEST(SweptPlates, GoThroughTheThicknessInLayers)
 {
   FrameSpecification s = swept(draw("angle.step", angle), 0.1);
