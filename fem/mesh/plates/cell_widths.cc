@@ -48,7 +48,7 @@ void grow(Growing &low, Growing &high, double width, double size)
 
 } // namespace
 
-std::vector<double> cell_limits(const Sheet &sheet, double size, int layers)
+std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, bool even)
 {
   const double edge   = std::min(along_edge * sheet.thickness, narrowest * size);
   const auto   within = [&](bool minor) { return minor ? at_minor * edge : edge; };
@@ -61,8 +61,10 @@ std::vector<double> cell_limits(const Sheet &sheet, double size, int layers)
   const double narrow = std::min(low.next, high.next) / growth;
   const double wide   = low.along.size() + high.along.size() > 2 ? std::min(size, jump * narrow) : size;
   const int    least  = !is_wall ? 1 : std::max(layers, sheet.width() > thick * size ? 2 : 1);
-  const int    n      = std::max(least, static_cast<int>(std::ceil(amid / wide - rounding)));
+  int          n      = std::max(least, static_cast<int>(std::ceil(amid / wide - rounding)));
 
+  if (even && (n + low.along.size() + high.along.size()) % 2 == 1)
+    ++n;
   std::vector<double> limits;
   for (const double x : low.along)
     limits.push_back(sheet.from + x);

@@ -20,7 +20,8 @@ namespace gestell::fem
  *
  * @param size    largest width [m]
  * @param layers  cells through a wall at least
+ * @param even    whether the number of cells must be
  */
-std::vector<double> cell_limits(const Sheet &sheet, double size, int layers);
+std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, bool even = false);
 
 } // namespace gestell::fem

@@ -353,16 +353,16 @@ private:
     hole.sides.back()[1] = hole.sides.front()[0]; // but for rounding
   }
 
-  /// As many as turn by the angle between sides of a regular polygon.
+  /// As many as turn by the angle between sides of a regular polygon; an even number.
   int sides_along(int edge) const
   {
     if (is_line(edge))
-      return 1;
+      return 2;
     const std::vector<Vector3> x    = points_along(edge, model_.unit, points_of_curves);
     double                     turn = 0.;
     for (std::size_t i = 1; i + 1 < x.size(); ++i)
       turn += std::acos(std::clamp(dot(unit(x[i] - x[i - 1]), unit(x[i + 1] - x[i])), -1., 1.));
-    return std::max(1, static_cast<int>(std::ceil(turn / (2. * std::acos(-1.) / sides_of_circle) - 1e-3)));
+    return 2 * std::max(1, static_cast<int>(std::ceil(turn / (4. * std::acos(-1.) / sides_of_circle) - 1e-3)));
   }
 
   /// Leaves plane walls of holes, and the edges around these, out of the faces.

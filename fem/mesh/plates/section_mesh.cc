@@ -5,6 +5,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -56,14 +57,18 @@ public:
   {
     namespace geo = gmsh::model::geo;
     std::vector<int> points, lines;
-    for (const Point2 &x : loop)
+    const auto       first = static_cast<int>(given_.size());
+    const auto       n     = static_cast<int>(loop.size() / 2);
+    for (int i = 0; i < n; ++i)
     {
+      const Point2 &x = loop[2 * i];
       points.push_back(geo::addPoint((x[0] - origin_[0]) / scale_, (x[1] - origin_[1]) / scale_, 0.));
       given_.push_back(x);
       point_.push_back(points.back());
+      between_[std::minmax(first + i, first + (i + 1) % n)] = loop[2 * i + 1];
     }
-    for (std::size_t i = 0; i < points.size(); ++i)
-      lines.push_back(geo::addLine(points[i], points[(i + 1) % points.size()]));
+    for (int i = 0; i < n; ++i)
+      lines.push_back(geo::addLine(points[i], points[(i + 1) % n]));
     for (const int line : lines)
       geo::mesh::setTransfiniteCurve(line, 2);
     return geo::addCurveLoop(lines);
@@ -97,15 +102,40 @@ public:
           corners.push_back(index.at(elements.nodes[j + k]));
         if (area(result, corners) < 0.)
           std::reverse(corners.begin(), corners.end());
-        if (corners.size() == 4)
-          result.quadrilaterals.push_back({corners[0], corners[1], corners[2], corners[3]});
-        else
-          result.triangles.push_back({corners[0], corners[1], corners[2]});
+        divide(corners, result);
       }
     return result;
   }
 
 private:
+  /// A cell of n corners into n quadrilaterals about its middle.
+  void divide(const std::vector<int> &corners, SectionMesh &mesh)
+  {
+    const std::size_t n = corners.size();
+    Point2            middle{};
+    for (const int corner : corners)
+      for (int k = 0; k < 2; ++k)
+        middle[k] += mesh.points[corner][k] / double(n);
+    const auto centre = static_cast<int>(mesh.points.size());
+    mesh.points.push_back(middle);
+    for (std::size_t i = 0; i < n; ++i)
+      mesh.quadrilaterals.push_back({corners[i], amid(corners[i], corners[(i + 1) % n], mesh), centre,
+                                     amid(corners[(i + n - 1) % n], corners[i], mesh)});
+  }
+
+  int amid(int a, int b, SectionMesh &mesh)
+  {
+    const auto key             = std::pair<int, int>(std::minmax(a, b));
+    const auto [entry, is_new] = amid_.try_emplace(key, static_cast<int>(mesh.points.size()));
+    if (is_new)
+    {
+      const auto    given = between_.find(key);
+      const Point2 &p = mesh.points[a], &q = mesh.points[b];
+      mesh.points.push_back(given != between_.end() ? given->second : Point2{0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])});
+    }
+    return entry->second;
+  }
+
   static double area(const SectionMesh &mesh, const std::vector<int> &corners)
   {
     double twice = 0.;
@@ -117,10 +147,12 @@ private:
     return 0.5 * twice;
   }
 
-  Point2              origin_;
-  double              scale_ = 0.;
-  std::vector<Point2> given_;
-  std::vector<int>    point_; // gmsh's tags
+  Point2                                origin_;
+  double                                scale_ = 0.;
+  std::vector<Point2>                   given_;
+  std::vector<int>                      point_;   // gmsh's tags
+  std::map<std::pair<int, int>, Point2> between_; // points given amid two others
+  std::map<std::pair<int, int>, int>    amid_;    // points amid two others
 };
 
 } // namespace

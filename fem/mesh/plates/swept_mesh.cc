@@ -1,5 +1,6 @@
 #include "fem/mesh/plates/swept_mesh.h"
 
+#include "fem/mesh/cell_measures.h"
 #include "fem/mesh/mixed_extraction.h"
 #include "fem/mesh/plates/cell_widths.h"
 #include "fem/mesh/plates/section_mesh.h"
@@ -18,6 +19,8 @@ namespace gestell::fem
 
 namespace
 {
+
+constexpr double worst_corner = 0.02; // corner_quality() of cells around holes
 
 using Limits = std::array<std::vector<std::vector<double>>, 3>; // of each sheet
 
@@ -46,7 +49,9 @@ public:
           add_block(*sheet, lattice_.solid[brick]);
     for (const SweptRegion &region : lattice_.regions)
       add_region(region);
-    mesh.cell_solid.insert(mesh.cell_solid.end(), solid_of_prism_.begin(), solid_of_prism_.end());
+    for (int cell = 0; cell < mesh.n_cells(); ++cell)
+      if (corner_quality(mesh, cell) < worst_corner)
+        throw NotSwept("cells around the hole near " + text(mesh.points[mesh.corners(cell)[0]]) + " m would fold");
     mesh.takes_one_size = true;
     mesh.statements.push_back(wall_statement(lattice_, sheets_));
     add_skin(result_, head_of(specification_), options_.bodies,
@@ -63,7 +68,8 @@ private:
   /// @param sizes  of named surfaces [m]
   void divide_sheets(const std::map<std::string, double> &sizes, const Selection &selection)
   {
-    std::array<std::vector<double>, 3> largest; // cell of each sheet
+    const std::set<std::pair<int, int>> even = sheets_beside_regions();
+    std::array<std::vector<double>, 3>  largest; // cell of each sheet
     for (int d = 0; d < 3; ++d)
       largest[d].assign(sheets_.across[d].size(), options_.size);
     for (const auto &[name, size] : sizes)
@@ -75,7 +81,30 @@ private:
                 largest[along][sheet] = std::min(largest[along][sheet], size);
     for (int d = 0; d < 3; ++d)
       for (std::size_t s = 0; s < largest[d].size(); ++s)
-        limits_[d].push_back(cell_limits(sheets_.across[d][s], largest[d][s], options_.layers));
+        limits_[d].push_back(
+            cell_limits(sheets_.across[d][s], largest[d][s], options_.layers, even.count({d, int(s)}) > 0));
+  }
+
+  /// Direction and number of those that end in points of an outline: all of an outline's sides have an even number of
+  /// cells, which quadrilaterals alone ask for.
+  std::set<std::pair<int, int>> sheets_beside_regions() const
+  {
+    std::set<std::pair<int, int>> beside;
+    for (std::size_t brick = 0; brick < lattice_.size(); ++brick)
+      if (const int r = lattice_.region[brick]; r >= 0)
+      {
+        const int d = lattice_.regions[r].direction;
+        for (const auto &[across, along] : {std::pair((d + 1) % 3, (d + 2) % 3), std::pair((d + 2) % 3, (d + 1) % 3)})
+          for (const int step : {-1, 1})
+          {
+            Index3 other = lattice_.place(brick);
+            other[across] += step;
+            if (lattice_.at(other) >= 0)
+              if (const int sheet = sheets_.of_brick[along][lattice_.index(other)]; sheet >= 0)
+                beside.insert({along, sheet});
+          }
+      }
+    return beside;
   }
 
   /// Filled ones whose side lies on the face.
@@ -182,7 +211,7 @@ private:
   /// Of a side with nothing beside it.
   std::vector<double> divided(double from, double to) const
   {
-    const int           n = std::max(2, static_cast<int>(std::ceil((to - from) / options_.size)));
+    const int           n = 2 * std::max(1, static_cast<int>(std::ceil(0.5 * (to - from) / options_.size)));
     std::vector<double> levels;
     for (int i = 0; i < n; ++i)
       levels.push_back(from + (to - from) * i / n);
@@ -278,11 +307,6 @@ private:
           {at(i, 0), at(j, 0), at(k, 0), at(l, 0), at(i, 1), at(j, 1), at(k, 1), at(l, 1)});
       result_.mesh.cell_solid.push_back(solid);
     }
-    for (const auto &[i, j, k] : section.triangles)
-    {
-      result_.mesh.prisms.push_back({at(i, 0), at(j, 0), at(k, 0), at(i, 1), at(j, 1), at(k, 1)});
-      solid_of_prism_.push_back(solid);
-    }
   }
 
   void sort_faces()
@@ -332,7 +356,6 @@ private:
     return 0;
   }
 
-  std::vector<int>                                solid_of_prism_;
   const CadModel                                 &model_;
   const FrameSpecification                       &specification_;
   const MeshOptions                              &options_;
