@@ -57,6 +57,10 @@ int check(const CommonOptions &options)
     geometry = try_geometry(scene.frame.geometry, warnings);
     loose    = check_scene(scene); // the places of interfaces are known now
   }
+  for (coupling::FramePart &part : scene.frame.parts.parts)
+    geometry += (geometry.empty() ? "" : "\nframe: ") + part.name + ": " + try_geometry(part.geometry, warnings);
+  if (scene.frame.source == FrameSource::parts)
+    loose = check_scene(scene);
   check_start(scene);
   warnings.insert(warnings.end(), loose.begin(), loose.end());
   if (const std::string floating = floating_frame(scene); !floating.empty())

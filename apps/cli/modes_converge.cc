@@ -61,6 +61,9 @@ std::string reached(const coupling::MeshConvergence &convergence)
 coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &asked,
                                          const std::filesystem::path &folder, const coupling::Progress &progress)
 {
+  if (scene.frame.source == FrameSource::parts)
+    throw std::invalid_argument(scene.file + ": --converge refines the mesh of one frame, but this frame consists of "
+                                             "parts; converge each part as a frame of its own, or set their mesh.size");
   if (scene.frame.source != FrameSource::geometry || frame_path(scene) != FramePath::reduce)
     throw std::invalid_argument(scene.file + ": --converge refines the mesh of a frame, but this scene's frame is not "
                                              "made from geometry and reduced; give [frame] cad = \"FILE\" and "

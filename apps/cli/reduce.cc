@@ -133,12 +133,16 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     return exit_done;
   }
 
-  ProgressLine      progress(options.quiet);
-  Session           session = scene_to_reduce(options, {progress.callback()});
-  const Scene      &scene   = session.scene();
-  const bool        exports = !reduce.export_format.empty();
-  const auto        format  = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
-  const std::string folder  = exports ? results_path(options, scene).string() : options.folder;
+  ProgressLine progress(options.quiet);
+  Session      session = scene_to_reduce(options, {progress.callback()});
+  const Scene &scene   = session.scene();
+  const bool   exports = !reduce.export_format.empty();
+  if (exports && scene.frame.source == FrameSource::parts)
+    throw std::invalid_argument(scene.frame.place +
+                                ": --export cannot write a frame of parts, whose forces in joints need "
+                                "accelerations; -o alone writes it for [frame] reduced = ...");
+  const auto        format = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
+  const std::string folder = exports ? results_path(options, scene).string() : options.folder;
   if (!folder.empty())
     require_writable(folder);
   const FrameAnswer             answer = session.reduced_frame();

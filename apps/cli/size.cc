@@ -46,7 +46,10 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
     throw std::invalid_argument("--tolerance is missing: the relative error that each output may have, such as 0.01");
   Session session(options.input, options.overrides, options.scripts);
   session.check_run();
-  const Scene                &scene   = session.scene();
+  const Scene &scene = session.scene();
+  if (scene.frame.source == FrameSource::parts)
+    throw std::invalid_argument(scene.frame.place + ": size looks for one mesh, but this frame consists of parts with "
+                                                    "meshes of their own; `gestell run --budget` tells their errors");
   const auto                  outputs = budget_outputs(scene, asked.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
   require_writable(folder);

@@ -3,6 +3,7 @@
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/matrix_keys.h"
+#include "apps/scene/read/frame/parts_keys.h"
 #include "apps/scene/read/joint_keys.h"
 #include "apps/scene/read/read_bodies.h"
 #include "apps/scene/read/read_compliance.h"
@@ -57,6 +58,14 @@ void add_frame(Tables &tables)
       attached_mass_keys());
   add("frame.cut", "[frame.cut.NAME]",
       "Signal `frame.cut.NAME`: the force along the normal that the plane transmits, tension positive.", cut_keys());
+  add("parts", "[frame]", "The frame in several parts, each reduced by itself and joined with the others.",
+      parts_frame_keys());
+  add("frame.part", "[frame.part.NAME]",
+      "A part of the frame, with its own surfaces, interfaces `frame.NAME.INTERFACE`, supports, masses and cuts.",
+      frame_part_keys());
+  add("frame.joint", "[frame.joint.NAME]",
+      "Holds two parts together; signals `frame.joint.NAME.fx` to `mz` and `normal_force`, of a tie rod `force`.",
+      frame_joint_keys());
   add("matrices", "[frame]", "The frame given by matrices, M q'' + B q' + C q = f.", matrix_frame_keys());
   add("matrices.interface", "[frame.interface.NAME]", "Rows of the matrices that are motions of a node.",
       matrix_interface_keys());

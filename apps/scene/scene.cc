@@ -36,18 +36,34 @@ coupling::ReductionEntry read_reduction_method(const SceneTable &table)
   return *own;
 }
 
+/// Parts are joined at their interfaces, which only one method keeps.
+void require_method_of_parts(const SceneTable &table, const ReductionRequest &request)
+{
+  const std::string &method = request.options.method;
+  if (!request.makes_frame)
+    throw table.error("method",
+                      "\"" + request.method +
+                          "\" takes the frame in one piece, but parts are joined after their reduction; leave "
+                          "it out, or draw the frame in one piece");
+  if (method != "craig-bampton")
+    throw table.error(table.has("inside") ? "inside" : "method",
+                      "'" + method +
+                          "' of parts does not keep what joins them; parts are reduced by \"craig-bampton\"");
+}
+
 ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &frame)
 {
-  const bool       reducible = frame.source == FrameSource::geometry || frame.source == FrameSource::matrices;
+  const bool       parts = frame.source == FrameSource::parts, made = parts || frame.source == FrameSource::geometry;
+  const bool       reducible = made || frame.source == FrameSource::matrices;
   ReductionRequest request;
-  request.method        = frame.source == FrameSource::geometry ? request.options.method : "none";
-  request.makes_frame   = frame.source == FrameSource::geometry;
+  request.method        = made ? request.options.method : "none";
+  request.makes_frame   = made;
   request.options.place = scene.place();
   if (!scene.has("reduction"))
     return request;
   const SceneTable table = scene.table("reduction").declared(reduction_keys());
   if (!reducible)
-    throw table.error("there is no frame to reduce; [frame] must give 'cad' or matrices");
+    throw table.error("there is no frame to reduce; [frame] must give 'cad', parts or matrices");
 
   request.options.place     = table.place();
   const auto method         = read_reduction_method(table);
@@ -65,6 +81,8 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
     request.options.method = request.method;
   if (table.choice("inside") == "free-interface")
     request.options.method = "free-interface";
+  if (parts)
+    require_method_of_parts(table, request);
   if (method.makes == coupling::ReductionEntry::Makes::modes_of_machine)
   {
     coupling::SuperpositionOptions &modes = request.superposition.emplace();
@@ -234,7 +252,9 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   scene.gravity                = table.vector_or("gravity", {});
   scene.frame                  = read_frame(table);
   scene.frame.geometry.scripts = scripts;
-  scene.reduction              = read_reduction(table, scene.frame);
+  for (coupling::FramePart &part : scene.frame.parts.parts)
+    part.geometry.scripts = scripts;
+  scene.reduction = read_reduction(table, scene.frame);
   check_gravity(table, scene);
 
   Names names(interface_names(scene.frame), scene.frame.source == FrameSource::reduced_file);

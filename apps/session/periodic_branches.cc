@@ -16,11 +16,11 @@ namespace gestell::apps
 namespace
 {
 constexpr int         usual_points = 100, rows_of_branches = 128;
-constexpr int         most_turns  = 10;   ///< points of a branch, of those from end to end
-constexpr int         generations = 2;    ///< of branches that leave branches
-constexpr std::size_t most_left   = 16;   ///< points at which branches leave that are followed
-constexpr double      same_place  = 1e-6; ///< of the range, of the period
-constexpr double      same        = 1e-5; ///< distance of two motions, of their size
+constexpr int         most_turns_per_point = 10;   ///< points of a branch, of those from end to end
+constexpr int         generations          = 2;    ///< of branches that leave branches
+constexpr std::size_t most_left            = 16;   ///< points at which branches leave that are followed
+constexpr double      same_place           = 1e-6; ///< of the range, of the period
+constexpr double      same                 = 1e-5; ///< distance of two motions, of their size
 
 using coupling::PeriodicSolution;
 
@@ -152,7 +152,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
   along.from   = family.from();
   along.to     = family.to();
   along.points = request.points > 0 ? request.points : usual_points;
-  along.most   = std::max(along.most, most_turns * along.points);
+  along.most   = std::max(along.most, most_turns_per_point * along.points);
   BranchTable table(family, result);
   const auto  on_point = [&](const coupling::BranchPoint &point)
   {

@@ -12,6 +12,8 @@
 #include "coupling/modes/modes.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_service.h"
+#include "coupling/substructures/parts_recipe.h"
+#include "coupling/substructures/reduced_parts.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -43,15 +45,42 @@ void tell(const coupling::Progress &progress, const std::string &phase, double s
 
 coupling::FrameOrigin frame_origin(const Scene &scene)
 {
-  const bool                        geometry = scene.frame.source == FrameSource::geometry;
-  const coupling::ReductionOptions &options  = scene.reduction.options;
+  const coupling::ReductionOptions &options = scene.reduction.options;
   coupling::FrameOrigin             origin;
-  origin.recipe = geometry ? coupling::recipe_of(scene.frame.geometry, options)
-                           : coupling::recipe_of(scene.frame.matrices, options);
-  origin.scene  = std::filesystem::absolute(scene.file).lexically_normal().string();
-  origin.source = geometry ? scene.frame.geometry.cad : "matrices";
+  origin.scene = std::filesystem::absolute(scene.file).lexically_normal().string();
+  switch (scene.frame.source)
+  {
+  case FrameSource::geometry:
+    origin.recipe = coupling::recipe_of(scene.frame.geometry, options);
+    origin.source = scene.frame.geometry.cad;
+    break;
+  case FrameSource::parts:
+    origin.recipe = coupling::recipe_of(scene.frame.parts, options);
+    origin.source = std::to_string(scene.frame.parts.parts.size()) + " parts";
+    break;
+  default:
+    origin.recipe = coupling::recipe_of(scene.frame.matrices, options);
+    origin.source = "matrices";
+  }
   return origin;
 }
+
+namespace
+{
+coupling::ReducedFrame made(const Scene &scene, const coupling::Progress &progress)
+{
+  const coupling::ReductionOptions &options = scene.reduction.options;
+  switch (scene.frame.source)
+  {
+  case FrameSource::geometry:
+    return coupling::mesh_service().reduce(scene.frame.geometry, options, progress);
+  case FrameSource::parts:
+    return reduced_frame_of_parts(scene.frame.parts, options, progress);
+  default:
+    return coupling::frame_service().reduce(scene.frame.matrices, options, progress);
+  }
+}
+} // namespace
 
 coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress, bool &from_cache)
 {
@@ -61,11 +90,8 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progres
   from_cache                        = known.has_value();
   if (known)
     return std::move(*known);
-  coupling::ReducedFrame frame =
-      scene.frame.source == FrameSource::geometry
-          ? coupling::mesh_service().reduce(scene.frame.geometry, scene.reduction.options, progress)
-          : coupling::frame_service().reduce(scene.frame.matrices, scene.reduction.options, progress);
-  const std::string kept = coupling::keep_in_cache(frame, origin);
+  coupling::ReducedFrame frame = made(scene, progress);
+  const std::string      kept  = coupling::keep_in_cache(frame, origin);
   for (const std::string &text : {note, kept})
     if (!text.empty())
       frame.notes.push_back(text);

@@ -5,6 +5,7 @@
 #include "apps/session/backbone.h"
 #include "apps/session/basin_answer.h"
 #include "apps/session/frequency_response.h"
+#include "apps/session/joint_opening.h"
 #include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/order_tracking.h"
@@ -249,7 +250,7 @@ Result Session::run()
   check_run();
   PreparedMachine &prepared = machine();
   require_stress(scene_, prepared.machine.model().reduced_frame());
-  const auto signals = scene_signals(scene_, prepared.machine);
+  const auto signals = with_normal_forces(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
   progress()("start", -1.);
   std::string                  failure;
   const coupling::InitialState initial = found_start(scene_, prepared, watch_.interruption, failure);
@@ -260,6 +261,8 @@ Result Session::run()
   result.run      = failure.empty() ? simulated(initial, signals) : not_started(scene_.run.options, failure);
   progress()("results", -1.);
   result.orders = order_tracking(scene_, *result.run);
+  for (std::string &opening : opening_joints(scene_, signals, *result.run))
+    result.warnings.push_back(std::move(opening));
   states_for_pictures(prepared, *result.run);
   if (scene_.stress.given && !result.run->rows.empty())
     result.stress = stress_answer(scene_, *prepared.machine.model().reduced_frame(), *result.run, result.warnings);

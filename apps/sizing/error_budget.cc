@@ -172,7 +172,7 @@ SecondModel BudgetMaker::coarser_in_mesh()
     second.reason = scene_.frame.source == FrameSource::none ? "there is no frame" : "the matrices are the frame";
     return second;
   }
-  if (!mesh_is_made(scene_))
+  if (!mesh_is_made(scene_) && !meshes_of_parts_are_made(scene_))
   {
     second.reason = "the mesh comes from a file and cannot be made coarser";
     return second;

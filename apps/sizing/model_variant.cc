@@ -89,12 +89,31 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
   return answer;
 }
 
+namespace
+{
+
+void scale(fem::MeshOptions &mesh, double ratio)
+{
+  mesh.size *= ratio;
+  for (auto &[surface, size] : mesh.surface_size)
+    size *= ratio;
+}
+
+bool is_meshed(const std::string &cad)
+{
+  const std::string kind = cad.substr(std::min(cad.rfind('.'), cad.size()));
+  return kind != ".msh" && kind != ".inp" && kind != ".stl";
+}
+
+} // namespace
+
 Scene varied(const Scene &scene, const ModelVariant &variant)
 {
   Scene other = scene;
-  other.frame.geometry.mesh.size *= variant.mesh;
-  for (auto &[surface, size] : other.frame.geometry.mesh.surface_size)
-    size *= variant.mesh;
+  scale(other.frame.geometry.mesh, variant.mesh);
+  for (coupling::FramePart &part : other.frame.parts.parts)
+    scale(part.geometry.mesh, variant.mesh);
+  other.frame.parts.all_modes |= variant.modes >= 0; // each part has as many as are asked for
   for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
     if (entry.name == variant.reduction)
     {
@@ -191,9 +210,15 @@ coupling::MethodOptions finer_method(const coupling::MethodOptions &given)
 
 bool mesh_is_made(const Scene &scene)
 {
-  const std::string &cad  = scene.frame.geometry.cad;
-  const std::string  kind = cad.substr(std::min(cad.rfind('.'), cad.size()));
-  return scene.frame.source == FrameSource::geometry && kind != ".msh" && kind != ".inp" && kind != ".stl";
+  return scene.frame.source == FrameSource::geometry && is_meshed(scene.frame.geometry.cad);
+}
+
+bool meshes_of_parts_are_made(const Scene &scene)
+{
+  const auto &parts = scene.frame.parts.parts;
+  return scene.frame.source == FrameSource::parts &&
+         std::all_of(parts.begin(), parts.end(),
+                     [](const coupling::FramePart &part) { return is_meshed(part.geometry.cad); });
 }
 
 bool modes_are_chosen(const Scene &scene)

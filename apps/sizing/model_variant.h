@@ -61,6 +61,8 @@ coupling::MethodOptions finer_method(const coupling::MethodOptions &given);
 
 /// Whether the mesh of the scene's frame is made by the program, so that its size can be chosen.
 bool mesh_is_made(const Scene &scene);
+/// The same of a frame of parts: of all of them.
+bool meshes_of_parts_are_made(const Scene &scene);
 /// Whether the frame of the scene is reduced, so that its number of modes can be chosen.
 bool modes_are_chosen(const Scene &scene);
 

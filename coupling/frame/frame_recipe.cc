@@ -215,12 +215,14 @@ public:
   }
   void add(const std::string &name, const fem::FrameOutput &value)
   {
-    const auto &[own, unit, on_q, on_v, under_acceleration] = value;
+    const auto &[own, unit, on_q, on_v, under_acceleration, on_a, constant] = value;
     add(name, own);
     add(name + ".unit", unit);
     add(name + ".on_q", on_q);
     add(name + ".on_v", on_v);
     add(name + ".under_acceleration", under_acceleration);
+    add(name + ".on_a", on_a);
+    add(name + ".constant", constant);
   }
   void add(const std::string &name, const fem::Picture &value)
   {

@@ -33,9 +33,10 @@ struct ReducedFrame
   ReducedStress                      stress;
 
   // what is known about the model
-  int                      n_full  = 0; ///< coordinates of the unreduced frame
-  int                      n_cells = 0;
-  double                   mass    = 0.;            ///< [kg]
+  int                      n_full        = 0; ///< coordinates of the unreduced frame
+  int                      n_cells       = 0;
+  int                      n_fixed_modes = 0;       ///< of the columns behind the interface; the rest are static shapes
+  double                   mass          = 0.;      ///< [kg]
   fem::FrameFacts          facts;                   ///< of a frame made of cells
   Eigen::VectorXd          frequencies_hz;          // [p] supported frame, interface free, from the reduced model
   double                   frequency_limit_hz = 0.; ///< up to which the model is meant to hold

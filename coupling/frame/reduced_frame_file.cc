@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 template <typename T, typename Archive>
 void each(const std::string &at, T &value, Archive &archive);
 
-constexpr const char *title = "Gestell reduced frame 7"; // raise the number with the format
+constexpr const char *title = "Gestell reduced frame 8"; // raise the number with the format
 
 template <typename Matrix, typename Points>
 Matrix columns(const Points &points)
@@ -155,12 +155,14 @@ void each_interface(const std::string &at, Interface &interface, Archive &archiv
 template <typename Archive, typename Output>
 void each_output(const std::string &at, Output &output, Archive &archive)
 {
-  auto &[name, unit, on_q, on_v, under_acceleration] = output;
+  auto &[name, unit, on_q, on_v, under_acceleration, on_a, constant] = output;
   archive(at + "/name", name);
   archive(at + "/unit", unit);
   archive(at + "/on_q", on_q);
   archive(at + "/on_v", on_v);
   archive(at + "/under_acceleration", under_acceleration);
+  archive(at + "/on_a", on_a);
+  archive(at + "/constant", constant);
 }
 
 template <typename Archive, typename Part>
@@ -203,8 +205,8 @@ template <typename Archive, typename Frame>
 void each_part(Frame &frame, Archive &&archive)
 {
   auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, outputs, points, triangles, displacement,
-         stress, n_full, n_cells, mass, facts, frequencies_hz, frequency_limit_hz, frequency_error, static_residual,
-         notes, statements] = frame;
+         stress, n_full, n_cells, n_fixed_modes, mass, facts, frequencies_hz, frequency_limit_hz, frequency_error,
+         static_residual, notes, statements] = frame;
   archive("M", M);
   archive("B", B);
   archive("C", C);
@@ -218,6 +220,7 @@ void each_part(Frame &frame, Archive &&archive)
   archive("displacement", displacement);
   archive("n_full", n_full);
   archive("n_cells", n_cells);
+  archive("n_fixed_modes", n_fixed_modes);
   archive("mass", mass);
   each_fact("facts", facts, archive);
   archive("frequencies_hz", frequencies_hz);
@@ -249,7 +252,8 @@ void require_consistent(const ReducedFrame &frame)
     for (const int i : interface.coordinate)
       require(i >= -1 && i < frame.n_interface, "an interface coordinate");
   for (const auto &output : frame.outputs)
-    require(output.on_q.size() == n && output.on_v.size() == n, "an output");
+    require(output.on_q.size() == n && output.on_v.size() == n && (output.on_a.size() == 0 || output.on_a.size() == n),
+            "an output");
   for (const auto &triangle : frame.triangles)
     for (const int i : triangle)
       require(i >= 0 && i < int(frame.points.size()), "a triangle of the picture");

@@ -137,8 +137,15 @@ private:
     for (const fem::FrameOutput &output : parts_.reduced ? parts_.reduced->outputs : parts_.full->outputs)
     {
       const std::string path = "frame." + output.name;
-      signals_[path]         = {path, output.unit, measure_of_row(output.on_q),     measure_of_row(output.on_v), -1,
-                                -1,   1.,          output.under_acceleration.dot(g)};
+      signals_[path]         = {path,
+                                output.unit,
+                                measure_of_row(output.on_q),
+                                measure_of_row(output.on_v),
+                                -1,
+                                -1,
+                                1.,
+                                output.under_acceleration.dot(g) + output.constant};
+      signals_[path].on_a    = measure_of_row(output.on_a);
     }
   }
 

@@ -86,9 +86,14 @@ ReducedFrame dense_frame(const fem::FrameMatrices &frame)
   dense.mass        = frame.mass;
   dense.statements  = frame.statements;
   dense.interfaces  = renumbered(frame.interfaces, order);
-  for (const auto &output : frame.outputs)
-    dense.outputs.push_back(
-        {output.name, output.unit, output.on_q(order), output.on_v(order), output.under_acceleration});
+  for (auto output : frame.outputs)
+  {
+    output.on_q = VectorXd(output.on_q(order));
+    output.on_v = VectorXd(output.on_v(order));
+    if (output.on_a.size() > 0)
+      output.on_a = VectorXd(output.on_a(order));
+    dense.outputs.push_back(std::move(output));
+  }
   dense.points    = frame.picture.points;
   dense.triangles = frame.picture.triangles;
   if (!dense.points.empty())

@@ -64,6 +64,8 @@ void project_outputs(ReducedFrame &reduced, const fem::FrameMatrices &frame, con
     auto row = output;
     row.on_q = T.transpose() * output.on_q;
     row.on_v = T.transpose() * output.on_v;
+    if (output.on_a.size() > 0)
+      row.on_a = T.transpose() * output.on_a;
     if (beyond.cols() > 0)
       row.under_acceleration += beyond.transpose() * output.on_q;
     reduced.outputs.push_back(row);

@@ -89,6 +89,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   BasisFunction   &basis_of = basis_function(options);
   InterfaceStatics statics(frame, options, progress);
   ReductionSpace   space     = basis_of(frame, options, statics);
+  const int        n_fixed   = space.basis.m();
   const bool       completed = complete(space, frame, statics.relief);
   if (completed || space.star.M.size() == 0)
   {
@@ -99,6 +100,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
   const StaticRemainder remainder   = static_remainder(statics.response.loads, space.basis, statics.load);
 
   ReducedFrame reduced = project(frame, space.basis, std::move(space.star), damped, statics.load, remainder.deflection);
+  reduced.n_fixed_modes      = n_fixed;
   reduced.frequencies_hz     = frequencies.omega / two_pi;
   reduced.frequency_error    = frequencies.error;
   reduced.frequency_limit_hz = limit / two_pi;

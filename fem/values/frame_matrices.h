@@ -36,7 +36,7 @@ struct Interface
   std::array<double, 6> sign{1., 1., 1., 1., 1., 1.};
 };
 
-/// A force read off the frame:  on_q . q + on_v . q' + under_acceleration . g.
+/// A force read off the frame:  on_q . q + on_v . q' + on_a . q'' + under_acceleration . g + constant.
 struct FrameOutput
 {
   std::string     name; ///< "cut.columns", "support.feet"
@@ -46,6 +46,8 @@ struct FrameOutput
   /// [kg] what a uniform field of acceleration g, such as gravity, adds by itself: weight that a support takes without
   /// any motion of q, and the static deflection that a reduced frame has no coordinates for.
   Eigen::Vector3d under_acceleration = Eigen::Vector3d::Zero();
+  Eigen::VectorXd on_a{};        ///< [n], or empty: none.  Of forces in joints, which inertia beside them takes part in
+  double          constant = 0.; ///< of the frame at q = 0, such as the prestress of a tie rod
 };
 
 /// Skin of the frame for pictures: displacement of point i, direction d is row 3 i + d of `displacement` times q.

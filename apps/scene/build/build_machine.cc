@@ -127,6 +127,8 @@ FramePath frame_path(const Scene &scene)
   {
   case FrameSource::none:
     return FramePath::none;
+  case FrameSource::parts:
+    return FramePath::reduce;
   case FrameSource::geometry:
     return reduce ? FramePath::reduce : FramePath::sparse;
   case FrameSource::reduced_file:

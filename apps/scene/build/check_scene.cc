@@ -27,10 +27,20 @@ coupling::Machine machine_to_check(const Scene &scene)
 
 bool places_known(const Scene &scene)
 {
-  const auto &interfaces = scene.frame.geometry.interfaces;
-  return scene.frame.source != FrameSource::geometry ||
-         std::all_of(interfaces.begin(), interfaces.end(),
-                     [](const fem::InterfaceSpecification &interface) { return interface.position.has_value(); });
+  const auto all_known = [](const std::vector<fem::InterfaceSpecification> &interfaces)
+  {
+    return std::all_of(interfaces.begin(), interfaces.end(),
+                       [](const fem::InterfaceSpecification &interface) { return interface.position.has_value(); });
+  };
+  switch (scene.frame.source)
+  {
+  case FrameSource::geometry:
+    return all_known(scene.frame.geometry.interfaces);
+  case FrameSource::parts:
+    return all_known(coupling::interfaces_in_frame(scene.frame.parts));
+  default:
+    return true;
+  }
 }
 
 std::vector<std::string> check_scene(const Scene &scene)

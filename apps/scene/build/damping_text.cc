@@ -41,6 +41,20 @@ std::string text_of(const fem::FrameSpecification &frame)
   return joined(ways);
 }
 
+std::string text_of(const coupling::FrameOfParts &frame)
+{
+  std::vector<std::string> ways;
+  if (frame.modal_damping_ratio.any())
+    ways.push_back(frame.modal_damping_ratio.text());
+  for (const coupling::FramePart &part : frame.parts)
+    if (const std::string own = text_of(part.geometry); own != joined({}))
+      ways.push_back("of part " + part.name + " " + own);
+  for (const coupling::FrameJoint &joint : frame.joints)
+    if (!joint.bolts.damping.isZero(0.) || !joint.bolts.rotational_damping.isZero(0.) || joint.rod.damping > 0.)
+      ways.push_back("dampers of the joint " + joint.name);
+  return joined(ways);
+}
+
 std::string text_of(const fem::FrameMatrices &frame)
 {
   std::vector<std::string> ways;
@@ -61,6 +75,8 @@ std::string damping_text(const FrameRequest &frame)
     break;
   case FrameSource::geometry:
     return text_of(frame.geometry);
+  case FrameSource::parts:
+    return text_of(frame.parts);
   case FrameSource::matrices:
     return text_of(frame.matrices);
   case FrameSource::reduced_file:

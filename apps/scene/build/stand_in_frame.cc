@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -39,10 +40,10 @@ coupling::ReducedFrame without_physics(std::vector<fem::Interface> interfaces, c
   return frame;
 }
 
-coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification)
+std::vector<fem::Interface> six_motions_of(const std::vector<fem::InterfaceSpecification> &specified)
 {
   std::vector<fem::Interface> interfaces;
-  for (const auto &interface : specification.interfaces)
+  for (const auto &interface : specified)
   {
     interfaces.push_back(
         {interface.name, interface.position.value_or(fem::Vector3{}), {0, 1, 2, 3, 4, 5}, {1., 1., 1., 1., 1., 1.}});
@@ -50,13 +51,35 @@ coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification
       for (int rotation = fem::rx; rotation <= fem::rz; ++rotation)
         interfaces.back().coordinate[rotation] = -1;
   }
+  return interfaces;
+}
+
+std::vector<std::string> outputs_of(const fem::FrameSpecification &specification)
+{
   std::vector<std::string> outputs;
   for (const auto &cut : specification.cuts)
     outputs.push_back("cut." + cut.name);
   for (const auto &support : specification.supports)
     for (const std::string direction : {"x", "y", "z"})
       outputs.push_back("support." + support.name + "." + direction);
-  return without_physics(interfaces, outputs);
+  return outputs;
+}
+
+coupling::ReducedFrame stand_in_for(const fem::FrameSpecification &specification)
+{
+  return without_physics(six_motions_of(specification.interfaces), outputs_of(specification));
+}
+
+coupling::ReducedFrame stand_in_for(const coupling::FrameOfParts &frame)
+{
+  std::vector<std::string> outputs;
+  for (const coupling::FramePart &part : frame.parts)
+    for (const std::string &output : outputs_of(part.geometry))
+      outputs.push_back(part.name + "." + output);
+  for (const coupling::FrameJoint &joint : frame.joints)
+    for (const auto &[name, unit] : coupling::joint_outputs(joint))
+      outputs.push_back(name);
+  return without_physics(six_motions_of(coupling::interfaces_in_frame(frame)), outputs);
 }
 
 /// Only the sizes of matrices that are too large to be looked at in no time.
@@ -83,6 +106,23 @@ Eigen::Matrix3d resisted(const std::vector<fem::Support> &supports)
   return sum;
 }
 
+/// The same of parts, whose supports stand with them.
+Eigen::Matrix3d resisted(const coupling::FrameOfParts &frame)
+{
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const coupling::FramePart &part : frame.parts)
+    sum += part.placement.Q * resisted(part.geometry.supports) * part.placement.Q.transpose();
+  return sum;
+}
+
+/// Of frames from geometry.
+bool has_supports(const FrameRequest &frame)
+{
+  return !frame.geometry.supports.empty() ||
+         std::any_of(frame.parts.parts.begin(), frame.parts.parts.end(),
+                     [](const coupling::FramePart &part) { return !part.geometry.supports.empty(); });
+}
+
 /// Orthonormal, the axes themselves where they are free [3 x k].
 MatrixXd free_directions(const Eigen::Matrix3d &resisted)
 {
@@ -105,6 +145,8 @@ MatrixXd free_directions(const Scene &scene)
 {
   if (scene.frame.source == FrameSource::geometry)
     return free_directions(resisted(scene.frame.geometry.supports));
+  if (scene.frame.source == FrameSource::parts)
+    return free_directions(resisted(scene.frame.parts));
   Eigen::Matrix3d           held  = Eigen::Matrix3d::Zero();
   const fem::FrameMatrices &frame = scene.frame.matrices;
   for (int d = 0; d < 3; ++d)
@@ -173,6 +215,7 @@ MatrixXd rigid_motions(const coupling::ReducedFrame &frame)
 coupling::ReducedFrame stand_in_frame(const Scene &scene)
 {
   return scene.frame.source == FrameSource::geometry ? stand_in_for(scene.frame.geometry)
+         : scene.frame.source == FrameSource::parts  ? stand_in_for(scene.frame.parts)
                                                      : stand_in_for(scene.frame.matrices);
 }
 
@@ -180,7 +223,7 @@ coupling::ReducedFrame rigid_stand_in(const Scene &scene)
 {
   coupling::ReducedFrame frame = stand_in_frame(scene);
   const MatrixXd         D = free_directions(scene), R = rigid_motions(frame);
-  const bool             turns = scene.frame.source == FrameSource::geometry && scene.frame.geometry.supports.empty();
+  const bool             turns = scene.frame.source != FrameSource::matrices && !has_supports(scene.frame);
   frame.facts.free_motions     = names_of(D, turns);
   frame.translations_load      = frame.M * R.leftCols(3);
 

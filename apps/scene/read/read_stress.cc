@@ -22,6 +22,9 @@ void require_stresses(const SceneTable &stress, const Scene &scene)
   case FrameSource::matrices:
     throw stress.error(
         "a frame given by matrices has no material and no elements, so that there are no stresses; give it by 'cad'");
+  case FrameSource::parts:
+    throw stress.error("stresses of a frame of parts are not computed; leave [output.stress] out, or draw the frame in "
+                       "one piece, [frame] cad = ...");
   case FrameSource::reduced_file:
     break; // known when it is read
   case FrameSource::geometry:

@@ -5,6 +5,7 @@
 #include "coupling/modes/superposition.h"
 #include "coupling/plugin/frame_service.h"
 #include "coupling/simulation/simulation.h"
+#include "coupling/substructures/frame_of_parts.h"
 #include "fem/values/cad_body.h"
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
@@ -26,6 +27,7 @@ enum class FrameSource
 {
   none,
   geometry,    ///< CAD or mesh, made by the FrameService
+  parts,       ///< several of them, reduced one by one and joined
   matrices,    ///< M, B, C inline or from files
   reduced_file ///< a reduced frame saved by an earlier run
 };
@@ -34,6 +36,7 @@ struct FrameRequest
 {
   FrameSource             source = FrameSource::none;
   fem::FrameSpecification geometry;
+  coupling::FrameOfParts  parts;
   fem::FrameMatrices      matrices;
   bool                    has_translations = false; ///< of `matrices`
   std::string             reduced_file;             ///< absolute path

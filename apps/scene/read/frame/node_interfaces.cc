@@ -10,13 +10,19 @@ namespace
 
 constexpr double same_place = 1e-6; // [m]
 
+/// Those of frames from geometry, where they stand.
+std::vector<fem::InterfaceSpecification> interfaces_of(const FrameRequest &frame)
+{
+  return frame.source == FrameSource::parts ? coupling::interfaces_in_frame(frame.parts) : frame.geometry.interfaces;
+}
+
 /// Looks through all that refers to markers.
 class Search
 {
 public:
-  explicit Search(const fem::FrameSpecification &frame)
+  explicit Search(const std::vector<fem::InterfaceSpecification> &interfaces)
   {
-    for (const auto &interface : frame.interfaces)
+    for (const auto &interface : interfaces)
       if (interface.coupling == fem::InterfaceCoupling::node)
         nodes_["frame." + interface.name] = interface.position.value();
   }
@@ -115,7 +121,7 @@ bool tells_rotation(const std::string &path, const std::string &marker)
 /// Angles of nodes that are asked for.
 void look_at_signals(const Scene &scene, Search &search)
 {
-  for (const auto &interface : scene.frame.geometry.interfaces)
+  for (const auto &interface : interfaces_of(scene.frame))
     for (const SignalRequest &signal : scene.signals)
       if (tells_rotation(signal.path, "frame." + interface.name))
       {
@@ -128,7 +134,7 @@ void look_at_signals(const Scene &scene, Search &search)
 
 void refuse_rotations_of_nodes(const Scene &scene)
 {
-  Search     search(scene.frame.geometry);
+  Search     search(interfaces_of(scene.frame));
   const auto place_of = [&](const std::string &element)
   {
     const auto known = scene.element_places.find(element);

@@ -2,6 +2,7 @@
 
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/matrix_keys.h"
+#include "apps/scene/read/frame/parts_keys.h"
 
 #include <string>
 #include <utility>
@@ -19,23 +20,28 @@ FrameRequest read_frame(const SceneTable &scene)
 
   const bool cad      = frame->has("cad"),
              matrices = (frame->has("mass") && !frame->is_table("mass")) || frame->has("stiffness"),
-             reduced  = frame->has("reduced");
-  if (cad + matrices + reduced != 1)
+             reduced = frame->has("reduced"), parts = frame->has("part");
+  if (cad + matrices + reduced + parts != 1)
   {
     std::string given;
-    for (const auto &[is_given, key] :
-         {std::pair(cad, "'cad'"), std::pair(matrices, "'mass' or 'stiffness'"), std::pair(reduced, "'reduced'")})
+    for (const auto &[is_given, key] : {std::pair(cad, "'cad'"), std::pair(matrices, "'mass' or 'stiffness'"),
+                                        std::pair(reduced, "'reduced'"), std::pair(parts, "'part'")})
       if (is_given)
         given += (given.empty() ? " and has " : " and ") + std::string(key);
     throw frame->error(
-        "needs exactly one of 'cad' (a CAD or mesh file), 'mass' with 'stiffness' (matrices) and 'reduced' "
-        "(a reduced frame)" +
+        "needs exactly one of 'cad' (a CAD or mesh file), 'mass' with 'stiffness' (matrices), 'reduced' "
+        "(a reduced frame) and 'part' (tables of several parts)" +
         (given.empty() ? "; leave [frame] out for a machine without one" : given + "; keep one of them"));
   }
   if (cad)
   {
     request.source   = FrameSource::geometry;
     request.geometry = read_frame_geometry(frame->declared(frame_keys()), scene);
+  }
+  else if (parts)
+  {
+    request.source = FrameSource::parts;
+    request.parts  = read_frame_parts(*frame, scene);
   }
   else if (matrices)
   {
@@ -57,6 +63,8 @@ std::vector<std::string> interface_names(const FrameRequest &frame)
     names.push_back(interface.name);
   for (const auto &interface : frame.matrices.interfaces)
     names.push_back(interface.name);
+  for (const std::string &kept : coupling::kept_interfaces(frame.parts))
+    names.push_back(kept);
   return names;
 }
 

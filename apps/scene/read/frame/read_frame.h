@@ -15,6 +15,9 @@ FrameRequest read_frame(const SceneTable &scene);
 /// [frame] of a frame made from CAD or a mesh.
 fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const SceneTable &scene);
 
+/// [frame] of several parts and their joints.
+coupling::FrameOfParts read_frame_parts(const SceneTable &frame, const SceneTable &scene);
+
 /// [frame] of a frame given by matrices; has_translations says whether `translations` were given or could be derived.
 fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations);
 

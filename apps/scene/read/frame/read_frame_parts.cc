@@ -1,0 +1,248 @@
+#include "apps/scene/read/frame/parts_keys.h"
+#include "apps/scene/read/frame/read_damping.h"
+#include "apps/scene/read/frame/read_frame.h"
+#include "apps/scene/read/names.h"
+#include "apps/scene/read/read_material.h"
+#include "apps/scene/read/read_tensor.h"
+#include "coupling/substructures/joined_parts.h"
+#include "fem/values/nearest_name.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::FrameJoint;
+using coupling::FrameOfParts;
+using coupling::FramePart;
+using coupling::JointKind;
+
+Eigen::Vector3d column(const Vector3 &x)
+{
+  return Eigen::Map<const Eigen::Vector3d>(x.data());
+}
+
+coupling::Placement read_part_placement(const SceneTable &part)
+{
+  coupling::Placement placement;
+  const auto          table = part.optional_table("placement");
+  if (!table)
+    return placement;
+  placement.at = column(table->vector_or("origin", {}));
+  if (table->has("axis") != table->has("angle"))
+    throw table->error("a turn needs both 'axis' and 'angle'");
+  if (table->has("mirror"))
+  {
+    const Eigen::Vector3d n = column(table->direction("mirror"));
+    placement.Q -= 2. * n * n.transpose();
+  }
+  if (table->has("axis"))
+    placement.Q = Eigen::AngleAxisd(table->value("angle"), column(table->direction("axis"))).matrix() * placement.Q;
+  return placement;
+}
+
+void refuse_beside_same_as(const SceneTable &part)
+{
+  for (const std::string &key : part.keys())
+    if (key != "same_as" && key != "placement")
+      throw part.error(key, "is that of '" + part.text("same_as") +
+                                "' already; beside 'same_as' only 'placement' is "
+                                "given");
+}
+
+/// One that is the same as another has no geometry yet.
+FramePart read_frame_part(const SceneTable &any, const SceneTable &scene)
+{
+  const SceneTable table = any.declared(frame_part_keys());
+  check_thing_name(table);
+  if (table.name() == "joint")
+    throw table.error("'joint' heads the signals of joints; choose another name");
+  FramePart part;
+  part.name      = table.name();
+  part.place     = table.place();
+  part.placement = read_part_placement(table);
+  if (table.has("same_as"))
+    refuse_beside_same_as(table);
+  else
+    part.geometry = read_frame_geometry(table, scene);
+  return part;
+}
+
+std::vector<FramePart> read_parts(const SceneTable &frame, const SceneTable &scene)
+{
+  std::vector<FramePart>   parts;
+  std::vector<std::string> names;
+  for (const SceneTable &table : frame.tables("part"))
+  {
+    parts.push_back(read_frame_part(table, scene));
+    if (!table.has("same_as"))
+      names.push_back(table.name());
+  }
+  const auto tables = frame.tables("part");
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (tables[i].has("same_as"))
+    {
+      const std::string same = tables[i].text("same_as");
+      if (std::find(names.begin(), names.end(), same) == names.end())
+        throw tables[i].error("same_as",
+                              "there is no part '" + same + "' with geometry of its own" + suggestion(same, names));
+      parts[i].geometry =
+          std::find_if(parts.begin(), parts.end(), [&](const FramePart &part) { return part.name == same; })->geometry;
+    }
+  return parts;
+}
+
+coupling::JointEnd read_end(const SceneTable &table, const std::string &text)
+{
+  const auto dot = text.find('.');
+  if (dot == std::string::npos || dot != text.rfind('.') || dot == 0 || dot + 1 == text.size())
+    throw table.error("between", "got '" + text + "'; needs PART.INTERFACE, such as \"crown.left foot\"");
+  return {text.substr(0, dot), text.substr(dot + 1)};
+}
+
+/// One number for all directions, or [x, y, z].
+Eigen::Vector3d of_all_directions(const SceneTable &table, const std::string &key, const Kind &kind)
+{
+  Eigen::Vector3d value = Eigen::Vector3d::Zero();
+  if (table.is_array(key))
+    value = column(table.vector(key, kind));
+  else if (table.has(key))
+    value.setConstant(table.number(key, kind));
+  if (value.minCoeff() < 0.)
+    throw table.error(key, "needs " + with_article(kind) + " of zero or more in every direction");
+  return value;
+}
+
+coupling::BoltedJoint read_bolts(const SceneTable &table)
+{
+  coupling::BoltedJoint bolts;
+  if (table.has("axes"))
+    bolts.axes = read_axes(table, "axes");
+  bolts.stiffness          = of_all_directions(table, "stiffness", kind::stiffness);
+  bolts.damping            = of_all_directions(table, "damping", kind::damping);
+  bolts.rotational         = of_all_directions(table, "rotational_stiffness", kind::torsional_stiffness);
+  bolts.rotational_damping = of_all_directions(table, "rotational_damping", kind::torsional_damping);
+  if (bolts.stiffness.isZero(0.))
+    throw table.error("needs a 'stiffness' of the bolts such as \"2 MN/mm\"; interfaces that move as one are joined by "
+                      "type = \"weld\"");
+  if (table.has("positions"))
+    for (const auto &row : table.matrix("positions", kind::length))
+    {
+      if (row.size() != 3)
+        throw table.error("positions", "needs three coordinates of each bolt, [[x, y, z], ...]");
+      bolts.positions.emplace_back(row[0], row[1], row[2]);
+    }
+  if (table.has("preload"))
+    bolts.preload = table.value("preload");
+  return bolts;
+}
+
+coupling::TieRod read_rod(const SceneTable &table, const SceneTable &scene)
+{
+  coupling::TieRod    rod;
+  const fem::Material material = read_material(table, scene);
+  rod.E                        = material.E;
+  rod.rho                      = material.rho;
+  rod.diameter                 = table.value("diameter");
+  if (table.has("length"))
+    rod.length = table.value("length");
+  if (table.is_array("damping"))
+    throw table.error("damping", "of a tie rod acts along it; needs one number such as \"5 kN s/m\"");
+  rod.damping   = table.value("damping");
+  rod.prestress = table.value("prestress");
+  return rod;
+}
+
+/// Keys that are not for the type of the joint.
+void refuse_other_keys(const SceneTable &table, const std::string &type)
+{
+  const std::vector<std::string> bolts{"positions",          "axes",   "stiffness", "rotational_stiffness",
+                                       "rotational_damping", "preload"},
+      rods{"diameter", "length", "material", "prestress"}, faces{"tolerance", "normal"};
+  const auto refuse = [&](const std::vector<std::string> &keys, const std::string &owner)
+  {
+    for (const std::string &key : keys)
+      if (table.has(key))
+        throw table.error(key, "belongs to " + owner + ", but this joint is a " + type + "; leave it out");
+  };
+  if (type != "bolts")
+    refuse(bolts, "type = \"bolts\"");
+  if (type != "tie rod")
+    refuse(rods, "type = \"tie rod\"");
+  else
+    refuse(faces, "joints of faces");
+  if (type == "weld")
+    refuse({"normal"}, "type = \"contact\" or \"bolts\"");
+  if (type == "weld" || type == "contact")
+    refuse({"damping"}, "type = \"bolts\" or \"tie rod\"");
+}
+
+FrameJoint read_frame_joint(const SceneTable &any, const SceneTable &scene)
+{
+  const SceneTable table = any.declared(frame_joint_keys());
+  check_thing_name(table);
+  FrameJoint        joint;
+  const std::string type = table.choice("type");
+  joint.name             = table.name();
+  joint.place            = table.place();
+  joint.kind             = type == "weld"      ? JointKind::weld
+                           : type == "contact" ? JointKind::contact
+                           : type == "bolts"   ? JointKind::bolts
+                                               : JointKind::tie_rod;
+  const auto ends        = table.texts("between");
+  if (ends.size() != 2)
+    throw table.error("between", "needs two interfaces, [\"PART.INTERFACE\", \"PART.INTERFACE\"]");
+  joint.between = {read_end(table, ends[0]), read_end(table, ends[1])};
+  refuse_other_keys(table, type);
+  if (joint.kind == JointKind::bolts)
+    joint.bolts = read_bolts(table);
+  if (joint.kind == JointKind::tie_rod)
+    joint.rod = read_rod(table, scene);
+  if (table.has("normal"))
+    joint.normal = column(table.direction("normal"));
+  else if (joint.kind == JointKind::contact || joint.bolts.preload > 0.)
+    throw table.error("needs 'normal', across the faces from the first part to the second, to tell pressure from pull");
+  if (table.has("tolerance"))
+    joint.tolerance = table.value("tolerance");
+  joint.keep = table.truth("keep");
+  return joint;
+}
+
+void read_whole_damping(const SceneTable &frame, FrameOfParts &parts)
+{
+  const auto table = frame.optional_table("damping");
+  if (!table)
+    return;
+  const FrameDamping damping = read_damping(*table);
+  if (damping.alpha != 0. || damping.beta != 0.)
+    throw table->error("rayleigh", "is in proportion to the mass and the stiffness of a part; give it to the parts, "
+                                   "[frame.part.NAME] damping");
+  parts.modal_damping_ratio = damping.ratios;
+}
+
+} // namespace
+
+FrameOfParts read_frame_parts(const SceneTable &any, const SceneTable &scene)
+{
+  const SceneTable frame = any.declared(parts_frame_keys());
+  FrameOfParts     parts;
+  parts.place = frame.place();
+  parts.parts = read_parts(frame, scene);
+  for (const SceneTable &table : frame.tables("joint"))
+    parts.joints.push_back(read_frame_joint(table, scene));
+  parts.all_modes = frame.choice("modes") == "all";
+  read_whole_damping(frame, parts);
+  if (parts.parts.size() < 2)
+    throw frame.error("has one part only; a frame of one part is written as [frame] cad = ... itself");
+  coupling::require_joints(parts);
+  if (coupling::kept_interfaces(parts).empty())
+    throw frame.error("has no interface left for the mechanism, as all of them are joined; declare another "
+                      "[frame.part.NAME.interface.NAME], or keep = true at a joint");
+  return parts;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,293 @@
+#include "coupling/substructures/joined_parts.h"
+
+#include "coupling/algebra/dense_modes.h"
+#include "coupling/substructures/joint_forces.h"
+#include "coupling/substructures/left_out_modes.h"
+#include "coupling/substructures/welded_coordinates.h"
+#include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
+
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double free_share = 1e-8; ///< of the highest frequency: motions without energy, but for rounding
+constexpr double rest_share = 1e-3; ///< of the kinetic energy of such a motion that no rigid one of the whole has
+
+/// Interfaces that the frame keeps, in the coordinates of the joined frame.
+std::vector<fem::Interface> kept(const FrameOfParts &frame, const PartUnion &parts, const std::vector<int> &column)
+{
+  const auto                  names = kept_interfaces(frame);
+  std::vector<fem::Interface> interfaces;
+  for (fem::Interface interface : parts.interfaces)
+    if (std::find(names.begin(), names.end(), interface.name) != names.end())
+    {
+      for (int &i : interface.coordinate)
+        i = i < 0 ? -1 : column[std::size_t(i)];
+      interfaces.push_back(std::move(interface));
+    }
+  return interfaces;
+}
+
+std::vector<fem::FrameOutput> outputs_of_parts(const PartUnion &parts, const MatrixXd &G)
+{
+  std::vector<fem::FrameOutput> outputs = parts.outputs;
+  for (fem::FrameOutput &output : outputs)
+  {
+    output.on_q = (G.transpose() * output.on_q).eval();
+    output.on_v = (G.transpose() * output.on_v).eval();
+  }
+  return outputs;
+}
+
+/// Pictures of all parts in one.
+fem::Picture picture_of(const std::vector<ReducedFrame> &parts, const PartUnion &all, const MatrixXd &G)
+{
+  fem::Picture picture;
+  Index        rows = 0;
+  for (const ReducedFrame &part : parts)
+    rows += part.displacement.rows();
+  MatrixXd displacement(rows, G.cols());
+  rows = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const ReducedFrame &part  = parts[i];
+    const int           first = int(picture.points.size());
+    for (auto triangle : part.triangles)
+    {
+      for (int &corner : triangle)
+        corner += first;
+      picture.triangles.push_back(triangle);
+    }
+    picture.points.insert(picture.points.end(), part.points.begin(), part.points.end());
+    displacement.middleRows(rows, part.displacement.rows()) =
+        part.displacement.cast<double>() * G.middleRows(all.first[i], part.M.rows());
+    rows += part.displacement.rows();
+  }
+  picture.displacement = displacement.sparseView();
+  return picture;
+}
+
+void append(std::vector<std::string> &texts, const std::string &part, const std::vector<std::string> &more)
+{
+  for (const std::string &text : more)
+    texts.push_back(part + ": " + text);
+}
+
+/// Sizes, mass and texts of the whole.
+ReducedFrame facts_of(const std::vector<ReducedFrame> &parts, const FrameOfParts &frame)
+{
+  ReducedFrame whole;
+  whole.facts.rigid_energy = 0.;
+  whole.frequency_limit_hz = INFINITY;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const ReducedFrame &part = parts[i];
+    whole.n_full += part.n_full;
+    whole.n_cells += part.n_cells;
+    whole.mass += part.mass;
+    whole.frequency_limit_hz = std::min(whole.frequency_limit_hz, part.frequency_limit_hz);
+    whole.facts.parts.insert(whole.facts.parts.end(), part.facts.parts.begin(), part.facts.parts.end());
+    whole.facts.whole.add(part.facts.whole);
+    whole.facts.rigid_energy = std::max(whole.facts.rigid_energy, part.facts.rigid_energy);
+    append(whole.notes, frame.parts[i].name, part.notes);
+    append(whole.statements, frame.parts[i].name, part.statements);
+  }
+  return whole;
+}
+
+void add_rods(ReducedFrame &whole, const FrameOfParts &frame, const PartUnion &parts)
+{
+  for (const FrameJoint &joint : frame.joints)
+    if (joint.kind == JointKind::tie_rod)
+    {
+      const double mass = mass_of_rod(joint, parts);
+      whole.mass += mass;
+      whole.facts.parts.push_back({joint.name, "tie rod", mass});
+      for (const JointEnd &end : joint.between)
+        whole.facts.whole.add({0.5 * mass, position_of(parts.at(end)), Eigen::Matrix3d::Zero()});
+    }
+}
+
+std::string force_text(double newton)
+{
+  const auto unit = display_unit("N", std::abs(newton));
+  return rounded(newton * unit.factor) + " " + unit.unit;
+}
+
+/// What rods do to joints, and the joints that they do not close.
+void tell_preloads(ReducedFrame &whole, const FrameOfParts &frame, const std::vector<JointPreload> &preloads)
+{
+  for (std::size_t j = 0; j < frame.joints.size(); ++j)
+  {
+    const FrameJoint &joint = frame.joints[j];
+    if (joint.kind == JointKind::tie_rod)
+      whole.statements.push_back("joint " + joint.name + ": the tie rod pulls with " + force_text(joint.rod.prestress) +
+                                 " in the tightened frame at rest");
+    if (!joint.closes())
+      continue;
+    const double pressed = preloads[j].pressed;
+    if (pressed > 0.)
+      whole.statements.push_back("joint " + joint.name + ": pressed together with " + force_text(pressed) +
+                                 " at rest, without weight");
+    else
+      whole.notes.push_back(joint.place + ": nothing presses this joint together at rest (normal force " +
+                            force_text(pressed) +
+                            " without weight); it opens under any pull, which the linear frame does not know. Give a "
+                            "tie rod a prestress, or make it a weld");
+  }
+}
+
+/// The part that a motion of all coordinates moves most.
+std::string moved_part(const VectorXd &motion, const std::vector<ReducedFrame> &parts, const FrameOfParts &frame,
+                       const PartUnion &all)
+{
+  std::vector<double> energy;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const VectorXd own = motion.segment(all.first[i], parts[i].M.rows());
+    energy.push_back(own.dot(parts[i].M * own));
+  }
+  return frame.parts[std::size_t(std::max_element(energy.begin(), energy.end()) - energy.begin())].name;
+}
+
+/// Refuses joints that let a part move freely against the others: a motion without energy, V^T M V = E, that is no
+/// rigid one of the whole.
+void require_held_parts(const DenseModes &modes, const MatrixXd &M, const MatrixXd &rigid,
+                        const std::function<std::string(const VectorXd &)> &part_moved_by, const std::string &place)
+{
+  const Index    n_free = (modes.omega.array() <= free_share * modes.omega.maxCoeff()).count();
+  const MatrixXd free   = modes.V.leftCols(n_free);
+  const MatrixXd rest   = free - rigid * (rigid.transpose() * M * rigid).ldlt().solve(rigid.transpose() * M * free);
+  for (Index k = 0; k < n_free; ++k)
+    if (rest.col(k).dot(M * rest.col(k)) > rest_share)
+      throw std::invalid_argument(place + ": the joints let part '" + part_moved_by(rest.col(k)) +
+                                  "' move freely against the others; hold it by a weld, or by bolts with stiffness in "
+                                  "all directions and against turning");
+}
+
+/// Of the modes that parts leave out.
+void tell_errors(ReducedFrame &whole, const VectorXd &omega, const VectorXd &errors)
+{
+  const double limit = whole.frequency_limit_hz;
+  double       worst = 0., known = 0.;
+  for (Index j = 0; j < omega.size() && omega[j] <= two_pi * limit && !std::isnan(errors[j]); ++j)
+  {
+    worst = std::max(worst, errors[j]);
+    known = omega[j] / two_pi;
+  }
+  whole.statements.push_back("parts: what their reduction leaves out makes frequencies up to " + rounded(known) +
+                             " Hz too high by " + percent(worst) + " at most, to first order");
+}
+
+/// Rows of the union that stay coordinates.
+MatrixXd stayed(const MatrixXd &rows, const WeldedCoordinates &welded)
+{
+  MatrixXd kept_rows(welded.G.cols(), rows.cols());
+  for (std::size_t i = 0; i < welded.kept.size(); ++i)
+    if (welded.kept[i] >= 0)
+      kept_rows.row(welded.kept[i]) = rows.row(Index(i));
+  return kept_rows;
+}
+
+/// With the pattern of another matrix, too: what mass connects belongs together, as modes with their interface.
+Eigen::SparseMatrix<double> with_pattern(const MatrixXd &A, const MatrixXd &other)
+{
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index j = 0; j < A.cols(); ++j)
+    for (Index i = 0; i < A.rows(); ++i)
+      if (A(i, j) != 0. || other(i, j) != 0.)
+        entries.emplace_back(int(i), int(j), A(i, j));
+  Eigen::SparseMatrix<double> sparse(A.rows(), A.cols());
+  sparse.setFromTriplets(entries.begin(), entries.end());
+  return sparse;
+}
+
+/// Matrices, loads and motions of the whole.
+fem::FrameMatrices matrices_of(const FrameOfParts &frame, const PartUnion &parts, const SprungUnion &with_springs,
+                               const WeldedCoordinates &welded, const Eigen::Vector3d &centre)
+{
+  const MatrixXd    &G = welded.G;
+  const MatrixXd     M = G.transpose() * with_springs.M * G;
+  fem::FrameMatrices whole;
+  whole.M                   = M.sparseView();
+  whole.B                   = MatrixXd(G.transpose() * with_springs.B * G).sparseView();
+  whole.C                   = with_pattern(G.transpose() * with_springs.C * G, M);
+  whole.acceleration_load   = G.transpose() * with_springs.load;
+  whole.rigid_motions       = stayed(rigid_motions_of(parts, centre), welded);
+  whole.translations        = whole.rigid_motions.leftCols(3);
+  whole.centre              = {centre[0], centre[1], centre[2]};
+  whole.modal_damping_ratio = frame.modal_damping_ratio;
+  whole.interfaces          = kept(frame, parts, welded.kept);
+  return whole;
+}
+
+} // namespace
+
+JoinedParts join_parts(const std::vector<ReducedFrame> &parts, const FrameOfParts &frame)
+{
+  require_joints(frame);
+  const PartUnion         all          = beside_each_other(parts);
+  const SprungUnion       with_springs = sprung(frame, all);
+  const WeldedCoordinates welded       = weld(frame, all, parts);
+  JoinedParts             joined;
+  joined.facts = facts_of(parts, frame);
+  add_rods(joined.facts, frame, all);
+  fem::FrameMatrices &whole = joined.matrices;
+  whole                     = matrices_of(frame, all, with_springs, welded, joined.facts.facts.whole.centre);
+  whole.picture             = picture_of(parts, all, welded.G);
+  whole.mass                = joined.facts.mass;
+  whole.n_cells             = joined.facts.n_cells;
+
+  const DenseModes modes = dense_modes(whole.C, whole.M, cancelled_by_reduction);
+  require_held_parts(
+      modes, whole.M, whole.rigid_motions,
+      [&](const VectorXd &motion) { return moved_part(welded.G * motion, parts, frame, all); }, frame.place);
+  joined.left_out = errors_by_modes_left_out(parts, all, welded.G, modes.omega, modes.V);
+  tell_errors(joined.facts, modes.omega, joined.left_out);
+  joined.preloads = preloads_of(frame, all, with_springs, welded.G, whole.rigid_motions);
+  tell_preloads(joined.facts, frame, joined.preloads);
+  whole.outputs = outputs_of_parts(all, welded.G);
+  for (std::size_t j = 0; j < frame.joints.size(); ++j)
+    for (auto &force :
+         forces_of(frame.joints[j], all, with_springs, with_springs.springs[j], welded.G, joined.preloads[j]))
+      whole.outputs.push_back(std::move(force));
+  return joined;
+}
+
+ReductionOptions joined_options(const FrameOfParts &frame, const JoinedParts &joined, ReductionOptions options)
+{
+  const int all   = int(joined.matrices.M.rows()) - int(joined.matrices.interface_coordinates().size());
+  options.n_modes = frame.all_modes ? all : -1;
+  return options;
+}
+
+ReducedFrame completed(ReducedFrame reduced, const JoinedParts &joined)
+{
+  const ReducedFrame &known  = joined.facts;
+  const auto          free   = reduced.facts.free_motions;
+  reduced.facts              = known.facts;
+  reduced.facts.free_motions = free;
+  reduced.n_full             = known.n_full;
+  reduced.n_cells            = known.n_cells;
+  reduced.mass               = known.mass;
+  reduced.frequency_limit_hz = std::min(reduced.frequency_limit_hz, known.frequency_limit_hz);
+  reduced.notes.insert(reduced.notes.begin(), known.notes.begin(), known.notes.end());
+  reduced.statements.insert(reduced.statements.begin(), known.statements.begin(), known.statements.end());
+  return reduced;
+}
+
+} // namespace gestell::coupling

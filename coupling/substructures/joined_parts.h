@@ -1,0 +1,66 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+#include "coupling/frame/reduction_options.h"
+#include "coupling/substructures/frame_of_parts.h"
+#include "fem/values/frame_matrices.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// What tightened tie rods do to a joint at rest, without other loads.
+struct JointPreload
+{
+  std::string                 joint;
+  Eigen::Matrix<double, 6, 1> on_second = Eigen::Matrix<double, 6, 1>::Zero(); ///< force and moment [N, N m]
+  double                      pressed   = 0.; ///< [N] normal force of a joint that closes, with its own bolts
+};
+
+/// Parts of a frame in one set of coordinates: interfaces, and the modes of the parts.
+struct JoinedParts
+{
+  fem::FrameMatrices        matrices; ///< its interfaces are those that are kept
+  ReducedFrame              facts;    ///< what is known of the whole: sizes, mass, notes; no matrices
+  Eigen::VectorXd           left_out; ///< [p] of its frequencies: errors_by_modes_left_out()
+  std::vector<JointPreload> preloads;
+};
+
+/**
+ * Joins parts at their interfaces.
+ *
+ * The coordinates of all parts beside each other, q = G q_j, are those q_j of the joined frame: at a weld the second
+ * interface moves with the first, u_2 = u_1 + theta_1 x (x_2 - x_1), theta_2 = theta_1.  Bolts and tie rods are springs
+ * between interfaces:
+ *
+ *     M = G^T diag(M_i) G + rods,   C = G^T (diag(C_i) + sum R^T K R) G,   R q the motion of the second end against
+ *     the first at the point of the joint.
+ *
+ * q = 0 is the frame with tightened rods.  A joint's force on its second part is what this needs beside its springs:
+ *
+ *     f_2 = M_2. q'' + B_2. q' + C_2. q - f_g + preload,
+ *
+ * rows of the second interface; loads that the mechanism has there act on the first part.
+ *
+ * @param parts  where they stand (placed()), in the order of the description.
+ * @throws std::invalid_argument, headed with the joint's place: unknown ends, joints of a part with itself, two joints
+ *         of one interface, interfaces that do not meet, parts that nothing joins.
+ *
+ * Source: Craig & Bampton 1968; docs/theory/substructures.md.
+ */
+JoinedParts join_parts(const std::vector<ReducedFrame> &parts, const FrameOfParts &description);
+
+/// How the joined frame is reduced to the interfaces that it keeps: by the options of its parts, or with all modes.
+ReductionOptions joined_options(const FrameOfParts &frame, const JoinedParts &joined, ReductionOptions options);
+
+/// The joined frame after its reduction, with what is known of its parts.
+ReducedFrame completed(ReducedFrame reduced, const JoinedParts &joined);
+
+/// What can be said against joints without any mesh: see join_parts().
+void require_joints(const FrameOfParts &description);
+
+} // namespace gestell::coupling

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "coupling/substructures/frame_of_parts.h"
+#include "coupling/substructures/joined_parts.h"
+#include "coupling/substructures/joint_springs.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Matrices of the parts with the springs of joints and the masses of rods, before interfaces are welded.
+struct SprungUnion
+{
+  Eigen::MatrixXd          M, B, C, load; // [n x n], [n x 3]
+  std::vector<JointSpring> springs;       ///< of each joint; of welds empty
+  Eigen::MatrixXd          tightening;    // [n] forces of tie rods on the parts at rest
+};
+
+SprungUnion sprung(const FrameOfParts &frame, const PartUnion &parts);
+
+/**
+ * The static preload of every joint: the parts, with bolts and without the elasticity of rods, deform under the forces
+ * with which rods pull,
+ *
+ *     (C - sum R_r^T K_r R_r) q_0 = f_0,    preload = C_2. q_0 - f_0   at the second interface,
+ *
+ * rods being held at their forces while they are tightened.
+ *
+ * @param rigid  [n_j x 6] rigid motions of the joined frame, along which f_0 has no part.
+ */
+std::vector<JointPreload> preloads_of(const FrameOfParts &frame, const PartUnion &parts, const SprungUnion &sprung,
+                                      const Eigen::MatrixXd &G, const Eigen::MatrixXd &rigid);
+
+/// Rows on q_j of the forces that joint_outputs() names.
+std::vector<fem::FrameOutput> forces_of(const FrameJoint &joint, const PartUnion &parts, const SprungUnion &sprung,
+                                        const JointSpring &spring, const Eigen::MatrixXd &G,
+                                        const JointPreload &preload);
+
+} // namespace gestell::coupling

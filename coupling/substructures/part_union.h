@@ -1,0 +1,38 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+#include "coupling/substructures/frame_of_parts.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Parts beside each other, nothing joined: q = (q_1, q_2, ...), block diagonal matrices.
+struct PartUnion
+{
+  Eigen::MatrixXd               M, B, C;           // [n x n]
+  Eigen::MatrixXd               translations_load; // [n x 3]
+  std::vector<fem::Interface>   interfaces;        ///< coordinates in q
+  std::vector<fem::FrameOutput> outputs;           // rows on q
+  std::vector<Eigen::Index>     first;             ///< coordinate of each part
+
+  Eigen::Index          size() const { return M.rows(); }
+  const fem::Interface &at(const JointEnd &end) const; ///< one that require_joints() has found
+};
+
+/// @param parts  where they stand, see placed().
+PartUnion beside_each_other(const std::vector<ReducedFrame> &parts);
+
+/// Motions ux ... rz of an interface [6 x n], which has all six.
+Eigen::MatrixXd motions_of(const fem::Interface &interface, Eigen::Index n);
+
+/// Position [m].
+Eigen::Vector3d position_of(const fem::Interface &interface);
+
+/// q of the rigid motions ux ... rz of the whole about a point [n x 6]; modes of parts rest.
+Eigen::MatrixXd rigid_motions_of(const PartUnion &parts, const Eigen::Vector3d &centre);
+
+} // namespace gestell::coupling

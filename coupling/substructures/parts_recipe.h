@@ -1,0 +1,24 @@
+#pragma once
+
+#include "coupling/frame/frame_recipe.h"
+#include "coupling/frame/reduced_frame.h"
+#include "coupling/substructures/frame_of_parts.h"
+
+#include <functional>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// What the joined frame is made from: the recipes of its parts, where they stand, and their joints.
+/// @throws std::invalid_argument if a file cannot be read.
+Recipe recipe_of(const FrameOfParts &frame, const ReductionOptions &options);
+
+/// Reduces a part in its own coordinates.
+using PartReduction = std::function<ReducedFrame(const FramePart &)>;
+
+/// One frame a part, in their order; of parts with equal recipes the first is reduced.
+std::vector<ReducedFrame> equal_parts_once(const FrameOfParts &frame, const ReductionOptions &options,
+                                           const PartReduction &reduce);
+
+} // namespace gestell::coupling

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+#include "coupling/substructures/frame_of_parts.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * A part where it stands in the frame: interfaces move along the frame's axes, outputs and interfaces are called after
+ * the part, "crown.bearing".  Forces of supports keep the axes of the part.
+ *
+ *     u_part = Q^T u,   theta_part = det(Q) Q^T theta,   q_part = S q,   M <- S^T M S,   f_g <- S^T f_g Q^T
+ *
+ * (rotations are axial vectors: a mirror turns them about).
+ *
+ * @param part  reduced in its own coordinates.
+ * @throws std::invalid_argument if it turns while some coordinates of an interface are held.
+ */
+ReducedFrame placed(ReducedFrame part, const std::string &name, const Placement &placement);
+
+/// Motions of a node at x by (u0, theta) of one at x0:  u = u0 + theta x (x - x0).
+Eigen::Matrix<double, 6, 6> carried(const Eigen::Vector3d &x0, const Eigen::Vector3d &x);
+
+} // namespace gestell::coupling

@@ -1,0 +1,111 @@
+#include "coupling/substructures/joined_parts.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+[[noreturn]] void refuse(const std::string &place, const std::string &what)
+{
+  throw std::invalid_argument(place + ": " + what);
+}
+
+std::vector<std::string> names_of(const std::vector<FramePart> &parts)
+{
+  std::vector<std::string> names;
+  for (const FramePart &part : parts)
+    names.push_back(part.name);
+  return names;
+}
+
+std::vector<std::string> interfaces_of(const FramePart &part)
+{
+  std::vector<std::string> names;
+  for (const fem::InterfaceSpecification &interface : part.geometry.interfaces)
+    names.push_back(interface.name);
+  return names;
+}
+
+void require_end(const FrameOfParts &frame, const FrameJoint &joint, const JointEnd &end)
+{
+  const FramePart *part = frame.find(end.part);
+  if (!part)
+    refuse(joint.place, "there is no part '" + end.part + "'" + suggestion(end.part, names_of(frame.parts)));
+  const auto &interfaces = part->geometry.interfaces;
+  const auto  interface =
+      std::find_if(interfaces.begin(), interfaces.end(), [&](const auto &own) { return own.name == end.interface; });
+  if (interface == interfaces.end())
+    refuse(joint.place, "part '" + end.part + "' has no interface '" + end.interface + "'" +
+                            suggestion(end.interface, interfaces_of(*part)));
+  if (interface->coupling == fem::InterfaceCoupling::node)
+    refuse(joint.place, "interface '" + end.name() +
+                            "' is a node of the mesh, which has no rotations to be joined; make it coupling = "
+                            "\"rigid\" or \"average\"");
+}
+
+/// Joints that fasten faces: an interface takes part in one of them.
+void require_single_use(const FrameOfParts &frame)
+{
+  std::map<std::string, std::string> user;
+  for (const FrameJoint &joint : frame.joints)
+    if (joint.kind != JointKind::tie_rod)
+      for (const JointEnd &end : joint.between)
+        if (const auto [other, is_new] = user.emplace(end.name(), joint.name); !is_new)
+          refuse(joint.place, "interface '" + end.name() + "' is joined by '" + other->second +
+                                  "' already; divide its surfaces into an interface for each joint");
+}
+
+/// Parts that joints connect with the first one.
+std::set<std::string> reached(const FrameOfParts &frame)
+{
+  std::set<std::string> known{frame.parts.front().name};
+  for (std::size_t before = 0; before != known.size();)
+  {
+    before = known.size();
+    for (const FrameJoint &joint : frame.joints)
+      if (known.count(joint.between[0].part) || known.count(joint.between[1].part))
+        for (const JointEnd &end : joint.between)
+          known.insert(end.part);
+  }
+  return known;
+}
+
+void require_connected(const FrameOfParts &frame)
+{
+  const auto known = reached(frame);
+  for (const FramePart &part : frame.parts)
+    if (!known.count(part.name))
+      refuse(part.place, "no joint connects this part with '" + frame.parts.front().name +
+                             "'; join it by [frame.joint.NAME] between = [\"" + part.name +
+                             ".INTERFACE\", \"OTHER PART.INTERFACE\"]");
+}
+
+} // namespace
+
+void require_joints(const FrameOfParts &frame)
+{
+  for (const FrameJoint &joint : frame.joints)
+  {
+    for (const JointEnd &end : joint.between)
+      require_end(frame, joint, end);
+    if (joint.between[0].part == joint.between[1].part)
+      refuse(joint.place, joint.kind == JointKind::tie_rod
+                              ? "both ends of the tie rod are on part '" + joint.between[0].part +
+                                    "'; a rod within a part is a [element.NAME] type = \"spring-damper\" between its "
+                                    "interfaces"
+                              : "joins part '" + joint.between[0].part +
+                                    "' with itself; name an interface of another "
+                                    "part");
+  }
+  require_single_use(frame);
+  require_connected(frame);
+}
+
+} // namespace gestell::coupling
