@@ -3,6 +3,7 @@
 #include "apps/scene/build/free_bodies.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_service.h"
+#include "coupling/substructures/require_joints.h"
 #include "fem/values/number_text.h"
 
 #include <iostream>
@@ -60,7 +61,10 @@ int check(const CommonOptions &options)
   for (coupling::FramePart &part : scene.frame.parts.parts)
     geometry += (geometry.empty() ? "" : "\nframe: ") + part.name + ": " + try_geometry(part.geometry, warnings);
   if (scene.frame.source == FrameSource::parts)
+  {
+    coupling::require_meeting(scene.frame.parts);
     loose = check_scene(scene);
+  }
   check_start(scene);
   warnings.insert(warnings.end(), loose.begin(), loose.end());
   if (const std::string floating = floating_frame(scene); !floating.empty())

@@ -33,14 +33,18 @@ struct ReducedFrame
   ReducedStress                      stress;
 
   // what is known about the model
-  int                      n_full        = 0; ///< coordinates of the unreduced frame
-  int                      n_cells       = 0;
-  int                      n_fixed_modes = 0;       ///< of the columns behind the interface; the rest are static shapes
-  double                   mass          = 0.;      ///< [kg]
-  fem::FrameFacts          facts;                   ///< of a frame made of cells
-  Eigen::VectorXd          frequencies_hz;          // [p] supported frame, interface free, from the reduced model
-  double                   frequency_limit_hz = 0.; ///< up to which the model is meant to hold
-  Eigen::VectorXd          frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
+  int             n_full        = 0; ///< coordinates of the unreduced frame
+  int             n_cells       = 0;
+  int             n_fixed_modes = 0;       ///< of the columns behind the interface; the rest are static shapes
+  double          mass          = 0.;      ///< [kg]
+  fem::FrameFacts facts;                   ///< of a frame made of cells
+  Eigen::VectorXd frequencies_hz;          // [p] supported frame, interface free, from the reduced model
+  double          frequency_limit_hz = 0.; ///< up to which the model is meant to hold
+  Eigen::VectorXd frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
+  /// [n1 x n1] Psi^T M (C22^-1 - V22 diag(1/omega_0^2) V22^T) M Psi, sum of m_j m_j^T/omega_j^2 over the
+  /// fixed-interface modes left out, m_j their coupling masses; or empty: not known.  Static shapes of the basis do not
+  /// count.
+  Eigen::MatrixXd          left_out;
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making
   std::vector<std::string> statements;           ///< what was checked in the making and is as it should be

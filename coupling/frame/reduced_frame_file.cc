@@ -206,7 +206,7 @@ void each_part(Frame &frame, Archive &&archive)
 {
   auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, outputs, points, triangles, displacement,
          stress, n_full, n_cells, n_fixed_modes, mass, facts, frequencies_hz, frequency_limit_hz, frequency_error,
-         static_residual, notes, statements] = frame;
+         left_out, static_residual, notes, statements] = frame;
   archive("M", M);
   archive("B", B);
   archive("C", C);
@@ -226,6 +226,7 @@ void each_part(Frame &frame, Archive &&archive)
   archive("frequencies_hz", frequencies_hz);
   archive("frequency_limit_hz", frequency_limit_hz);
   archive("frequency_error", frequency_error);
+  archive("left_out", left_out);
   archive("static_residual", static_residual);
   archive("notes", notes);
   archive("statements", statements);

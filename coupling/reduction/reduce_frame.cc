@@ -72,6 +72,15 @@ bool complete(ReductionSpace &space, const fem::FrameMatrices &frame, const Matr
   return append_attachment_modes(space.basis, frame, beside(std::exchange(space.attachment, {}), relief)) > 0;
 }
 
+/// Of those that stand first behind the interface.
+MatrixXd modes_left_out(const ResidualFlexibility &response, const ReducedFrame &reduced, int n_modes)
+{
+  const auto     n1   = reduced.n_interface;
+  const MatrixXd M_1V = reduced.M.block(0, n1, n1, n_modes);
+  return response.Psi_M_X -
+         M_1V * reduced.omega0.head(n_modes).cwiseAbs2().cwiseInverse().asDiagonal() * M_1V.transpose();
+}
+
 void add_texts(ReducedFrame &reduced, const fem::FrameMatrices &frame, const ReductionSpace &space)
 {
   reduced.notes      = frame.notes;
@@ -101,6 +110,7 @@ ReducedModel reduce_with_basis(const fem::FrameMatrices &frame, const ReductionO
 
   ReducedFrame reduced = project(frame, space.basis, std::move(space.star), damped, statics.load, remainder.deflection);
   reduced.n_fixed_modes      = n_fixed;
+  reduced.left_out           = modes_left_out(statics.response, reduced, n_fixed);
   reduced.frequencies_hz     = frequencies.omega / two_pi;
   reduced.frequency_error    = frequencies.error;
   reduced.frequency_limit_hz = limit / two_pi;

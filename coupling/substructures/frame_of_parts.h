@@ -55,6 +55,7 @@ struct TieRod
   double                diameter = 0., E = 0., rho = 0.; ///< [m], [Pa], [kg/m^3]
   std::optional<double> length;                          ///< [m]; none: distance of the interfaces
   double                damping = 0., prestress = 0.;    ///< [N s/m], [N] in the tightened frame at rest
+  std::string           material{};                      ///< "steel", for people
 
   double area() const;
   double stiffness(double length) const; ///< E A / L [N/m]

@@ -3,6 +3,7 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/substructures/joint_forces.h"
 #include "coupling/substructures/left_out_modes.h"
+#include "coupling/substructures/require_joints.h"
 #include "coupling/substructures/welded_coordinates.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
@@ -116,7 +117,7 @@ void add_rods(ReducedFrame &whole, const FrameOfParts &frame, const PartUnion &p
     {
       const double mass = mass_of_rod(joint, parts);
       whole.mass += mass;
-      whole.facts.parts.push_back({joint.name, "tie rod", mass});
+      whole.facts.parts.push_back({"tie rod " + joint.name, joint.rod.material, mass});
       for (const JointEnd &end : joint.between)
         whole.facts.whole.add({0.5 * mass, position_of(parts.at(end)), Eigen::Matrix3d::Zero()});
     }

@@ -3,23 +3,15 @@
 #include "coupling/frame/reduced_frame.h"
 #include "coupling/frame/reduction_options.h"
 #include "coupling/substructures/frame_of_parts.h"
+#include "coupling/substructures/joint_preload.h"
 #include "fem/values/frame_matrices.h"
 
 #include <Eigen/Core>
 
-#include <string>
 #include <vector>
 
 namespace gestell::coupling
 {
-
-/// What tightened tie rods do to a joint at rest, without other loads.
-struct JointPreload
-{
-  std::string                 joint;
-  Eigen::Matrix<double, 6, 1> on_second = Eigen::Matrix<double, 6, 1>::Zero(); ///< force and moment [N, N m]
-  double                      pressed   = 0.; ///< [N] normal force of a joint that closes, with its own bolts
-};
 
 /// Parts of a frame in one set of coordinates: interfaces, and the modes of the parts.
 struct JoinedParts
@@ -59,8 +51,5 @@ ReductionOptions joined_options(const FrameOfParts &frame, const JoinedParts &jo
 
 /// The joined frame after its reduction, with what is known of its parts.
 ReducedFrame completed(ReducedFrame reduced, const JoinedParts &joined);
-
-/// What can be said against joints without any mesh: see join_parts().
-void require_joints(const FrameOfParts &description);
 
 } // namespace gestell::coupling

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "coupling/substructures/frame_of_parts.h"
-#include "coupling/substructures/joined_parts.h"
+#include "coupling/substructures/joint_preload.h"
 #include "coupling/substructures/joint_springs.h"
+#include "fem/values/frame_matrices.h"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,7 @@
 #include "coupling/substructures/left_out_modes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gestell::coupling
@@ -13,11 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// M_11 - M_1L M_L1 of a part, whose modes have M_LL = E.
-MatrixXd mass_left_out(const ReducedFrame &part)
+/// What static shapes of the basis leave of F.
+MatrixXd beside_shapes(const ReducedFrame &part)
 {
-  const Index n_1 = part.n_interface, m = part.M.rows() - n_1;
-  return part.M.topLeftCorner(n_1, n_1) - part.M.topRightCorner(n_1, m) * part.M.bottomLeftCorner(m, n_1);
+  const Index    n_1 = part.n_interface, k = part.omega0.size() - part.n_fixed_modes;
+  const MatrixXd M_1X = part.M.block(0, part.M.rows() - k, n_1, k);
+  return part.left_out - M_1X * part.omega0.tail(k).cwiseAbs2().cwiseInverse().asDiagonal() * M_1X.transpose();
 }
 
 /// The lowest frequency that is left out [rad/s]: that of the next mode by the static shapes in their place, which come
@@ -41,21 +43,23 @@ bool keeps_all(const ReducedFrame &part)
 VectorXd errors_by_modes_left_out(const std::vector<ReducedFrame> &parts, const PartUnion &all, const MatrixXd &G,
                                   const VectorXd &omega, const MatrixXd &V)
 {
-  VectorXd errors = VectorXd::Zero(omega.size());
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  VectorXd         errors  = VectorXd::Zero(omega.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const ReducedFrame &part = parts[i];
     if (keeps_all(part))
       continue;
-    const double   out  = lowest_left_out(part);
-    const MatrixXd left = mass_left_out(part), q_1 = G.middleRows(all.first[i], part.n_interface) * V;
+    if (part.left_out.size() == 0)
+      return VectorXd::Constant(omega.size(), unknown);
+    const double   out = lowest_left_out(part);
+    const MatrixXd q_1 = G.middleRows(all.first[i], part.n_interface) * V, rest = beside_shapes(part);
     for (Index j = 0; j < omega.size(); ++j)
     {
-      const double w_2 = omega[j] * omega[j], beyond = out * out - w_2;
-      if (omega[j] > 0. && beyond <= 0.)
-        errors[j] = std::numeric_limits<double>::quiet_NaN();
-      else if (omega[j] > 0.)
-        errors[j] += 0.5 * w_2 / beyond * std::max(0., q_1.col(j).dot(left * q_1.col(j)));
+      const double   r_2  = std::pow(omega[j] / out, 2);
+      const MatrixXd F    = rest + r_2 * r_2 * (part.left_out - rest);
+      const double   less = 0.5 * omega[j] * omega[j] * q_1.col(j).dot(F * q_1.col(j)) / (1. - r_2);
+      errors[j] += r_2 < 1. ? std::max(0., less) : unknown;
     }
   }
   return errors;

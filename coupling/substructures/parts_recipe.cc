@@ -63,13 +63,14 @@ void add_bolts(Ingredients &recipe, const BoltedJoint &value)
 
 void add_tie_rod(Ingredients &recipe, const TieRod &value)
 {
-  const auto &[diameter, E, rho, length, damping, prestress] = value;
+  const auto &[diameter, E, rho, length, damping, prestress, material] = value;
   recipe.add("diameter", diameter);
   recipe.add("E", E);
   recipe.add("rho", rho);
   recipe.add("length", length);
   recipe.add("damping", damping);
   recipe.add("prestress", prestress);
+  recipe.add("material", material); // the frame tells it
 }
 
 void add_joint(Recipe &recipe, const FrameJoint &value)

@@ -96,10 +96,15 @@ void turn_mass(fem::MassProperties &body, const Placement &placement)
 
 void turn(ReducedFrame &part, const Placement &placement)
 {
-  const MatrixXd S       = turned_coordinates(part, placement.Q);
-  part.M                 = S.transpose() * (part.M * S).eval();
-  part.B                 = S.transpose() * (part.B * S).eval();
-  part.C                 = S.transpose() * (part.C * S).eval();
+  const MatrixXd S = turned_coordinates(part, placement.Q);
+  part.M           = S.transpose() * (part.M * S).eval();
+  part.B           = S.transpose() * (part.B * S).eval();
+  part.C           = S.transpose() * (part.C * S).eval();
+  if (part.left_out.size() > 0)
+  {
+    const MatrixXd S_1 = S.topLeftCorner(part.n_interface, part.n_interface);
+    part.left_out      = S_1.transpose() * (part.left_out * S_1).eval();
+  }
   part.translations_load = S.transpose() * (part.translations_load * placement.Q.transpose()).eval();
   turn_outputs(part, placement.Q, S);
   turn_picture(part, placement, S);

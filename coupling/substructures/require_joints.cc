@@ -1,8 +1,12 @@
-#include "coupling/substructures/joined_parts.h"
+#include "coupling/substructures/require_joints.h"
+
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -87,7 +91,60 @@ void require_connected(const FrameOfParts &frame)
                              ".INTERFACE\", \"OTHER PART.INTERFACE\"]");
 }
 
+std::string text_of(const Eigen::Vector3d &x)
+{
+  return "(" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + ") m";
+}
+
+/// Of an interface in the frame, if it is known.
+std::optional<Eigen::Vector3d> place_of(const FrameOfParts &frame, const JointEnd &end)
+{
+  const FramePart &part = *frame.find(end.part);
+  for (const fem::InterfaceSpecification &interface : part.geometry.interfaces)
+    if (interface.name == end.interface && interface.position)
+      return part.placement.at + part.placement.Q * Eigen::Map<const Eigen::Vector3d>(interface.position->data());
+  return {};
+}
+
+/// Largest distance of interfaces of one part [m].
+double largest_span(const FrameOfParts &frame)
+{
+  double span = 0.;
+  for (const FramePart &part : frame.parts)
+    for (const auto &a : part.geometry.interfaces)
+      for (const auto &b : part.geometry.interfaces)
+        if (a.position && b.position)
+          span = std::max(span, (Eigen::Map<const Eigen::Vector3d>(a.position->data()) -
+                                 Eigen::Map<const Eigen::Vector3d>(b.position->data()))
+                                    .norm());
+  return span;
+}
+
 } // namespace
+
+void require_meeting(const FrameJoint &joint, const Eigen::Vector3d &first, const Eigen::Vector3d &second,
+                     double tolerance)
+{
+  const double distance = (second - first).norm();
+  if (distance > tolerance)
+    refuse(joint.place, "the interfaces do not meet: '" + joint.between[0].name() + "' is at " + text_of(first) +
+                            ", '" + joint.between[1].name() + "' at " + text_of(second) + ", " +
+                            rounded(1e3 * distance) + " mm apart, but they may be " + rounded(1e3 * tolerance) +
+                            " mm apart; move a part by its 'placement', give the interfaces the same 'position', or "
+                            "allow the distance by tolerance = \"" +
+                            rounded(1.1e3 * distance) + " mm\"");
+}
+
+void require_meeting(const FrameOfParts &frame)
+{
+  constexpr double far_off = 0.01;
+  const double     usual   = far_off * largest_span(frame);
+  for (const FrameJoint &joint : frame.joints)
+    if (joint.kind != JointKind::tie_rod)
+      if (const auto first = place_of(frame, joint.between[0]), second = place_of(frame, joint.between[1]);
+          first && second)
+        require_meeting(joint, *first, *second, joint.tolerance.value_or(usual > 0. ? usual : INFINITY));
+}
 
 void require_joints(const FrameOfParts &frame)
 {

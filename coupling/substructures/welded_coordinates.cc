@@ -1,12 +1,11 @@
 #include "coupling/substructures/welded_coordinates.h"
 
 #include "coupling/substructures/placed_part.h"
-#include "fem/values/number_text.h"
+#include "coupling/substructures/require_joints.h"
 
 #include <Eigen/Geometry>
 
-#include <stdexcept>
-#include <string>
+#include <algorithm>
 
 namespace gestell::coupling
 {
@@ -46,25 +45,6 @@ double tolerance_of(const FrameJoint &joint, const FrameOfParts &frame, const st
   return usual_tolerance * size;
 }
 
-std::string text_of(const Vector3d &x)
-{
-  return "(" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + ") m";
-}
-
-void require_meeting(const FrameJoint &joint, const PartUnion &parts, double tolerance)
-{
-  const Vector3d first = position_of(parts.at(joint.between[0])), second = position_of(parts.at(joint.between[1]));
-  const double   distance = (second - first).norm();
-  if (distance > tolerance)
-    throw std::invalid_argument(
-        joint.place + ": the interfaces do not meet: '" + joint.between[0].name() + "' is at " + text_of(first) +
-        ", '" + joint.between[1].name() + "' at " + text_of(second) + ", " + rounded(1e3 * distance) +
-        " mm apart, but they may be " + rounded(1e3 * tolerance) +
-        " mm apart; move a part by its 'at', give the interfaces the same 'position', or allow the distance by "
-        "tolerance = \"" +
-        rounded(1.1e3 * distance) + " mm\"");
-}
-
 } // namespace
 
 WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const std::vector<ReducedFrame> &of)
@@ -74,7 +54,8 @@ WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const 
   for (const FrameJoint &joint : frame.joints)
   {
     if (joint.kind != JointKind::tie_rod)
-      require_meeting(joint, parts, tolerance_of(joint, frame, of));
+      require_meeting(joint, position_of(parts.at(joint.between[0])), position_of(parts.at(joint.between[1])),
+                      tolerance_of(joint, frame, of));
     if (is_welded(joint))
       for (const int i : parts.at(joint.between[1]).coordinate)
         welded.kept[std::size_t(i)] = -1;

@@ -111,7 +111,7 @@ TEST(JoinedParts, KnowHowMuchTheModesLeftOutRaiseFrequencies)
       if (!std::isnan(both.left_out[j]))
       {
         EXPECT_LT(error[j], 1.05 * both.left_out[j] + 1e-9) << modes << " modes, mode " << j;
-        EXPECT_LT(both.left_out[j], 60. * error[j] + 1e-6) << modes << " modes, mode " << j;
+        EXPECT_LT(both.left_out[j], 3. * error[j] + 1e-6) << modes << " modes, mode " << j;
       }
     EXPECT_FALSE(std::isnan(both.left_out[4]));
   }

@@ -46,6 +46,13 @@ fem::SurfaceSelector read_surface(const SceneTable &any)
   return surface;
 }
 
+/// Path of the frame or the part of [OWNER.support.NAME].
+std::string owner_of(const SceneTable &table)
+{
+  const std::string path = table.path();
+  return path.substr(0, path.rfind('.', path.rfind('.') - 1));
+}
+
 /// Surfaces named by a support or an interface, under either key.
 std::vector<std::string> read_surface_names(const SceneTable &table, const fem::FrameSpecification &frame)
 {
@@ -60,7 +67,8 @@ std::vector<std::string> read_surface_names(const SceneTable &table, const fem::
   for (const auto &name : names)
   {
     if (!frame.surfaces.count(name))
-      throw table.error(key, "there is no [frame.surface." + written_key(name) + "]" + suggestion(name, declared));
+      throw table.error(key, "there is no [" + owner_of(table) + ".surface." + written_key(name) + "]" +
+                                 suggestion(name, declared));
     if (!seen.insert(name).second)
       throw table.error(key, "names '" + name + "' twice");
   }
@@ -241,7 +249,8 @@ void check_overlaps(const SceneTable &frame, const fem::FrameSpecification &spec
           throw std::invalid_argument(support.place + ": surface '" + surface + "' is clamped, but belongs to " +
                                       owner.at(surface) + ", which must be free to move");
   if (specification.interfaces.empty())
-    throw frame.error("has no interface; declare at least one [frame.interface.NAME] for the mechanism to act on");
+    throw frame.error("has no interface; declare at least one [" + frame.path() +
+                      ".interface.NAME] for the mechanism or a joint to act on");
 }
 
 /// A motor or a counterweight, on an interface or on surfaces of its own.
@@ -273,7 +282,7 @@ fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification
   const std::string on = table.text("on");
   mass.interface       = on.rfind("frame.", 0) == 0 ? on.substr(6) : on;
   if (std::find(known.begin(), known.end(), mass.interface) == known.end())
-    throw table.error("on", "there is no [frame.interface." + written_key(mass.interface) + "]" +
+    throw table.error("on", "there is no [" + owner_of(table) + ".interface." + written_key(mass.interface) + "]" +
                                 suggestion(mass.interface, known));
   return mass;
 }

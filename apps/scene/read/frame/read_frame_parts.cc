@@ -4,7 +4,7 @@
 #include "apps/scene/read/names.h"
 #include "apps/scene/read/read_material.h"
 #include "apps/scene/read/read_tensor.h"
-#include "coupling/substructures/joined_parts.h"
+#include "coupling/substructures/require_joints.h"
 #include "fem/values/nearest_name.h"
 
 #include <Eigen/Geometry>
@@ -147,6 +147,7 @@ coupling::TieRod read_rod(const SceneTable &table, const SceneTable &scene)
   const fem::Material material = read_material(table, scene);
   rod.E                        = material.E;
   rod.rho                      = material.rho;
+  rod.material                 = material.name;
   rod.diameter                 = table.value("diameter");
   if (table.has("length"))
     rod.length = table.value("length");

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+
+namespace gestell::coupling
+{
+
+/// What tightened tie rods do to a joint at rest, without other loads.
+struct JointPreload
+{
+  std::string                 joint;
+  Eigen::Matrix<double, 6, 1> on_second = Eigen::Matrix<double, 6, 1>::Zero(); ///< force and moment [N, N m]
+  double                      pressed   = 0.; ///< [N] normal force of a joint that closes, with its own bolts
+};
+
+} // namespace gestell::coupling
