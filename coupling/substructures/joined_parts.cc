@@ -148,7 +148,8 @@ void tell_preloads(ReducedFrame &whole, const FrameOfParts &frame, const std::ve
       whole.notes.push_back(joint.place + ": nothing presses this joint together at rest (normal force " +
                             force_text(pressed) +
                             " without weight); it opens under any pull, which the linear frame does not know. Give a "
-                            "tie rod a prestress, or make it a weld");
+                            "tie rod a prestress, turn 'normal' round if it points from the second part to the first, "
+                            "or make it a weld");
   }
 }
 

@@ -1,6 +1,6 @@
 #include "coupling/substructures/joint_springs.h"
 
-#include "coupling/substructures/placed_part.h"
+#include "coupling/substructures/rigid_node.h"
 
 #include <stdexcept>
 

@@ -1,6 +1,6 @@
 #include "coupling/substructures/part_union.h"
 
-#include "coupling/substructures/placed_part.h"
+#include "coupling/substructures/rigid_node.h"
 
 #include <algorithm>
 #include <stdexcept>

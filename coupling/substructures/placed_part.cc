@@ -130,14 +130,4 @@ ReducedFrame placed(ReducedFrame part, const std::string &name, const Placement 
   return part;
 }
 
-Eigen::Matrix<double, 6, 6> carried(const Vector3d &x0, const Vector3d &x)
-{
-  const Vector3d              r = x - x0;
-  Eigen::Matrix<double, 6, 6> R = Eigen::Matrix<double, 6, 6>::Identity();
-  R.topRightCorner<3, 3>() << 0., r[2], -r[1], //
-      -r[2], 0., r[0],                         //
-      r[1], -r[0], 0.;
-  return R;
-}
-
 } // namespace gestell::coupling

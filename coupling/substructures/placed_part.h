@@ -19,7 +19,4 @@ namespace gestell::coupling
  */
 ReducedFrame placed(ReducedFrame part, const std::string &name, const Placement &placement);
 
-/// Motions of a node at x by (u0, theta) of one at x0:  u = u0 + theta x (x - x0).
-Eigen::Matrix<double, 6, 6> carried(const Eigen::Vector3d &x0, const Eigen::Vector3d &x);
-
 } // namespace gestell::coupling

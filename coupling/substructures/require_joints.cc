@@ -93,7 +93,9 @@ void require_connected(const FrameOfParts &frame)
 
 std::string text_of(const Eigen::Vector3d &x)
 {
-  return "(" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + ") m";
+  const double scale = 1e-9 * std::max(1e-3, x.norm()); // less is rounding
+  const auto   shown = [scale](double value) { return rounded(std::abs(value) > scale ? value : 0.); };
+  return "(" + shown(x[0]) + ", " + shown(x[1]) + ", " + shown(x[2]) + ") m";
 }
 
 /// Of an interface in the frame, if it is known.

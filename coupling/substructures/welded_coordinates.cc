@@ -1,7 +1,7 @@
 #include "coupling/substructures/welded_coordinates.h"
 
-#include "coupling/substructures/placed_part.h"
 #include "coupling/substructures/require_joints.h"
+#include "coupling/substructures/rigid_node.h"
 
 #include <Eigen/Geometry>
 

@@ -19,7 +19,7 @@ TEST(TieRodPress, KeepsItsJointsClosedThroughTheCut)
 {
   const Folder folder("tie_rod_press");
   const Answer run = gestell("run " + scene("tie_rod_press.toml") + coarse + folder.option());
-  expect_answer(run, 0, {"joint upper left: pressed together with 89"}); // kN, of the 900 kN of a rod
+  expect_answer(run, 0, {"N_ul"});
   EXPECT_FALSE(run.says("opens")) << run.text;
   const std::string summary = read(folder.results() / "summary.json");
   // the cut pulls with 1024 kN at crown and bed: half of it at each rod, shared with the column
@@ -29,7 +29,7 @@ TEST(TieRodPress, KeepsItsJointsClosedThroughTheCut)
 
   const Answer loose =
       gestell("run " + scene("tie_rod_press.toml") + coarse + folder.option() + " --set parameters.F_0='\"300 kN\"'");
-  expect_answer(loose, 0, {"frame.joint.upper left: this joint opens: its normal force falls to -"});
+  expect_answer(loose, 0, {"frame.joint.\"upper left\": this joint opens: its normal force falls to -156"});
 }
 
 TEST(TieRodPress, IsMadeOfThreeReductionsThatAChangeOfTheRodsKeeps)

@@ -190,6 +190,7 @@ const Asked &all_asked()
     Asked everything;
     EXPECT_EQ(read(content("tests/apps/reference/machine.toml"), everything), "");
     EXPECT_EQ(read(content("tests/apps/reference/frame_from_cad.toml"), everything), "");
+    EXPECT_EQ(read(content("tests/apps/reference/frame_of_parts.toml"), everything), "");
     for (const BodyType &type : body_types())
       EXPECT_NE(read(body_from_cad(type.name), everything), "") << type.name;
     return everything;

@@ -65,7 +65,7 @@ apps::Scene read(const std::string &text)
 
 std::string said(const std::string &text)
 {
-  return refusal([&] { apps::check_scene(read(text)); });
+  return tests::refusal([&] { apps::check_scene(read(text)); });
 }
 
 TEST(PartsScene, ReadsPartsPlacesAndJoints)
