@@ -111,6 +111,8 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
 {
   Scene other = scene;
   scale(other.frame.geometry.mesh, variant.mesh);
+  if (variant.swept)
+    other.frame.geometry.mesh.plates = fem::Plates::swept;
   for (coupling::FramePart &part : other.frame.parts.parts)
     scale(part.geometry.mesh, variant.mesh);
   other.frame.parts.all_modes |= variant.modes >= 0; // each part has as many as are asked for

@@ -15,10 +15,11 @@ namespace gestell::apps
 /// How a model differs from that of the scene.
 struct ModelVariant
 {
-  double                                 mesh  = 1.;  ///< size of the cells, of that in the scene
-  int                                    modes = -1;  ///< that the frame keeps; below zero: as the scene says
-  std::optional<coupling::MethodOptions> method;      ///< of integration; none: that of the scene
-  std::string                            reduction{}; ///< a name of coupling::Reductions; empty: that of the scene
+  double                                 mesh  = 1.;    ///< size of the cells, of that in the scene
+  int                                    modes = -1;    ///< that the frame keeps; below zero: as the scene says
+  std::optional<coupling::MethodOptions> method;        ///< of integration; none: that of the scene
+  std::string                            reduction{};   ///< a name of coupling::Reductions; empty: that of the scene
+  bool                                   swept = false; ///< plates are, whatever the scene says
 };
 
 /// What a model answers, and what it costs.

@@ -365,7 +365,18 @@ SizedModel Climb::run()
 
 SizedModel size_search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
 {
-  return Climb(scene, outputs, options).run();
+  SizedModel model = Climb(scene, outputs, options).run();
+  if (model.result.met || !mesh_is_made(scene) || scene.frame.geometry.mesh.plates == fem::Plates::swept ||
+      (options.stop && *options.stop))
+    return model;
+  // Thin walls that are too stiff as tetrahedra.
+  const Scene swept = varied(scene, {1., -1, {}, {}, true});
+  SizedModel  other = Climb(swept, outputs, options).run();
+  if (!other.result.met)
+    return model;
+  other.chosen.swept = true;
+  other.result.swept = true;
+  return other;
 }
 
 } // namespace gestell::apps

@@ -34,6 +34,8 @@ struct SizedModel
  *     time       `exact` with a tolerance of 1e-3, 1e-4 ... 1e-9; where that does not treat the machine, or the scene
  *                gives its method parameters of its own, that method with 8, 4, 2, 1, 1/2, ... of its step or tolerance
  *
+ * Where no mesh of tetrahedra will do, the climb begins again with plates swept, and counts if it gets there.
+ *
  * Each step refines what takes the largest share of the tolerance.  Behind the first model that fits each part is made
  * coarser again as long as the model fits.  Errors count against the largest size of the signal, of instants against
  * the length of the run.

@@ -44,6 +44,8 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
   if (mesh_is_made(scene))
   {
     sizes.emplace_back("frame.mesh.size", number(sized.frame.geometry.mesh.size));
+    if (model.swept)
+      sizes.emplace_back("frame.mesh.plates", quoted("swept"));
     for (const auto &[surface, size] : sized.frame.geometry.mesh.surface_size)
       sizes.emplace_back("frame.mesh." + quoted(surface), number(size));
   }

@@ -120,6 +120,8 @@ std::string size_text(const SizeResult &size)
   text << "chosen: model " << size.chosen + 1 << " of " << size.ladder.size() << ", every output "
        << (size.met ? "within " : "NOT within ") << short_text(100. * size.tolerance, 3) << " %"
        << (size.met ? "" : ": " + size.stopped) << '\n';
+  if (size.swept)
+    text << "plates are swept, as tetrahedra do not get there: frame.mesh.plates = \"swept\"\n";
   if (!size.proof.empty())
     text << "proof: against " << size.finer << '\n';
   else if (!size.finer.empty())

@@ -36,6 +36,7 @@ struct SizeResult
   std::vector<SizeRung>    ladder; ///< in the order they were tried
   std::size_t              chosen = 0;
   bool                     met    = false; ///< the chosen one stays within the tolerance
+  bool                     swept  = false; ///< with plates swept, as no mesh of tetrahedra does
   std::string              stopped;        ///< why nothing finer was tried, if it is not
   std::vector<SizeProof>   proof;          ///< chosen model against one that is finer in everything
   std::string              finer;          ///< what that was
