@@ -24,6 +24,10 @@ constexpr int    n_mode_numbers = int(std::size(mode_numbers));
 constexpr int    first_time = 1, n_tolerances = 7, n_steps = 10;
 constexpr double smallest_tolerance = 1e-8;
 constexpr int    most_rungs         = 40;
+constexpr int    thin_after         = 2;   ///< rungs
+constexpr double far_too_stiff      = 16.; ///< times what is allowed: four meshes more would not do
+
+constexpr auto thin_walls = "walls are thin";
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -59,8 +63,9 @@ double memory_taken()
 class Climb
 {
 public:
-  Climb(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
-      : scene_(scene), outputs_(outputs), options_(options), by_exact_(takes_exact())
+  /// @param until_thin  ends where cells are far too stiff for the walls
+  Climb(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options, bool until_thin)
+      : scene_(scene), outputs_(outputs), options_(options), by_exact_(takes_exact()), until_thin_(until_thin)
   {
     if (!(options.tolerance >= smallest_tolerance) || options.tolerance > 1.)
       throw std::invalid_argument("--tolerance: needs a relative error between 1e-8, below which rounding decides, and "
@@ -75,6 +80,7 @@ public:
 
 private:
   bool          takes_exact() const;
+  int           most_given() const;
   ModelVariant  variant_of(const Place &place) const;
   int           last_time() const { return by_exact_ ? n_tolerances - 1 : n_steps - 1; }
   const Shares &look(const Place &place);
@@ -91,7 +97,7 @@ private:
   const Scene                          &scene_;
   const std::vector<OutputName>        &outputs_;
   const SizeOptions                    &options_;
-  bool                                  by_exact_;
+  bool                                  by_exact_, until_thin_;
   std::map<Place, Shares>               known_;
   std::map<Place, std::size_t>          rung_of_;
   std::map<Place, ModelAnswer>          answers_;
@@ -123,13 +129,22 @@ bool Climb::takes_exact() const
   }
 }
 
+/// Modes that a frame given by matrices can keep at most.
+int Climb::most_given() const
+{
+  if (scene_.frame.source != FrameSource::matrices)
+    return mode_numbers[n_mode_numbers - 1];
+  const int interface = int(scene_.frame.matrices.interface_coordinates().size());
+  return std::max(1, int(scene_.frame.matrices.M.rows()) - (scene_.reduction.superposition ? 0 : interface));
+}
+
 ModelVariant Climb::variant_of(const Place &place) const
 {
   ModelVariant variant;
   if (mesh_is_made(scene_))
     variant.mesh = std::pow(ratio_of_meshes, -(place.mesh + coarsest_mesh));
   if (modes_are_chosen(scene_))
-    variant.modes = mode_numbers[place.modes];
+    variant.modes = std::min(mode_numbers[place.modes], most_given());
   if (by_exact_)
   {
     variant.method            = finest_method(scene_);
@@ -344,6 +359,12 @@ SizedModel Climb::run()
       result_.met = true;
       break;
     }
+    if (until_thin_ && int(result_.ladder.size()) == thin_after && look(place).mesh > far_too_stiff)
+    {
+      result_.stopped = thin_walls;
+      model.result    = result_;
+      return model;
+    }
     if (int(result_.ladder.size()) >= most_rungs || !finer(place))
     {
       result_.stopped = "the ladder ends here: nothing finer is at hand";
@@ -365,18 +386,20 @@ SizedModel Climb::run()
 
 SizedModel size_search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
 {
-  SizedModel model = Climb(scene, outputs, options).run();
-  if (model.result.met || !mesh_is_made(scene) || scene.frame.geometry.mesh.plates == fem::Plates::swept ||
-      (options.stop && *options.stop))
+  const bool may_sweep = mesh_is_made(scene) && scene.frame.geometry.mesh.plates != fem::Plates::swept;
+  SizedModel model     = Climb(scene, outputs, options, may_sweep).run();
+  if (model.result.met || !may_sweep || (options.stop && *options.stop))
     return model;
-  // Thin walls that are too stiff as tetrahedra.
+  // Thin walls, which are too stiff as tetrahedra.
   const Scene swept = varied(scene, {1., -1, {}, {}, true});
-  SizedModel  other = Climb(swept, outputs, options).run();
-  if (!other.result.met)
-    return model;
-  other.chosen.swept = true;
-  other.result.swept = true;
-  return other;
+  SizedModel  other = Climb(swept, outputs, options, false).run();
+  if (other.result.met)
+  {
+    other.chosen.swept = true;
+    other.result.swept = true;
+    return other;
+  }
+  return model.result.stopped == thin_walls ? Climb(scene, outputs, options, false).run() : model;
 }
 
 } // namespace gestell::apps

@@ -176,7 +176,8 @@ MatrixXd directions(const Machine &machine)
 class StaticShortfall
 {
 public:
-  StaticShortfall(const Machine &machine, const SparseCholesky &stiffness) : w_(directions(machine))
+  StaticShortfall(const Machine &machine, const SparseCholesky &stiffness)
+      : w_(directions(machine)), n_elements_(machine.forces().directions().cols())
   {
     MatrixXd deflections = w_;
     if (w_.cols() > 0)
@@ -184,14 +185,17 @@ public:
     full_ = w_.cwiseProduct(deflections).colwise().sum();
   }
 
-  /// Of the first 1, 2, ... modes, the largest share.
-  VectorXd of(const DenseModes &modes) const
+  Eigen::Index n_elements() const { return n_elements_; } ///< directions of elements, the first ones
+
+  /// Of the first 1, 2, ... modes, the largest share; of the directions of elements alone, or of loads, too.
+  VectorXd of(const DenseModes &modes, bool elements_alone = false) const
   {
-    VectorXd left = VectorXd::Zero(modes.omega.size()), carried = VectorXd::Zero(w_.cols());
+    const Eigen::Index n    = elements_alone ? n_elements_ : w_.cols();
+    VectorXd           left = VectorXd::Zero(modes.omega.size()), carried = VectorXd::Zero(w_.cols());
     for (Eigen::Index j = 0; j < left.size(); ++j)
     {
       carried += ((w_.transpose() * modes.V.col(j)) / modes.omega[j]).cwiseAbs2();
-      for (Eigen::Index k = 0; k < carried.size(); ++k)
+      for (Eigen::Index k = 0; k < n; ++k)
         if (full_[k] > 0.)
           left[j] = std::max(left[j], 1. - carried[k] / full_[k]);
     }
@@ -199,8 +203,9 @@ public:
   }
 
 private:
-  MatrixXd w_;
-  VectorXd full_;
+  MatrixXd     w_;
+  Eigen::Index n_elements_;
+  VectorXd     full_;
 };
 
 DenseModes lowest(const AveragedSystem &system, int count)
@@ -220,7 +225,10 @@ public:
   ModeCount(const Machine &machine, const SuperpositionOptions &options, const StaticShortfall &shortfall)
       : options_(options), shortfall_(shortfall), n_(machine.size()),
         limit_(options.frequency > 0. ? two_pi * options.frequency : above_loads * fastest_load(machine)),
-        tolerance_(options.tolerance > 0. || limit_ > 0. ? options.tolerance : usual_tolerance)
+        elements_alone_(limit_ > 0. && !(options.tolerance > 0.)),
+        tolerance_(options.tolerance > 0.                                                   ? options.tolerance
+                   : options.frequency > 0. || (limit_ > 0. && shortfall.n_elements() == 0) ? 0.
+                                                                                            : usual_tolerance)
   {
     const auto wrong = [&](const std::string &text) { throw std::invalid_argument(options.place + ": " + text); };
     if (options.n_modes == 0)
@@ -254,7 +262,10 @@ public:
     std::ostringstream text;
     text.precision(4);
     const auto statics = [&]
-    { text << "as many as leave at most " << 100. * tolerance_ << " % of a static deflection out"; };
+    {
+      text << "as many as leave at most " << 100. * tolerance_ << " % of a static deflection "
+           << (elements_alone_ ? "under forces of elements out" : "out");
+    };
     if (options_.n_modes > 0)
       text << "as many as reduction.modes says";
     else if (options_.frequency > 0.)
@@ -275,7 +286,7 @@ private:
   /// found + 1 where all that were found do not suffice.
   int enough_for_statics(const DenseModes &modes) const
   {
-    const VectorXd left  = shortfall_.of(modes);
+    const VectorXd left  = shortfall_.of(modes, elements_alone_);
     int            count = 0;
     while (count < left.size() && left[count] > tolerance_)
       ++count;
@@ -285,8 +296,9 @@ private:
   const SuperpositionOptions &options_;
   const StaticShortfall      &shortfall_;
   int                         n_;
-  double                      limit_;     ///< [rad/s]; 0: by the tolerance
-  double                      tolerance_; ///< 0: by the limit
+  double                      limit_;          ///< [rad/s]; 0: by the tolerance
+  bool                        elements_alone_; ///< loads count by their frequency
+  double                      tolerance_;      ///< 0: by the limit
   bool                        ended_ = false;
 };
 

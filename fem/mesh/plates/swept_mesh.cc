@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 namespace gestell::fem
 {
@@ -21,6 +22,7 @@ namespace
 {
 
 constexpr double worst_corner = 0.02; // corner_quality() of cells around holes
+constexpr double lost_volume  = 0.03; // of a solid: the polygon of a hole that takes half of a plate leaves 0.026 to it
 
 using Limits = std::array<std::vector<std::vector<double>>, 3>; // of each sheet
 
@@ -52,6 +54,7 @@ public:
     for (int cell = 0; cell < mesh.n_cells(); ++cell)
       if (corner_quality(mesh, cell) < worst_corner)
         throw NotSwept("cells around the hole near " + text(mesh.points[mesh.corners(cell)[0]]) + " m would fold");
+    check_volumes();
     mesh.takes_one_size = true;
     mesh.statements.push_back(wall_statement(lattice_, sheets_));
     add_skin(result_, head_of(specification_), options_.bodies,
@@ -127,6 +130,25 @@ private:
             bricks.push_back(lattice_.index(at));
         }
     return bricks;
+  }
+
+  /// What fills a hole or stands in no lattice must not be lost.
+  void check_volumes() const
+  {
+    const Mesh         &mesh = result_.mesh;
+    std::vector<double> volumes(model_.solids.size(), 0.);
+    for (int cell = 0; cell < mesh.n_cells(); ++cell)
+      for (const auto &piece : cell_shape(mesh.kind(cell)).pieces)
+      {
+        const auto at = [&](int k) -> const Vector3 & { return mesh.points[mesh.corners(cell)[piece[k]]]; };
+        volumes[mesh.cell_solid[cell]] += dot(at(1) - at(0), cross(at(2) - at(0), at(3) - at(0))) / 6.;
+      }
+    for (std::size_t i = 0; i < volumes.size(); ++i)
+      if (std::abs(volumes[i] - model_.solids[i].volume) > lost_volume * model_.solids[i].volume)
+        throw std::invalid_argument(
+            options_.place + ": plates = \"swept\" makes " + text(volumes[i]) + " m^3 of solid \"" +
+            model_.solids[i].name + "\", which has " + text(model_.solids[i].volume) +
+            " m^3: it fills a hole, or has walls that sweeping misses; leave plates out, or draw it as one solid");
   }
 
   /// Before they are made.

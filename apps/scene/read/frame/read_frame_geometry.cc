@@ -204,6 +204,10 @@ fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecificatio
   mesh.layers    = table.whole("layers");
   if (mesh.layers < 1)
     throw table.error("layers", "needs the number of cells through a plate, 1 or more");
+  if (table.has("layers") && mesh.plates != fem::Plates::swept)
+    throw table.error("layers", "counts cells through swept plates; give plates = \"swept\", or leave it out");
+  if (mesh.curved && mesh.plates == fem::Plates::swept)
+    throw table.error("curved", "is for tetrahedra, the sides of swept cells are straight; leave it or plates out");
   if (mesh.bodies < 1)
     throw table.error("bodies", "needs the number of bodies expected, 1 or more");
   std::vector<std::string> own;
