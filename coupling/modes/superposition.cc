@@ -341,7 +341,7 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
                            " % of their own damping; damping = \"full\" keeps it");
 }
 
-/// Loads whose frequencies the modes do not reach, or nobody knows.
+/// Notes loads above the highest mode kept, and forces of elements, whose frequencies are unknown.
 void note_loads(const Machine &machine, const SuperpositionOptions &options, const ModeCount &rule,
                 Superposition &result)
 {

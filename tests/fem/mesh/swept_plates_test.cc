@@ -7,6 +7,7 @@
 #include "fem/values/vector3.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/mesh_measures.h"
+#include "tests/support/refusal.h"
 
 #include <gmock/gmock.h>
 #include <gmsh.h>
@@ -197,6 +198,20 @@ TEST(SweptPlates, KeepTheirSolidsApart)
     of[mesh.cell_solid[i / 6]] += six_volumes(mesh, pieces[i]) / 6.;
   EXPECT_NEAR(of[0], 1e-9 * 400. * 80. * 8., 1e-15);
   EXPECT_NEAR(of[1], 1e-9 * 100. * 80. * 20., 1e-15);
+}
+
+/// A pin in a bore of the plate has no place in the lattice: its mass would be lost.
+TEST(SweptPlates, RefuseASolidThatFillsAHole)
+{
+  const auto plugged = []
+  {
+    occ::addBox(0., 0., 0., 400., 200., 8.);
+    const int                     pin = occ::addCylinder(100., 100., 0., 0., 0., 8., 30.);
+    gmsh::vectorpair              result;
+    std::vector<gmsh::vectorpair> map;
+    occ::fragment({{3, 1}}, {{3, pin}}, result, map);
+  };
+  gestell::tests::expect_refusal([&] { make_mesh(swept(draw("plugged.step", plugged), 0.1)); }, "it fills a hole");
 }
 
 TEST(SweptPlates, HaveBoresThroughSeveralSolids)
