@@ -92,6 +92,7 @@ std::string choice_text(const std::string &name, const std::string &value)
   };
   using fem::InterfaceCoupling;
   const std::map<int, const char *> couplings{{int(InterfaceCoupling::rigid), "rigid"},
+                                              {int(InterfaceCoupling::flexible), "flexible"},
                                               {int(InterfaceCoupling::average), "average"},
                                               {int(InterfaceCoupling::point), "point"},
                                               {int(InterfaceCoupling::node), "node"}};

@@ -17,12 +17,19 @@ namespace gestell::apps
 namespace
 {
 
-/// Reads the frame's file and finds its surfaces and where they are, where this build can.  @return what was found
-std::string try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings)
+/// What the frame's file holds, for people.
+struct Geometry
+{
+  std::string text;
+  double      diagonal = 0.; ///< [m]
+};
+
+/// Reads the frame's file and finds its surfaces and where they are, where this build can.
+Geometry try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings)
 {
   if (!coupling::has_frame_service())
-    return frame.cad + " is there; this build cannot read it";
-  const auto [found, notes, statements, centroids] = coupling::mesh_service().inspect(frame);
+    return {frame.cad + " is there; this build cannot read it"};
+  const auto [found, notes, statements, centroids, diagonal] = coupling::mesh_service().inspect(frame);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
   for (fem::InterfaceSpecification &interface : frame.interfaces)
     if (const auto centroid = centroids.find(interface.name); centroid != centroids.end() && !interface.position)
@@ -30,7 +37,7 @@ std::string try_geometry(fem::FrameSpecification &frame, std::vector<std::string
   std::string text = frame.cad + ": " + found + "; not meshed";
   for (const std::string &statement : statements)
     text += "\nframe: " + statement;
-  return text;
+  return {text, diagonal};
 }
 
 /// How many [element.NAME] the scene has, whatever each of them becomes: of some a force, a mass, several contacts.
@@ -55,14 +62,19 @@ int check(const CommonOptions &options)
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)
   {
-    geometry = try_geometry(scene.frame.geometry, warnings);
+    geometry = try_geometry(scene.frame.geometry, warnings).text;
     loose    = check_scene(scene); // the places of interfaces are known now
   }
+  std::vector<double> diagonals;
   for (coupling::FramePart &part : scene.frame.parts.parts)
-    geometry += (geometry.empty() ? "" : "\nframe: ") + part.name + ": " + try_geometry(part.geometry, warnings);
+  {
+    const auto [text, diagonal] = try_geometry(part.geometry, warnings);
+    geometry += (geometry.empty() ? "" : "\nframe: ") + part.name + ": " + text;
+    diagonals.push_back(diagonal);
+  }
   if (scene.frame.source == FrameSource::parts)
   {
-    coupling::require_meeting(scene.frame.parts);
+    coupling::require_meeting(scene.frame.parts, diagonals);
     loose = check_scene(scene);
   }
   check_start(scene);

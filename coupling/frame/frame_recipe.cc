@@ -139,12 +139,13 @@ public:
   }
   void add(const std::string &name, const fem::InterfaceSpecification &value)
   {
-    const auto &[own, surfaces, coupling, position, place, radius, what] = value; // what: for messages
+    const auto &[own, surfaces, coupling, position, place, radius, degree, what] = value; // what: for messages
     add(name, own);
     add(name + ".surfaces", surfaces);
     add(name + ".coupling", coupling);
     add(name + ".position", position);
     add(name + ".radius", radius);
+    add(name + ".degree", degree);
   }
   void add(const std::string &name, const fem::CutSpecification &value)
   {
@@ -155,7 +156,8 @@ public:
   }
   void add(const std::string &name, const fem::MeshOptions &value)
   {
-    const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, plates, layers, place] = value;
+    const auto &[size, surface_size, max_cells, gap, bodies, defeature, overlaps, curved, plates, layers, place] =
+        value;
     add(name + ".size", size);
     add(name + ".surface", surface_size);
     add(name + ".max_cells", max_cells);
@@ -207,7 +209,7 @@ public:
   }
   void add(const std::string &name, const fem::Interface &value)
   {
-    const auto &[own, position, coordinate, sign] = value;
+    const auto &[own, position, coordinate, sign, face] = value; // face: of parts, whose geometry counts
     add(name, own);
     add(name + ".position", position);
     add(name + ".coordinate", coordinate);

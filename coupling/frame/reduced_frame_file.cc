@@ -22,7 +22,7 @@ using Eigen::MatrixXd;
 template <typename T, typename Archive>
 void each(const std::string &at, T &value, Archive &archive);
 
-constexpr const char *title = "Gestell reduced frame 8"; // raise the number with the format
+constexpr const char *title = "Gestell reduced frame 9"; // raise the number with the format
 
 template <typename Matrix, typename Points>
 Matrix columns(const Points &points)
@@ -145,11 +145,17 @@ private:
 template <typename Archive, typename Interface>
 void each_interface(const std::string &at, Interface &interface, Archive &archive)
 {
-  auto &[name, position, coordinate, sign] = interface;
+  auto &[name, position, coordinate, sign, face] = interface;
+  auto &[centre, axes, half, degree, of_fields]  = face;
   archive(at + "/name", name);
   archive(at + "/position", position);
   archive(at + "/coordinate", coordinate);
   archive(at + "/sign", sign);
+  archive(at + "/face/centre", centre);
+  archive(at + "/face/axes", axes);
+  archive(at + "/face/half", half);
+  archive(at + "/face/degree", degree);
+  archive(at + "/face/coordinate", of_fields);
 }
 
 template <typename Archive, typename Output>
@@ -250,8 +256,13 @@ void require_consistent(const ReducedFrame &frame)
               (frame.displacement.cols() == n && frame.displacement.rows() == Eigen::Index(3 * frame.points.size())),
           "'displacement'");
   for (const auto &interface : frame.interfaces)
+  {
     for (const int i : interface.coordinate)
       require(i >= -1 && i < frame.n_interface, "an interface coordinate");
+    for (const int i : interface.face.coordinate)
+      require(i >= 0 && i < frame.n_interface, "the coordinate of a field");
+    require(int(interface.face.coordinate.size()) == fem::n_fields(interface.face.degree), "the degree of a face");
+  }
   for (const auto &output : frame.outputs)
     require(output.on_q.size() == n && output.on_v.size() == n && (output.on_a.size() == 0 || output.on_a.size() == n),
             "an output");

@@ -23,6 +23,7 @@ public:
     std::vector<std::string> notes, statements;
     /// [m] of the surfaces of each interface, as the CAD file tells them: without the rounding of a mesh.
     std::map<std::string, fem::Vector3> centroids;
+    double                              diagonal = 0.; ///< of the box around the solids [m]
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 

@@ -38,8 +38,7 @@ std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, c
   for (std::size_t i = 0; i < order.size(); ++i)
     new_index[order[i]] = int(i);
   for (auto &interface : interfaces)
-    for (int &coordinate : interface.coordinate)
-      coordinate = coordinate < 0 ? -1 : new_index[coordinate];
+    interface.renumber([&](int i) { return new_index[std::size_t(i)]; });
   return interfaces;
 }
 

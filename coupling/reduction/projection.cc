@@ -22,9 +22,7 @@ constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be ro
 std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, const std::vector<int> &q1)
 {
   for (auto &interface : interfaces)
-    for (int &i : interface.coordinate)
-      if (i >= 0)
-        i = int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin());
+    interface.renumber([&](int i) { return int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin()); });
   return interfaces;
 }
 

@@ -36,8 +36,8 @@ std::vector<fem::Interface> kept(const FrameOfParts &frame, const PartUnion &par
   for (fem::Interface interface : parts.interfaces)
     if (std::find(names.begin(), names.end(), interface.name) != names.end())
     {
-      for (int &i : interface.coordinate)
-        i = i < 0 ? -1 : column[std::size_t(i)];
+      interface.face = {}; // what its fields are to the joint, modes are to the frame
+      interface.renumber([&](int i) { return column[std::size_t(i)]; });
       interfaces.push_back(std::move(interface));
     }
   return interfaces;

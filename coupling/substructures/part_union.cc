@@ -26,8 +26,7 @@ void add_names(PartUnion &all, const ReducedFrame &part, Index first)
 {
   for (fem::Interface interface : part.interfaces)
   {
-    for (int &i : interface.coordinate)
-      i = i < 0 ? -1 : i + int(first);
+    interface.renumber([first](int i) { return i + int(first); });
     all.interfaces.push_back(std::move(interface));
   }
   for (fem::FrameOutput output : part.outputs)
@@ -78,6 +77,16 @@ MatrixXd motions_of(const fem::Interface &interface, Index n)
   for (int i = 0; i < 6; ++i)
     if (interface.coordinate[i] >= 0)
       H(i, interface.coordinate[i]) = interface.sign[i];
+  return H;
+}
+
+MatrixXd all_motions_of(const fem::Interface &interface, Index n)
+{
+  const auto &fields = interface.face.coordinate;
+  MatrixXd    H      = MatrixXd::Zero(6 + Index(fields.size()), n);
+  H.topRows(6)       = motions_of(interface, n);
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    H(6 + Index(k), fields[k]) = 1.;
   return H;
 }
 

@@ -29,6 +29,9 @@ PartUnion beside_each_other(const std::vector<ReducedFrame> &parts);
 /// Motions ux ... rz of an interface [6 x n], which has all six.
 Eigen::MatrixXd motions_of(const fem::Interface &interface, Eigen::Index n);
 
+/// The same, and below them the fields over its face [6 + n_fields x n].
+Eigen::MatrixXd all_motions_of(const fem::Interface &interface, Eigen::Index n);
+
 /// Position [m].
 Eigen::Vector3d position_of(const fem::Interface &interface);
 

@@ -111,7 +111,9 @@ void turn(ReducedFrame &part, const Placement &placement)
   turn_mass(part.facts.whole, placement);
   for (fem::Interface &interface : part.interfaces)
   {
-    interface.position = as_array(moved(interface.position, placement));
+    interface.position    = as_array(moved(interface.position, placement));
+    interface.face.centre = placement.at + placement.Q * interface.face.centre;
+    interface.face.axes   = (placement.Q * interface.face.axes).eval();
     interface.sign.fill(1.);
   }
 }

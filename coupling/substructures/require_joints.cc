@@ -54,6 +54,52 @@ void require_end(const FrameOfParts &frame, const FrameJoint &joint, const Joint
                             "\"rigid\" or \"average\"");
 }
 
+const fem::InterfaceSpecification &interface_of(const FrameOfParts &frame, const JointEnd &end)
+{
+  const auto &interfaces = frame.find(end.part)->geometry.interfaces;
+  return *std::find_if(interfaces.begin(), interfaces.end(),
+                       [&](const auto &own) { return own.name == end.interface; });
+}
+
+bool is_flexible(const fem::InterfaceSpecification &interface)
+{
+  return interface.coupling == fem::InterfaceCoupling::flexible;
+}
+
+std::string coupling_text(const fem::InterfaceSpecification &interface)
+{
+  return is_flexible(interface) ? "flexible of degree " + std::to_string(interface.degree) : "not flexible";
+}
+
+/// Flexible faces move alike: both sides of a weld or contact have fields of one degree.
+void require_alike(const FrameOfParts &frame, const FrameJoint &joint)
+{
+  const auto &first = interface_of(frame, joint.between[0]), &second = interface_of(frame, joint.between[1]);
+  if (!is_flexible(first) && !is_flexible(second))
+    return;
+  if (joint.kind == JointKind::bolts || joint.kind == JointKind::tie_rod)
+    refuse(joint.place, "holds a flexible face by springs at one node; give the interface coupling = \"average\", or "
+                        "make the joint a weld or a contact");
+  if (first.degree != second.degree || is_flexible(first) != is_flexible(second))
+    refuse(joint.place, "'" + joint.between[0].name() + "' is " + coupling_text(first) + ", '" +
+                            joint.between[1].name() + "' " + coupling_text(second) +
+                            "; give both coupling = \"flexible\" of one 'degree'");
+}
+
+/// Fields of a face that nothing holds would be coordinates without a meaning.
+void require_joined_faces(const FrameOfParts &frame)
+{
+  std::set<std::string> joined;
+  for (const FrameJoint &joint : frame.joints)
+    for (const JointEnd &end : joint.between)
+      joined.insert(end.name());
+  for (const FramePart &part : frame.parts)
+    for (const fem::InterfaceSpecification &interface : part.geometry.interfaces)
+      if (is_flexible(interface) && joined.count(JointEnd{part.name, interface.name}.name()) == 0)
+        refuse(part.place, "interface '" + interface.name +
+                               "' is flexible, but no joint holds it; make it coupling = \"rigid\" or \"average\"");
+}
+
 /// Joints that fasten faces: an interface takes part in one of them.
 void require_single_use(const FrameOfParts &frame)
 {
@@ -108,20 +154,6 @@ std::optional<Eigen::Vector3d> place_of(const FrameOfParts &frame, const JointEn
   return {};
 }
 
-/// Largest distance of interfaces of one part [m].
-double largest_span(const FrameOfParts &frame)
-{
-  double span = 0.;
-  for (const FramePart &part : frame.parts)
-    for (const auto &a : part.geometry.interfaces)
-      for (const auto &b : part.geometry.interfaces)
-        if (a.position && b.position)
-          span = std::max(span, (Eigen::Map<const Eigen::Vector3d>(a.position->data()) -
-                                 Eigen::Map<const Eigen::Vector3d>(b.position->data()))
-                                    .norm());
-  return span;
-}
-
 } // namespace
 
 void require_meeting(const FrameJoint &joint, const Eigen::Vector3d &first, const Eigen::Vector3d &second,
@@ -137,15 +169,23 @@ void require_meeting(const FrameJoint &joint, const Eigen::Vector3d &first, cons
                             rounded(1.1e3 * distance) + " mm\"");
 }
 
-void require_meeting(const FrameOfParts &frame)
+void require_meeting(const FrameOfParts &frame, const std::vector<double> &diagonals)
 {
-  constexpr double far_off = 0.01;
-  const double     usual   = far_off * largest_span(frame);
   for (const FrameJoint &joint : frame.joints)
     if (joint.kind != JointKind::tie_rod)
       if (const auto first = place_of(frame, joint.between[0]), second = place_of(frame, joint.between[1]);
           first && second)
-        require_meeting(joint, *first, *second, joint.tolerance.value_or(usual > 0. ? usual : INFINITY));
+        if (const double tolerance = tolerance_of(joint, frame, diagonals); tolerance > 0.)
+          require_meeting(joint, *first, *second, tolerance);
+}
+
+double tolerance_of(const FrameJoint &joint, const FrameOfParts &frame, const std::vector<double> &diagonals)
+{
+  constexpr double usual = 1e-3; // of the size of the larger part
+  double           size  = 0.;
+  for (const JointEnd &end : joint.between)
+    size = std::max(size, diagonals[std::size_t(frame.find(end.part) - frame.parts.data())]);
+  return joint.tolerance.value_or(usual * size);
 }
 
 void require_joints(const FrameOfParts &frame)
@@ -162,7 +202,9 @@ void require_joints(const FrameOfParts &frame)
                               : "joins part '" + joint.between[0].part +
                                     "' with itself; name an interface of another "
                                     "part");
+    require_alike(frame, joint);
   }
+  require_joined_faces(frame);
   require_single_use(frame);
   require_connected(frame);
 }

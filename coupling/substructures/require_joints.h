@@ -4,11 +4,13 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace gestell::coupling
 {
 
 /// Refuses what can be said against joints without any mesh: unknown ends, joints of a part with itself, two joints of
-/// one interface, parts that nothing joins.
+/// one interface, parts that nothing joins, flexible faces that nothing holds or a face of another kind.
 /// @throws std::invalid_argument, headed with the joint's place.
 void require_joints(const FrameOfParts &description);
 
@@ -16,8 +18,11 @@ void require_joints(const FrameOfParts &description);
 void require_meeting(const FrameJoint &joint, const Eigen::Vector3d &first, const Eigen::Vector3d &second,
                      double tolerance);
 
-/// The same of all joints whose interfaces have positions, within a hundredth of their distances in a part where no
-/// tolerance is given: what is far off.
-void require_meeting(const FrameOfParts &description);
+/// The same of all joints whose interfaces have positions.
+/// @param diagonals  of the boxes around the parts [m]; 0: not known.
+void require_meeting(const FrameOfParts &description, const std::vector<double> &diagonals);
+
+/// How far the nodes of a joint may be apart [m]: as it says, or a thousandth of the larger part.
+double tolerance_of(const FrameJoint &joint, const FrameOfParts &description, const std::vector<double> &diagonals);
 
 } // namespace gestell::coupling

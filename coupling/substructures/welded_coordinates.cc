@@ -2,8 +2,10 @@
 
 #include "coupling/substructures/require_joints.h"
 #include "coupling/substructures/rigid_node.h"
+#include "fem/values/number_text.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include <algorithm>
 
@@ -16,8 +18,6 @@ namespace
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-
-constexpr double usual_tolerance = 1e-3; ///< of the size of the larger part
 
 bool is_welded(const FrameJoint &joint)
 {
@@ -35,30 +35,88 @@ double size_of(const ReducedFrame &part)
   return box.isEmpty() ? 0. : box.diagonal().norm();
 }
 
-double tolerance_of(const FrameJoint &joint, const FrameOfParts &frame, const std::vector<ReducedFrame> &of)
+std::vector<double> sizes_of(const std::vector<ReducedFrame> &parts)
 {
-  if (joint.tolerance)
-    return *joint.tolerance;
-  double size = 0.;
-  for (const JointEnd &end : joint.between)
-    size = std::max(size, size_of(of[std::size_t(frame.find(end.part) - frame.parts.data())]));
-  return usual_tolerance * size;
+  std::vector<double> sizes;
+  for (const ReducedFrame &part : parts)
+    sizes.push_back(size_of(part));
+  return sizes;
+}
+
+/// Displacement of the face at x by (u_0, theta, a) of its interface [3 x 6 + n_fields].
+MatrixXd displacement_at(const fem::Interface &interface, const Vector3d &x)
+{
+  MatrixXd H(3, 6 + interface.face.coordinate.size());
+  H.leftCols<6>()           = carried(position_of(interface), x).topRows<3>();
+  H.rightCols(H.cols() - 6) = fields_at(interface.face, x);
+  return H;
+}
+
+/// Points of the rectangle around a face that tell polynomials of its degree apart.
+std::vector<Vector3d> samples_of(const fem::PlaneFace &face)
+{
+  std::vector<Vector3d> points;
+  const int             n = face.degree + 1;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      points.push_back(face.centre + (2. * i / n - 1.) * face.half[0] * face.axes.col(0) +
+                       (2. * j / n - 1.) * face.half[1] * face.axes.col(1));
+  return points;
+}
+
+/// (u_0, theta, a) of the second face that moves as the first one does: T of polynomials of one degree in one plane.
+MatrixXd following(const FrameJoint &joint, const fem::Interface &first, const fem::Interface &second)
+{
+  if (first.face.degree == 0)
+    return carried(position_of(first), position_of(second));
+  constexpr double parallel = 0.9998; // cosine of a degree
+  if (std::abs(first.face.axes.col(2).dot(second.face.axes.col(2))) < parallel)
+    throw std::invalid_argument(joint.place + ": the flexible faces '" + first.name + "' and '" + second.name +
+                                "' do not lie in parallel planes; turn a part by its 'placement', or join them by "
+                                "coupling = \"rigid\"");
+  const auto points = samples_of(first.face);
+  const auto rows   = Index(3 * points.size());
+  MatrixXd   one(rows, 6 + first.face.coordinate.size()), other = one;
+  for (std::size_t k = 0; k < points.size(); ++k)
+  {
+    one.middleRows<3>(Index(3 * k))   = displacement_at(first, points[k]);
+    other.middleRows<3>(Index(3 * k)) = displacement_at(second, points[k]);
+  }
+  return other.colPivHouseholderQr().solve(one);
+}
+
+constexpr double along_the_face = 0.5; ///< cosine of 60 degrees
+
+/// What the faces of a joint say of it, where they are plane.
+void require_facing(const FrameJoint &joint, const fem::Interface &first, const fem::Interface &second)
+{
+  if (!joint.closes())
+    return;
+  for (const fem::Interface *side : {&first, &second})
+    if (const double cosine = std::abs(joint.normal.dot(side->face.axes.col(2)));
+        side->face.known() && cosine < along_the_face)
+      throw std::invalid_argument(joint.place + ": 'normal' is to point across the faces, but is " +
+                                  rounded(std::acos(cosine) * 180. / M_PI) + " degrees off the normal of '" +
+                                  side->name + "'");
 }
 
 } // namespace
 
 WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const std::vector<ReducedFrame> &of)
 {
-  WeldedCoordinates welded;
+  const std::vector<double> sizes = sizes_of(of);
+  WeldedCoordinates         welded;
   welded.kept.assign(std::size_t(parts.size()), 0);
   for (const FrameJoint &joint : frame.joints)
   {
     if (joint.kind != JointKind::tie_rod)
       require_meeting(joint, position_of(parts.at(joint.between[0])), position_of(parts.at(joint.between[1])),
-                      tolerance_of(joint, frame, of));
+                      tolerance_of(joint, frame, sizes));
     if (is_welded(joint))
-      for (const int i : parts.at(joint.between[1]).coordinate)
+      for (const int i : parts.at(joint.between[1]).coordinates())
         welded.kept[std::size_t(i)] = -1;
+    if (joint.kind != JointKind::tie_rod)
+      require_facing(joint, parts.at(joint.between[0]), parts.at(joint.between[1]));
   }
   int n_joined = 0;
   for (int &column : welded.kept)
@@ -71,8 +129,8 @@ WeldedCoordinates weld(const FrameOfParts &frame, const PartUnion &parts, const 
     if (is_welded(joint))
     {
       const fem::Interface &first = parts.at(joint.between[0]), &second = parts.at(joint.between[1]);
-      welded.G += motions_of(second, parts.size()).transpose() * carried(position_of(first), position_of(second)) *
-                  motions_of(first, parts.size()) * welded.G;
+      welded.G += all_motions_of(second, parts.size()).transpose() * following(joint, first, second) *
+                  all_motions_of(first, parts.size()) * welded.G;
     }
   return welded;
 }

@@ -1,6 +1,10 @@
 #include "fem/assembly/interfaces.h"
 
+#include "fem/assembly/rigid_motions.h"
+
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
 
 #include <sstream>
 #include <stdexcept>
@@ -31,6 +35,55 @@ void require_plane(const CoupledPatch &coupled, const QuadraticMesh &mesh)
     throw std::invalid_argument(head(coupled.specification) +
                                 ": the points of its surfaces lie on one line, which leaves a rotation undefined; six "
                                 "coordinates need a surface that spans a plane.");
+}
+
+Eigen::Matrix3Xd points_of(const SurfacePatch &patch, const QuadraticMesh &mesh)
+{
+  Eigen::Matrix3Xd points(3, patch.nodes.size());
+  for (std::size_t k = 0; k < patch.nodes.size(); ++k)
+    points.col(Eigen::Index(k)) = Eigen::Map<const Eigen::Vector3d>(mesh.points[patch.nodes[k]].data());
+  return points;
+}
+
+/// Of the skin, outward; zero where its triangles do not all look one way.
+Eigen::Vector3d plane_normal(const SurfacePatch &patch, const QuadraticMesh &mesh)
+{
+  constexpr double bent   = 1e-9; // 1 - cos of 0.0026 degrees
+  const auto       corner = [&](const auto &face, int k)
+  { return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh.points[face[k]].data())); };
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::array<int, 6> &face : patch.faces)
+    sum += 0.5 * (corner(face, 1) - corner(face, 0)).cross(corner(face, 2) - corner(face, 0));
+  return sum.norm() > (1. - bent) * patch.area ? Eigen::Vector3d(sum.normalized())
+                                               : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
+/// Whether polynomials of the face's degree differ on its nodes.
+bool tells_apart(const PlaneFace &face, const Eigen::Matrix3Xd &points)
+{
+  constexpr double   dependent = 1e-6; // of the largest pivot
+  const Eigen::Index n         = polynomials_at(face, face.centre).size();
+  Eigen::MatrixXd    values(points.cols(), n);
+  for (Eigen::Index k = 0; k < points.cols(); ++k)
+    values.row(k) = polynomials_at(face, points.col(k));
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(values);
+  return qr.setThreshold(dependent).rank() == n;
+}
+
+void make_flexible(CoupledPatch &coupled, const QuadraticMesh &mesh)
+{
+  PlaneFace &face = coupled.face;
+  if (!face.known())
+    throw std::invalid_argument(head(coupled.specification) +
+                                ": its surfaces do not lie in one plane, which fields of a flexible face need; join it "
+                                "by coupling = \"rigid\" or \"average\", or choose a plane face");
+  const int  degree = face.degree = coupled.specification.degree;
+  const auto points               = points_of(coupled.patch, mesh);
+  if (!tells_apart(face, points))
+    throw std::invalid_argument(head(coupled.specification) + ": the mesh has " + std::to_string(points.cols()) +
+                                " nodes on this face, too few to tell fields of degree " + std::to_string(degree) +
+                                " apart; mesh it finer (mesh = { \"" + coupled.specification.surfaces.front() +
+                                "\" = \"... mm\" }), or lower the degree");
 }
 
 void require_apart(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
@@ -84,6 +137,9 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
     if (interface.coupling == InterfaceCoupling::point)
       shrink_to_point(coupled, quadratic);
     require_plane(coupled, quadratic);
+    coupled.face = plane_face(points_of(coupled.patch, quadratic), plane_normal(coupled.patch, quadratic));
+    if (interface.coupling == InterfaceCoupling::flexible)
+      make_flexible(coupled, quadratic);
     result.push_back(std::move(coupled));
   }
   constraints.n_interface_coordinates = 0;
@@ -104,6 +160,27 @@ void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first
   }
 }
 
+void tie_flexible(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, MultipointConstraints &constraints)
+{
+  for (const int node : coupled.patch.nodes)
+  {
+    const Eigen::Vector3d             x   = Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
+    const Eigen::Matrix<double, 3, 6> R   = rigid_motions_of_point(mesh.points[node], coupled.position);
+    const Eigen::Matrix3Xd            phi = fields_at(coupled.face, x);
+    for (int d = 0; d < 3; ++d)
+    {
+      Combination motion;
+      for (int i = 0; i < 6; ++i)
+        if (R(d, i) != 0.)
+          motion.emplace_back(first + i, R(d, i));
+      for (Eigen::Index k = 0; k < phi.cols(); ++k)
+        if (phi(d, k) != 0.)
+          motion.emplace_back(first + 6 + int(k), phi(d, k));
+      constraints.tie(3 * node + d, std::move(motion));
+    }
+  }
+}
+
 void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
                     MultipointConstraints &constraints)
 {
@@ -115,6 +192,9 @@ void tie_interfaces(const std::vector<CoupledPatch> &interfaces, const Quadratic
     {
     case InterfaceCoupling::rigid:
       tie_rigid(coupled, mesh, first, constraints);
+      break;
+    case InterfaceCoupling::flexible:
+      tie_flexible(coupled, mesh, first, constraints);
       break;
     case InterfaceCoupling::average:
     case InterfaceCoupling::point:

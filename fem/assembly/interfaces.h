@@ -16,8 +16,10 @@ struct CoupledPatch
   InterfaceSpecification specification;
   SurfacePatch           patch;    ///< of InterfaceCoupling::node its one node, without faces
   Eigen::Vector3d        position; ///< x0 of the node [m]
+  PlaneFace              face{};   ///< of the patch
 
-  int n_coordinates() const { return specification.coupling == InterfaceCoupling::node ? 3 : 6; }
+  int n_motions() const { return specification.coupling == InterfaceCoupling::node ? 3 : 6; }
+  int n_coordinates() const { return n_motions() + n_fields(face.degree); }
 };
 
 /**
@@ -62,6 +64,15 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
  * @param first value number of the node's ux; ux uy uz rx ry rz follow.
  */
 void tie_rigid(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first, MultipointConstraints &constraints);
+
+/**
+ * Flexible face: every node at x of the patch moves as  u = u0 + theta x (x - x0) + sum_k a_k phi_k(x), see PlaneFace.
+ *
+ * Two faces with fields of one degree can be made to move alike whatever their meshes; between their nodes they move
+ * alike to what the mesh can follow of the fields.
+ */
+void tie_flexible(const CoupledPatch &coupled, const QuadraticMesh &mesh, int first,
+                  MultipointConstraints &constraints);
 
 /**
  * Averaging coupling (RBE3): the node takes the rigid motion p = (u0, theta) that fits the surface best,

@@ -209,7 +209,8 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
   }
   catch (const NotSwept &reason)
   {
-    result.model.notes.push_back("plates are not swept but meshed in tetrahedra, as " + std::string(reason.what()));
+    result.model.notes.push_back(options.place + ": plates are not swept but meshed in tetrahedra, as " +
+                                 std::string(reason.what()));
     judge_features(result, options);
     return false;
   }

@@ -45,8 +45,11 @@ std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
     Interface interface;
     interface.name     = patch.specification.name;
     interface.position = {patch.position[0], patch.position[1], patch.position[2]};
-    for (int i = 0; i < patch.n_coordinates(); ++i)
+    interface.face     = patch.face;
+    for (int i = 0; i < patch.n_motions(); ++i)
       interface.coordinate[i] = affine.coordinate(value++);
+    for (int i = patch.n_motions(); i < patch.n_coordinates(); ++i)
+      interface.face.coordinate.push_back(affine.coordinate(value++));
     result.push_back(std::move(interface));
   }
   return result;
@@ -176,7 +179,8 @@ RigidNodes rigid_nodes(const std::vector<SupportedPatch> &supports, const std::v
     if (support.support.kind == SupportKind::clamped)
       rigid.emplace_back("support " + support.support.name, support.patch.nodes);
   for (const CoupledPatch &interface : coupled)
-    if (interface.specification.coupling != InterfaceCoupling::average)
+    if (const auto coupling = interface.specification.coupling;
+        coupling != InterfaceCoupling::average && coupling != InterfaceCoupling::flexible)
       rigid.emplace_back("interface " + interface.specification.name, interface.patch.nodes);
   return rigid;
 }

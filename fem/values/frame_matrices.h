@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fem/values/face_fields.h"
 #include "fem/values/mass_properties.h"
 #include "fem/values/modal_ratios.h"
 #include "fem/values/sparse_matrix.h"
@@ -34,6 +35,19 @@ struct Interface
   std::array<double, 3> position{}; ///< [m]
   std::array<int, 6>    coordinate{-1, -1, -1, -1, -1, -1};
   std::array<double, 6> sign{1., 1., 1., 1., 1., 1.};
+  PlaneFace             face{}; ///< of its surfaces, and the coordinates of fields over them
+
+  /// All its coordinates in q: those of motions that are not held, then of fields.
+  std::vector<int> coordinates() const;
+  /// Calls each of them another: i becomes renamed(i).
+  template <typename Renamed>
+  void renumber(const Renamed &renamed)
+  {
+    for (int &i : coordinate)
+      i = i < 0 ? -1 : renamed(i);
+    for (int &i : face.coordinate)
+      i = renamed(i);
+  }
 };
 
 /// A force read off the frame:  on_q . q + on_v . q' + on_a . q'' + under_acceleration . g + constant.

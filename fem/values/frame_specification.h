@@ -76,10 +76,11 @@ struct Support
 
 enum class InterfaceCoupling
 {
-  rigid,   ///< RBE2: the surface moves as a rigid body with the node
-  average, ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
-  point,   ///< the point of the surface nearest to `position`: average over the triangles around it
-  node     ///< the corner of the mesh nearest to `position`, on the surfaces or, without any, on the whole skin
+  rigid,    ///< RBE2: the surface moves as a rigid body with the node
+  flexible, ///< the same, and the surface deforms in polynomials of `degree` (face_fields.h); of joints of parts
+  average,  ///< RBE3: the node moves as the area-weighted mean of the surface, the surface stays flexible
+  point,    ///< the point of the surface nearest to `position`: average over the triangles around it
+  node      ///< the corner of the mesh nearest to `position`, on the surfaces or, without any, on the whole skin
 };
 
 /// One node with six coordinates (ux uy uz rx ry rz) tied to surfaces; of `node` only three (ux uy uz).
@@ -91,6 +92,7 @@ struct InterfaceSpecification
   std::optional<Vector3>   position; ///< [m]; default: centroid of the surfaces
   std::string              place;
   double                   radius = 0.;          ///< of a point [m]: triangles within it; 0: those that meet there
+  int                      degree = 0;           ///< of a flexible one
   std::string              what   = "interface"; ///< what messages call its owner
 };
 

@@ -83,6 +83,14 @@ std::string joined_names(const coupling::RunResult &run, const SignalGroup &grou
   return names;
 }
 
+/// The legend names them, too; a title holds what fits into it.
+std::string names_in_title(const coupling::RunResult &run, const SignalGroup &group)
+{
+  constexpr std::size_t most_letters = 80;
+  const std::string     names        = joined_names(run, group);
+  return n_letters(names) <= most_letters ? ": " + names : ", " + std::to_string(group.columns.size()) + " signals";
+}
+
 Chart chart_of(const coupling::RunResult &run, const SignalGroup &group)
 {
   double size = 0.;
@@ -95,7 +103,7 @@ Chart chart_of(const coupling::RunResult &run, const SignalGroup &group)
   chart.height = 290.;
   chart.title  = quantity_of(group.unit);
   if (topic_of(group.unit) != ChartTopic::energy)
-    chart.title += ": " + joined_names(run, group);
+    chart.title += names_in_title(run, group);
   chart.x.label                  = "t [s]";
   chart.y.label                  = "[" + shown.unit + "]";
   const std::vector<double> time = column(run, 0);

@@ -52,7 +52,8 @@ public:
     Inspection result{counted(geometry.solids.size(), "solid") + ", " + rounded(geometry.volume) + " m^3",
                       geometry.notes,
                       geometry.statements,
-                      {}};
+                      {},
+                      fem::norm(fem::operator-(geometry.max, geometry.min))};
     for (const fem::InterfaceSpecification &interface : frame.interfaces)
       if (const auto centroid = centroid_of(interface, geometry))
         result.centroids[interface.name] = *centroid;

@@ -137,8 +137,10 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
               (raised ? "" : ", whose stresses do not show how much too stiff they are in bending");
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)
-      text += "; `gestell modes --converge 0.01` refines until they are within 1 %, hexahedra through thin walls "
-              "(frame.mesh.plates = \"swept\") need far fewer coordinates";
+      text += std::string("; `gestell modes --converge 0.01` of a frame from CAD refines until they are within 1 %") +
+              (mesh.cells.empty() ? ""
+                                  : ", hexahedra through thin walls (mesh.plates = \"swept\") need far fewer "
+                                    "coordinates");
   }
   return {std::move(text), warns};
 }

@@ -112,9 +112,8 @@ Groups groups_of(const std::vector<fem::Interface> &interfaces, const std::vecto
   for (const fem::Interface &interface : interfaces)
   {
     groups.emplace_back();
-    for (const int i : interface.coordinate)
-      if (i >= 0)
-        groups.back().push_back(int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin()));
+    for (const int i : interface.coordinates())
+      groups.back().push_back(int(std::lower_bound(q1.begin(), q1.end(), i) - q1.begin()));
   }
   return groups;
 }

@@ -33,6 +33,17 @@ inline Piece bar(const std::string &name, fem::InterfaceCoupling rear, fem::Inte
   return piece;
 }
 
+/// Bars whose faces are flexible.
+inline void make_flexible(Piece &piece, const std::string &interface, int degree)
+{
+  for (fem::InterfaceSpecification &own : piece.geometry.interfaces)
+    if (own.name == interface)
+    {
+      own.coupling = fem::InterfaceCoupling::flexible;
+      own.degree   = degree;
+    }
+}
+
 inline coupling::FrameJoint weld(const std::string &name, const coupling::JointEnd &first,
                                  const coupling::JointEnd &second)
 {

@@ -53,11 +53,12 @@ const std::vector<Key> &mesh_keys()
       key::choice("overlaps", {"refused", "once"}, true,
                   "solids that overlap would count twice what they share; `\"once\"` gives it to the solid that comes "
                   "first in the file"),
-      key::choice("plates", {"tetrahedra", "swept"}, true,
-                  "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
-                  "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
-                  "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
-                  "other face all is meshed in tetrahedra, and a note names the face"),
+      key::choice(
+          "plates", {"tetrahedra", "swept"}, true,
+          "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
+          "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
+          "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
+          "other face all is meshed in tetrahedra, and a note names the face"),
       key::plain("layers", Key::Form::whole, "of cells through a swept plate, at least").by_default(1.),
       key::truth(
           "curved", false,
@@ -165,20 +166,27 @@ const std::vector<Key> &support_keys()
 const std::vector<Key> &interface_keys()
 {
   static const std::vector<Key> keys = {
-      one_surface_key(), surfaces_key("names of its surfaces; a surface belongs to one interface at most"),
+      one_surface_key(),
+      surfaces_key("names of its surfaces; a surface belongs to one interface at most"),
       key::choice(
-          "coupling", {"rigid", "average", "point", "node"}, true,
+          "coupling", {"rigid", "average", "point", "node", "flexible"}, true,
           "`\"rigid\"`: the surface moves as a rigid body with the node; `\"average\"`: the node moves as the mean of "
           "the surface, weighted by area, a force spreads over it and the surface stays flexible; `\"point\"`: the "
           "node is the point of the surface nearest to `position` and takes the mean motion of the triangles around it "
           "(a note says so if it is far from `position`); `\"node\"`: the corner of the mesh nearest to `position`, on "
           "its "
-          "surfaces or, if it names none, on the whole skin, with its three displacements as they are and no rotation"),
+          "surfaces or, if it names none, on the whole skin, with its three displacements as they are and no rotation; "
+          "`\"flexible\"`: a plane face in a weld or contact of [parts](parts.md), which moves with the node and "
+          "deforms in "
+          "polynomials"),
       key::vector("position", kind::length, "of the node; of a point and of `\"node\"` required")
           .by_default("centroid"),
       key::number("radius", kind::length, "of a point: triangles of the surface within it")
           .from_zero()
-          .by_default("triangles that meet at the nearest corner")};
+          .by_default("triangles that meet at the nearest corner"),
+      key::plain("degree", Key::Form::whole,
+                 "of the polynomials of a flexible face, from 1 to 8: 3 (degree + 1)(degree + 2)/2 coordinates")
+          .by_default(4.)};
   return keys;
 }
 

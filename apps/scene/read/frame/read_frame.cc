@@ -4,11 +4,27 @@
 #include "apps/scene/read/frame/matrix_keys.h"
 #include "apps/scene/read/frame/parts_keys.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace gestell::apps
 {
+
+namespace
+{
+
+/// The mechanism acts on nodes with six motions, of which fields over a face know nothing.
+void refuse_flexible(const fem::FrameSpecification &frame)
+{
+  for (const fem::InterfaceSpecification &interface : frame.interfaces)
+    if (interface.coupling == fem::InterfaceCoupling::flexible)
+      throw std::invalid_argument(interface.place +
+                                  ": coupling = \"flexible\" is for faces that a weld or a contact of parts holds; "
+                                  "where a mechanism acts, a surface stays flexible with coupling = \"average\"");
+}
+
+} // namespace
 
 FrameRequest read_frame(const SceneTable &scene)
 {
@@ -37,6 +53,7 @@ FrameRequest read_frame(const SceneTable &scene)
   {
     request.source   = FrameSource::geometry;
     request.geometry = read_frame_geometry(frame->declared(frame_keys()), scene);
+    refuse_flexible(request.geometry);
   }
   else if (parts)
   {

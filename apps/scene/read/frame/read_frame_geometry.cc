@@ -145,6 +145,19 @@ fem::Support read_support(const SceneTable &any, const fem::FrameSpecification &
   return support;
 }
 
+void read_degree(const SceneTable &table, fem::InterfaceSpecification &interface)
+{
+  constexpr int largest = 8; // beyond it polynomials of neighbouring degrees differ by less than meshes resolve
+  const int     degree  = table.whole("degree");
+  if (interface.coupling == fem::InterfaceCoupling::flexible)
+    interface.degree = degree;
+  else if (table.has("degree"))
+    throw table.error("degree", "belongs to coupling = \"flexible\"; leave it out");
+  if (degree < 1 || degree > largest)
+    throw table.error("degree",
+                      "got " + std::to_string(degree) + "; needs a whole number from 1 to " + std::to_string(largest));
+}
+
 fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::FrameSpecification &frame)
 {
   const SceneTable table = any.declared(interface_keys());
@@ -156,7 +169,8 @@ fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::Fra
   interface.coupling         = coupling == "rigid"     ? fem::InterfaceCoupling::rigid
                                : coupling == "average" ? fem::InterfaceCoupling::average
                                : coupling == "point"   ? fem::InterfaceCoupling::point
-                                                       : fem::InterfaceCoupling::node;
+                               : coupling == "node"    ? fem::InterfaceCoupling::node
+                                                       : fem::InterfaceCoupling::flexible;
   const bool point           = interface.coupling == fem::InterfaceCoupling::point;
   const bool node            = interface.coupling == fem::InterfaceCoupling::node;
   if (!node || table.has("surface") || table.has("surfaces"))
@@ -167,6 +181,7 @@ fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::Fra
     throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
   if (point)
     interface.radius = table.value_or("radius", 0.);
+  read_degree(table, interface);
   return interface;
 }
 
