@@ -158,6 +158,12 @@ Session::Session(const std::string &path, const std::vector<std::string> &overri
 {
 }
 
+Session::Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch)
+    : path_(scene.file), overrides_(overrides), scripts_(scene.frame.geometry.scripts), scene_(std::move(scene)),
+      watch_(watch)
+{
+}
+
 void Session::check()
 {
   if (!checked_)

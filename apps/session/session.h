@@ -46,6 +46,8 @@ public:
   /// @param overrides  "key.path=value"
   explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
+  /// A scene that was read before, from the file with these overrides.
+  Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch);
 
   const Scene &scene() const { return scene_; }
 

@@ -1,0 +1,163 @@
+#include "apps/study/file/read_variable.h"
+
+#include "apps/study/file/study_keys.h"
+#include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Type = SceneNode::Type;
+
+bool is_number(const SceneNode &value)
+{
+  return value.type == Type::integer || value.type == Type::real;
+}
+
+/// Takes the unit of a value for that of the variable, or refuses another one.
+double in_unit(const SceneNode &value, StudyVariable &variable, const std::string &key)
+{
+  const NumberWithUnit number = number_with_unit(value);
+  if (!number.is_number || !std::isfinite(number.value))
+    value.place.fail("variables." + variable.name + "." + key + ": needs a number, with its unit if it has one, such "
+                     "as \"900 kN/mm\", got " + described(value));
+  if (variable.unit.empty())
+    variable.unit = number.unit;
+  if (!number.unit.empty() && number.unit != variable.unit)
+    value.place.fail("variables." + variable.name + "." + key + ": is in " + number.unit + ", other values in " +
+                     variable.unit + "; give all values of a variable in one unit");
+  return number.value;
+}
+
+void read_range(const SceneNode &node, const SceneTable &table, StudyVariable &variable)
+{
+  if (!table.has("from") || !table.has("to"))
+    throw table.error("needs 'from' and 'to', the ends of its range, or 'levels'");
+  variable.from = in_unit(*node.find("from"), variable, "from");
+  variable.to   = in_unit(*node.find("to"), variable, "to");
+  if (!(variable.from < variable.to))
+    throw table.error("to", "needs a value above 'from' = " + short_text(variable.from) + ", got " +
+                                short_text(variable.to) + "; exchange them, or give 'levels'");
+}
+
+/// Words in the order in which they stand.
+void read_words(const SceneNode &levels, VariableRequest &request)
+{
+  for (const SceneNode &level : levels.elements)
+  {
+    const std::string word = level.type == Type::boolean ? (level.boolean ? "true" : "false") : level.text;
+    if (level.type != Type::boolean && level.type != Type::text)
+      level.place.fail("variables." + request.variable.name + ".levels: mixes words and numbers; give one of both");
+    if (std::find(request.words.begin(), request.words.end(), word) != request.words.end())
+      level.place.fail("variables." + request.variable.name + ".levels: '" + word + "' stands there twice");
+    request.words.push_back(word);
+    request.variable.levels.push_back(double(request.words.size()) - 1.);
+  }
+  request.variable.from = 0.;
+  request.variable.to   = double(request.words.size()) - 1.;
+}
+
+void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest &request)
+{
+  const SceneNode &levels = *node.find("levels");
+  if (table.has("from") || table.has("to"))
+    throw table.error("levels", "says the same as 'from' and 'to'; give one of them");
+  if (levels.type != Type::array || levels.elements.size() < 2)
+    throw table.error("levels", "needs an array of two values or more, such as [\"800 kN/mm\", \"900 kN/mm\"], got " +
+                                    described(levels));
+  if (!number_with_unit(levels.elements.front()).is_number)
+    return read_words(levels, request);
+  StudyVariable      &variable = request.variable;
+  std::vector<double> values;
+  for (const SceneNode &level : levels.elements)
+    values.push_back(in_unit(level, variable, "levels"));
+  try
+  {
+    variable = variable_of_levels(variable, values);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw table.error("levels", error.what());
+  }
+}
+
+void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable &variable)
+{
+  const std::string scatter = table.choice("scatter");
+  variable.scatter          = scatter == "none"      ? Scatter::none
+                              : scatter == "uniform" ? Scatter::uniform
+                                                     : Scatter::normal;
+  if (!table.has("width") && variable.scatter == Scatter::none)
+    return;
+  if (!table.has("width"))
+    throw table.error("scatter", "needs 'width', the half width of a uniform scatter or the standard deviation of a "
+                                 "normal one");
+  if (variable.scatter == Scatter::none)
+    throw table.error("width", "goes with scatter = \"uniform\" or \"normal\"; give one of them, or leave it out");
+  variable.width = in_unit(*node.find("width"), variable, "width");
+  if (!(variable.width > 0.))
+    throw table.error("width", "needs a number above 0, got " + short_text(variable.width));
+}
+
+} // namespace
+
+NumberWithUnit number_with_unit(const SceneNode &value)
+{
+  if (is_number(value))
+    return {true, value.number, ""};
+  if (value.type != Type::text)
+    return {};
+  char          *end = nullptr;
+  NumberWithUnit number;
+  number.value     = std::strtod(value.text.c_str(), &end);
+  number.is_number = end != value.text.c_str();
+  number.unit      = end;
+  number.unit.erase(0, std::min(number.unit.find_first_not_of(' '), number.unit.size()));
+  return number;
+}
+
+VariableRequest read_variable(const SceneNode &node, const SceneTable &given)
+{
+  const SceneTable table = given.declared(study_variable_keys());
+  VariableRequest  request;
+  StudyVariable   &variable = request.variable;
+  variable.name             = given.name();
+  variable.key              = table.text("key", "parameters." + variable.name);
+  variable.unit             = table.text("unit", "");
+  request.place             = table.has("key") ? table.place("key") : table.place();
+  if (table.has("levels"))
+    read_levels(node, table, request);
+  else
+    read_range(node, table, variable);
+  read_scatter(node, table, variable);
+  return request;
+}
+
+std::string VariableRequest::text(double level) const
+{
+  if (!words.empty())
+    return words.at(std::size_t(std::lround(level)));
+  return exact_text(level) + (variable.unit.empty() ? "" : ' ' + variable.unit);
+}
+
+double VariableRequest::level(const SceneNode &value) const
+{
+  if (words.empty())
+  {
+    StudyVariable copy = variable;
+    return in_unit(value, copy, "value");
+  }
+  const std::string word  = value.type == Type::boolean ? (value.boolean ? "true" : "false") : value.text;
+  const auto        found = std::find(words.begin(), words.end(), word);
+  if (found == words.end())
+    value.place.fail("variable " + variable.name + ": there is no level '" + word + "'" + suggestion(word, words));
+  return double(found - words.begin());
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,180 @@
+#include "apps/study/runs/scene_variants.h"
+
+#include "apps/scene/build/build_machine.h"
+#include "apps/scene/file/scene_file.h"
+#include "apps/scene/file/scene_override.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <set>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::vector<std::string> names_in(const SceneNode &table)
+{
+  std::vector<std::string> names;
+  for (const auto &entry : table.entries)
+    names.push_back(entry.first);
+  return names;
+}
+
+/// The value as an entry of the scene: a number, a truth or text.
+SceneNode value_node(const VariableRequest &request, double level)
+{
+  SceneNode node;
+  node.place.file = request.place;
+  node.text       = request.text(level);
+  node.type       = SceneNode::Type::text;
+  if (node.text == "true" || node.text == "false")
+  {
+    node.type    = SceneNode::Type::boolean;
+    node.boolean = node.text == "true";
+  }
+  else if (request.words.empty() && request.variable.unit.empty())
+  {
+    const bool whole = level == std::nearbyint(level) && std::abs(level) < 1e15;
+    node.type        = whole ? SceneNode::Type::integer : SceneNode::Type::real;
+    node.number      = level;
+  }
+  return node;
+}
+
+std::string shown_value(const SceneNode &node)
+{
+  switch (node.type)
+  {
+  case SceneNode::Type::text:
+    return '"' + node.text + '"';
+  case SceneNode::Type::boolean:
+    return node.boolean ? "true" : "false";
+  case SceneNode::Type::array:
+  {
+    std::string text;
+    for (const SceneNode &element : node.elements)
+      text += (text.empty() ? "" : ", ") + shown_value(element);
+    return '[' + text + ']';
+  }
+  case SceneNode::Type::table:
+  {
+    std::string text;
+    for (const auto &[key, value] : node.entries)
+      text += (text.empty() ? "" : ", ") + written_key(key) + " = " + shown_value(value);
+    return "{ " + text + " }";
+  }
+  default:
+    return node.text;
+  }
+}
+
+} // namespace
+
+SceneVariants::SceneVariants(const StudyFile &study, fem::Scripts scripts) : study_(study), scripts_(scripts)
+{
+  root_ = read_scene_file(study.scene, {});
+  for (const auto &[key, value] : study.settings)
+    apply_override(root_, key, value);
+  for (const std::string &text : study.overrides)
+    apply_override(root_, text);
+  for (const VariableRequest &request : study.variables)
+    check_key(request);
+}
+
+void SceneVariants::check_key(const VariableRequest &request) const
+{
+  const auto       path = key_segments(request.variable.key, {request.place, 0});
+  const SceneNode *node = &root_;
+  for (std::size_t i = 0; i < path.size(); ++i)
+  {
+    const SceneNode *next = node->find(path[i]);
+    const bool       leaf = i + 1 == path.size();
+    if (next && leaf && next->type == SceneNode::Type::table)
+      throw std::invalid_argument(request.place + ": '" + request.variable.key + "' is a table of the scene (" +
+                                  next->place.text() + "); name one of its entries: " + listed(names_in(*next)));
+    if (!next && leaf && i > 0 && path.front() != "parameters")
+      return; // an entry that may be left out: its reader knows it
+    if (!next)
+      throw std::invalid_argument(request.place + ": " + study_.scene + " has no " +
+                                  (path.front() == "parameters" && i > 0 ? "parameter '" : "entry '") + path[i] + "'" +
+                                  (i > 0 ? " in " + path[i - 1] : "") + suggestion(path[i], names_in(*node)));
+    node = next;
+  }
+}
+
+SceneNode SceneVariants::node_at(const Eigen::VectorXd &levels) const
+{
+  SceneNode root = root_;
+  for (std::size_t i = 0; i < study_.variables.size(); ++i)
+    apply_override(root, study_.variables[i].variable.key, value_node(study_.variables[i], levels[Eigen::Index(i)]));
+  return root;
+}
+
+Scene SceneVariants::at(const Eigen::VectorXd &levels) const
+{
+  return read_scene(node_at(levels), study_.scene, scripts_);
+}
+
+Parameters SceneVariants::parameters_at(const Eigen::VectorXd &levels) const
+{
+  const SceneNode root = node_at(levels);
+  return Parameters(root.find("parameters"));
+}
+
+std::vector<std::string> SceneVariants::overrides_at(const Eigen::VectorXd &levels) const
+{
+  std::vector<std::string> overrides;
+  for (const auto &[key, value] : study_.settings)
+    overrides.push_back(key + '=' + shown_value(value));
+  overrides.insert(overrides.end(), study_.overrides.begin(), study_.overrides.end());
+  for (std::size_t i = 0; i < study_.variables.size(); ++i)
+  {
+    const SceneNode value = value_node(study_.variables[i], levels[Eigen::Index(i)]);
+    overrides.push_back(study_.variables[i].variable.key + '=' +
+                        (value.type == SceneNode::Type::text ? '"' + value.text + '"' : value.text));
+  }
+  return overrides;
+}
+
+Eigen::VectorXd SceneVariants::middle() const
+{
+  Eigen::VectorXd levels(study_.variables.size());
+  for (std::size_t i = 0; i < study_.variables.size(); ++i)
+    levels[Eigen::Index(i)] =
+        study_.variables[i].words.empty() ? study_.variables[i].variable.centre() : 0.;
+  return levels;
+}
+
+void SceneVariants::check_ranges() const
+{
+  const auto tried = [&](const Eigen::VectorXd &levels, const std::string &what)
+  {
+    try
+    {
+      const Scene scene = at(levels);
+      require_run(scene);
+      check_scene(scene);
+    }
+    catch (const std::invalid_argument &error)
+    {
+      throw std::invalid_argument(what + "the scene does not accept it: " + error.what());
+    }
+  };
+  tried(middle(), study_.scene_place + ": with all variables in the middle of their ranges ");
+  for (std::size_t i = 0; i < study_.variables.size(); ++i)
+  {
+    const VariableRequest &request = study_.variables[i];
+    std::set<double>       levels(request.variable.levels.begin(), request.variable.levels.end());
+    levels.insert({request.variable.from, request.variable.to});
+    for (const double level : levels)
+    {
+      Eigen::VectorXd point   = middle();
+      point[Eigen::Index(i)]  = level;
+      tried(point, request.place + ": variable " + request.variable.name + " at " + request.text(level) +
+                       ", a level outside of what the scene takes: ");
+    }
+  }
+}
+
+} // namespace gestell::apps
