@@ -50,10 +50,10 @@ std::vector<Row> given_rows(const StudyFile &study, const SceneTable &table, con
   for (const SceneNode &given : rows->elements)
   {
     if (given.type != SceneNode::Type::array || given.elements.size() != columns.size())
-      given.place.fail("design.rows: row " + std::to_string(list.size() + 1) + " needs " +
-                       std::to_string(columns.size()) + " values, one of each column, got " +
-                       (given.type == SceneNode::Type::array ? std::to_string(given.elements.size())
-                                                             : described(given)));
+      given.place.fail(
+          "design.rows: row " + std::to_string(list.size() + 1) + " needs " + std::to_string(columns.size()) +
+          " values, one of each column, got " +
+          (given.type == SceneNode::Type::array ? std::to_string(given.elements.size()) : described(given)));
     Row row(study.variables.size(), 0.);
     for (std::size_t j = 0; j < columns.size(); ++j)
       row[columns[j]] = study.variables[columns[j]].level(given.elements[j]);
@@ -85,8 +85,9 @@ Eigen::MatrixXd read_list(const StudyFile &study, const SceneTable &table, const
       continue;
     const StudyVariable &variable = study.variables[i].variable;
     if (variable.levels.empty())
-      throw table.error("columns", "lacks variable " + variable.name + ", which has no levels; add it, with its "
-                                   "value in each row, or give it levels for which the rows are repeated");
+      throw table.error("columns", "lacks variable " + variable.name +
+                                       ", which has no levels; add it, with its "
+                                       "value in each row, or give it levels for which the rows are repeated");
     rows = crossed(rows, i, variable.levels);
   }
   Eigen::MatrixXd list(rows.size(), study.variables.size());

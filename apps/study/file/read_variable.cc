@@ -25,8 +25,10 @@ double in_unit(const SceneNode &value, StudyVariable &variable, const std::strin
 {
   const NumberWithUnit number = number_with_unit(value);
   if (!number.is_number || !std::isfinite(number.value))
-    value.place.fail("variables." + variable.name + "." + key + ": needs a number, with its unit if it has one, such "
-                     "as \"900 kN/mm\", got " + described(value));
+    value.place.fail("variables." + variable.name + "." + key +
+                     ": needs a number, with its unit if it has one, such "
+                     "as \"900 kN/mm\", got " +
+                     described(value));
   if (variable.unit.empty())
     variable.unit = number.unit;
   if (!number.unit.empty() && number.unit != variable.unit)
@@ -90,9 +92,7 @@ void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest
 void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable &variable)
 {
   const std::string scatter = table.choice("scatter");
-  variable.scatter          = scatter == "none"      ? Scatter::none
-                              : scatter == "uniform" ? Scatter::uniform
-                                                     : Scatter::normal;
+  variable.scatter = scatter == "none" ? Scatter::none : scatter == "uniform" ? Scatter::uniform : Scatter::normal;
   if (!table.has("width") && variable.scatter == Scatter::none)
     return;
   if (!table.has("width"))

@@ -22,7 +22,8 @@ using Type = SceneNode::Type;
 bool is_of_study(const std::string &override_text)
 {
   const std::string                     table = override_text.substr(0, override_text.find_first_of(".= "));
-  static const std::vector<std::string> tables{"variables", "outputs", "design", "surface", "optimise", "scene", "keep"};
+  static const std::vector<std::string> tables{"variables", "outputs", "design", "surface",
+                                               "optimise",  "scene",   "keep"};
   return std::find(tables.begin(), tables.end(), table) != tables.end();
 }
 
@@ -31,7 +32,8 @@ void check_name(const std::string &name, const SceneTable &table, std::vector<st
 {
   static const std::vector<std::string> columns{"run", "status", "cpu_s"};
   if (!is_identifier(name) || is_reserved_name(name))
-    throw table.error("'" + name + "' is no name for a column: it consists of letters, digits and underscores, begins "
+    throw table.error("'" + name +
+                      "' is no name for a column: it consists of letters, digits and underscores, begins "
                       "with no digit and is no function of formulas; choose another name");
   if (std::find(columns.begin(), columns.end(), name) != columns.end())
     throw table.error("'" + name + "' is a column of runs.csv already; choose another name");

@@ -33,15 +33,15 @@ struct OutputRequest
 /// A study file as it is read, its variables checked; what design, surface and optimise say is read by those who do it.
 struct StudyFile
 {
-  std::string                  path{}, name{}, description{};
-  std::string                  scene{};         ///< path of the scene
-  std::string                  scene_place{};   ///< where the study names it
-  std::vector<SceneNode::Entry> settings{};     ///< entries of the scene that hold in place of its own
-  std::vector<std::string>     overrides{};     ///< of the scene, from the command line
-  std::vector<VariableRequest> variables{};
-  std::vector<OutputRequest>   outputs{};
-  SceneNode                    root{};          ///< the whole file
-  bool                         keep = false;
+  std::string                   path{}, name{}, description{};
+  std::string                   scene{};       ///< path of the scene
+  std::string                   scene_place{}; ///< where the study names it
+  std::vector<SceneNode::Entry> settings{};    ///< entries of the scene that hold in place of its own
+  std::vector<std::string>      overrides{};   ///< of the scene, from the command line
+  std::vector<VariableRequest>  variables{};
+  std::vector<OutputRequest>    outputs{};
+  SceneNode                     root{}; ///< the whole file
+  bool                          keep = false;
 
   std::vector<StudyVariable> values() const;
 };

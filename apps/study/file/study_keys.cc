@@ -42,7 +42,8 @@ const std::vector<Key> &study_variable_keys()
       key::plain("levels", Key::Form::texts, "values that a factorial takes: numbers, texts with a unit, words")
           .by_default("`from`, `to`"),
       key::plain("unit", Key::Form::text, "of plain numbers").by_default("that of `from` or of the first level"),
-      key::choice("scatter", {"none", "uniform", "normal"}, true, "how it scatters about its value, for robust figures"),
+      key::choice("scatter", {"none", "uniform", "normal"}, true,
+                  "how it scatters about its value, for robust figures"),
       key::plain("width", Key::Form::quantity, "half width of a uniform scatter, standard deviation of a normal one")
           .by_default("none")};
   return keys;
@@ -61,8 +62,9 @@ const std::vector<Key> &study_design_keys()
       key::number("alpha", kind::number, "this distance, as a number").above_zero().by_default("by `star`"),
       key::plain("seed", Key::Form::whole, "of a Latin hypercube and of Sobol points; equal seeds, equal designs")
           .by_default("0"),
-      key::plain("columns", Key::Form::texts, "of a list: variables whose values stand in `rows`; the others have "
-                                              "`levels`, and each row is repeated for each of them")
+      key::plain("columns", Key::Form::texts,
+                 "of a list: variables whose values stand in `rows`; the others have "
+                 "`levels`, and each row is repeated for each of them")
           .by_default("all variables"),
       key::plain("rows", Key::Form::rows, "of a list: `[[\"900 kN/mm\", \"0.4 mm\"], ...]`, one row a run")
           .by_default("none")};

@@ -69,7 +69,7 @@ Segments event_names(const Scene &scene)
   for (const auto &joint : scene.joints)
     names.push_back(joint.name);
   for (const auto &one : scene.switches)
-    names.push_back(one.name);
+    names.push_back(one.request.name);
   return names;
 }
 
@@ -90,7 +90,8 @@ void check_event(const Segments &segments, const Scene &scene)
     refuse(segments, "names nothing of the scene that events happen to" +
                          suggestion(segments.size() < 2 ? "" : segments[1], names));
   if (segments.size() > 4)
-    refuse(segments, "has too many parts; an event is written events.NAME.KIND, with .first, .last, .count or a number");
+    refuse(segments,
+           "has too many parts; an event is written events.NAME.KIND, with .first, .last, .count or a number");
 }
 
 AnswerValue signal_value(const Segments &segments, const coupling::RunResult &run)
@@ -176,15 +177,18 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
   if (!node->is_number())
     refuse(segments, "is no number in a run's summary.json" +
                          (node->is_object() ? "; name one of its entries: " + listed(keys_of(*node)) : ""));
-  return {node->get<double>(), segments.front() == "energy" ? "J" : segments.back().find("mass") == std::string::npos ? "" : "kg"};
+  return {node->get<double>(), segments.front() == "energy"                        ? "J"
+                               : segments.back().find("mass") == std::string::npos ? ""
+                                                                                   : "kg"};
 }
 
 } // namespace
 
 const std::vector<std::string> &tables()
 {
-  static const Segments names{"signals", "events", "modes",  "frequencies_hz", "frame_frequencies_hz", "energy",
-                              "work",    "model",  "stress", "operating_poles", "outcome"};
+  static const Segments names{"signals", "events", "modes", "frequencies_hz", "frame_frequencies_hz",
+                              "energy",  "work",   "model", "stress",         "operating_poles",
+                              "outcome"};
   return names;
 }
 
@@ -194,8 +198,8 @@ void check(const std::vector<std::string> &segments, const Scene &scene)
     check_signal(segments, scene);
   else if (segments.front() == "events")
     check_event(segments, scene);
-  else if (is_mode(segments) && (segments.size() != 2 || !is_count(segments[1]) ||
-                                 std::stoi(segments[1]) > scene.modes.number))
+  else if (is_mode(segments) &&
+           (segments.size() != 2 || !is_count(segments[1]) || std::stoi(segments[1]) > scene.modes.number))
     refuse(segments, "needs the number of a mode from 1 to " + std::to_string(scene.modes.number) +
                          "; modes.number of the scene says how many are told");
   else if (segments.front() == "stress" && !scene.stress.given)

@@ -62,10 +62,9 @@ std::shared_ptr<const coupling::ReducedFrame> FrameShelf::frame(const Scene &sce
   if (scene.reduction.superposition || (path != FramePath::reduce && path != FramePath::from_file))
     return nullptr;
   const bool        drawn = drawn_ || scene.stress.given;
-  const bool        made = path == FramePath::reduce;
-  const std::string key  = made ? coupling::content_key(frame_origin(scene).recipe) : scene.frame.reduced_file;
-  const auto        found =
-      std::find_if(kept_.begin(), kept_.end(), [&](const Kept &kept) { return kept.first == key; });
+  const bool        made  = path == FramePath::reduce;
+  const std::string key   = made ? coupling::content_key(frame_origin(scene).recipe) : scene.frame.reduced_file;
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept &kept) { return kept.first == key; });
   if (found != kept_.end())
   {
     kept_.splice(kept_.begin(), kept_, found);

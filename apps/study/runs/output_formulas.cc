@@ -30,7 +30,8 @@ std::size_t entry_end(const std::string &text, std::size_t at)
     else
       while (at < text.size() && is_letter(text[at]))
         ++at;
-    if (at + 1 >= text.size() || text[at] != '.' || !(is_letter(text[at + 1]) || text[at + 1] == '"' || text[at + 1] == '\''))
+    if (at + 1 >= text.size() || text[at] != '.' ||
+        !(is_letter(text[at + 1]) || text[at + 1] == '"' || text[at + 1] == '\''))
       return at;
     ++at;
   }
@@ -74,8 +75,11 @@ Quantity in_unit(double value, const std::string &unit)
 
 std::string unit_of(const Quantity &quantity)
 {
-  static const std::vector<std::pair<Kind, std::string>> names = {
-      {kind::force, "N"}, {kind::torque, "N m"}, {kind::stiffness, "N/m"}, {kind::damping, "N s/m"}, {kind::pressure, "Pa"}};
+  static const std::vector<std::pair<Kind, std::string>> names = {{kind::force, "N"},
+                                                                  {kind::torque, "N m"},
+                                                                  {kind::stiffness, "N/m"},
+                                                                  {kind::damping, "N s/m"},
+                                                                  {kind::pressure, "Pa"}};
   if (!quantity.checked || equal(quantity.dimension, {}))
     return "";
   for (const auto &[kind, name] : names)
@@ -89,11 +93,11 @@ std::string unit_of(const Quantity &quantity)
 /// What is known while the outputs of a run are computed.
 struct OutputFormulas::Known
 {
-  const Parameters                      &parameters;
-  const Eigen::VectorXd                 &levels;
-  std::vector<AnswerValue>               entries;
-  std::map<std::size_t, Quantity>        outputs{};
-  std::vector<std::size_t>               open{};
+  const Parameters               &parameters;
+  const Eigen::VectorXd          &levels;
+  std::vector<AnswerValue>        entries;
+  std::map<std::size_t, Quantity> outputs{};
+  std::vector<std::size_t>        open{};
 };
 
 OutputFormulas::OutputFormulas(const StudyFile &study, const Scene &scene, const Parameters &parameters)
@@ -143,8 +147,8 @@ bool OutputFormulas::reads(const std::string &table) const
 
 int OutputFormulas::entry_of(const std::vector<std::string> &segments, const OutputRequest &output)
 {
-  const auto found = std::find_if(entries_.begin(), entries_.end(),
-                                  [&](const Entry &entry) { return entry.segments == segments; });
+  const auto found =
+      std::find_if(entries_.begin(), entries_.end(), [&](const Entry &entry) { return entry.segments == segments; });
   if (found != entries_.end())
     return int(found - entries_.begin());
   entries_.push_back({"answer_entry_" + std::to_string(entries_.size() + 1), segments,

@@ -20,7 +20,7 @@ public:
   /// @throws std::invalid_argument for what is no formula, and for entries that no run of this scene has
   OutputFormulas(const StudyFile &study, const Scene &scene, const Parameters &parameters);
 
-  const std::vector<std::string> &signals() const { return signals_; } ///< that are read, each once
+  const std::vector<std::string> &signals() const { return signals_; }   ///< that are read, each once
   bool                            reads(const std::string &table) const; ///< such as "energy"
 
   /// One an output.

@@ -42,6 +42,19 @@ SceneNode value_node(const VariableRequest &request, double level)
   return node;
 }
 
+/// Entries of the scene with their values; those of [parameters] one by one, for the others stay.
+std::vector<SceneNode::Entry> settings_of(const StudyFile &study)
+{
+  std::vector<SceneNode::Entry> settings;
+  for (const auto &[key, value] : study.settings)
+    if (key == "parameters" && value.type == SceneNode::Type::table)
+      for (const auto &[name, parameter] : value.entries)
+        settings.emplace_back("parameters." + name, parameter);
+    else
+      settings.emplace_back(key, value);
+  return settings;
+}
+
 std::string shown_value(const SceneNode &node)
 {
   switch (node.type)
@@ -74,7 +87,7 @@ std::string shown_value(const SceneNode &node)
 SceneVariants::SceneVariants(const StudyFile &study, fem::Scripts scripts) : study_(study), scripts_(scripts)
 {
   root_ = read_scene_file(study.scene, {});
-  for (const auto &[key, value] : study.settings)
+  for (const auto &[key, value] : settings_of(study))
     apply_override(root_, key, value);
   for (const std::string &text : study.overrides)
     apply_override(root_, text);
@@ -125,7 +138,7 @@ Parameters SceneVariants::parameters_at(const Eigen::VectorXd &levels) const
 std::vector<std::string> SceneVariants::overrides_at(const Eigen::VectorXd &levels) const
 {
   std::vector<std::string> overrides;
-  for (const auto &[key, value] : study_.settings)
+  for (const auto &[key, value] : settings_of(study_))
     overrides.push_back(key + '=' + shown_value(value));
   overrides.insert(overrides.end(), study_.overrides.begin(), study_.overrides.end());
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
@@ -141,8 +154,7 @@ Eigen::VectorXd SceneVariants::middle() const
 {
   Eigen::VectorXd levels(study_.variables.size());
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
-    levels[Eigen::Index(i)] =
-        study_.variables[i].words.empty() ? study_.variables[i].variable.centre() : 0.;
+    levels[Eigen::Index(i)] = study_.variables[i].words.empty() ? study_.variables[i].variable.centre() : 0.;
   return levels;
 }
 
@@ -169,8 +181,8 @@ void SceneVariants::check_ranges() const
     levels.insert({request.variable.from, request.variable.to});
     for (const double level : levels)
     {
-      Eigen::VectorXd point   = middle();
-      point[Eigen::Index(i)]  = level;
+      Eigen::VectorXd point  = middle();
+      point[Eigen::Index(i)] = level;
       tried(point, request.place + ": variable " + request.variable.name + " at " + request.text(level) +
                        ", a level outside of what the scene takes: ");
     }

@@ -30,7 +30,7 @@ std::string frame_key(const StudyRunner &runner, const Eigen::MatrixXd &levels)
 /// The row of a run in the table.
 void enter(const RunRow &row, StudyTable &table)
 {
-  const Eigen::Index at = row.run - 1;
+  const Eigen::Index at  = row.run - 1;
   StudyRun          &run = table.runs[std::size_t(at)];
   run.status             = row.status;
   run.message            = row.message;
@@ -67,12 +67,11 @@ bool StudyAnswer::complete() const
 
 StudyAnswer make_study(const StudyFile &study, const Design &design, StudyRunner &runner, const StudyCall &call)
 {
-  StudyAnswer answer{empty_table(study, design), design, 0, false};
-  StudyTable &table = answer.table;
+  StudyAnswer       answer{empty_table(study, design), design, 0, false};
+  StudyTable       &table = answer.table;
   const RowsText    text(study);
-  const StudyRecord record =
-      record_of(study, runner.variants(), table.n_runs(), frame_key(runner, table.levels));
-  StudyFolder folder(call.folder, record, text, table.levels);
+  const StudyRecord record = record_of(study, runner.variants(), table.n_runs(), frame_key(runner, table.levels));
+  StudyFolder       folder(call.folder, record, text, table.levels);
   for (const RunRow &row : folder.open(call.begin, call.share))
     enter(row, table);
   std::vector<RunOrder> orders;

@@ -9,13 +9,13 @@ namespace gestell::apps
 /// How the runs of a study are to be made.
 struct StudyCall
 {
-  std::filesystem::path                      folder{};
-  fem::Scripts                               scripts = fem::Scripts::harmless;
-  int                                        jobs    = 1;
-  StudyFolder::Begin                         begin   = StudyFolder::Begin::anew;
-  StudyShare                                 share{};
-  const std::atomic<bool>                   *stop = nullptr; ///< must not be null
-  std::function<void(int done, int n_runs)>  progress{};
+  std::filesystem::path                     folder{};
+  fem::Scripts                              scripts = fem::Scripts::harmless;
+  int                                       jobs    = 1;
+  StudyFolder::Begin                        begin   = StudyFolder::Begin::anew;
+  StudyShare                                share{};
+  const std::atomic<bool>                  *stop = nullptr; ///< must not be null
+  std::function<void(int done, int n_runs)> progress{};
 };
 
 /// A study with all its rows, as far as they are made.

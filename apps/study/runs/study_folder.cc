@@ -59,9 +59,9 @@ StudyShare share_of(const std::string &text)
 
 fs::path StudyFolder::rows_file(const StudyShare &share) const
 {
-  return folder_ / (share.is_whole() ? std::string("runs.csv")
-                                     : "runs_share_" + std::to_string(share.part) + "_of_" + std::to_string(share.of) +
-                                           ".csv");
+  return folder_ / (share.is_whole()
+                        ? std::string("runs.csv")
+                        : "runs_share_" + std::to_string(share.part) + "_of_" + std::to_string(share.of) + ".csv");
 }
 
 std::vector<fs::path> StudyFolder::share_files() const

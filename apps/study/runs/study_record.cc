@@ -34,7 +34,8 @@ void flatten(const SceneNode &node, const std::string &path, Entries &entries)
 /// Entries that say nothing about the numbers of a row.
 bool matters(const std::string &key)
 {
-  static const std::vector<std::string> others{"name", "description", "extends", "surface", "optimise", "keep", "scene"};
+  static const std::vector<std::string> others{"name",     "description", "extends", "surface",
+                                               "optimise", "keep",        "scene"};
   return std::find(others.begin(), others.end(), key) == others.end();
 }
 

@@ -83,9 +83,9 @@ void StudyRunner::keep(int number, const Result &result) const
 RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
 {
   RunRow row;
-  row.run            = number;
-  const double begin = cpu_of_process();
-  const auto   spent = [&] { return cpu_of_process() - begin; };
+  row.run                     = number;
+  const double          begin = cpu_of_process();
+  const auto            spent = [&] { return cpu_of_process() - begin; };
   std::optional<Result> result;
   try
   {
