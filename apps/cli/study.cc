@@ -43,7 +43,7 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
 {
   setenv("OPENBLAS_NUM_THREADS", "1", 1); // processes, not threads, do the work
   const StudyFile             study  = read_study(options.input, options.overrides);
-  const Design                design = read_design(study);
+  const StudyPoints           points = read_design(study);
   const std::filesystem::path folder = study_folder(options, study);
   require_writable(folder);
   StudyRunner  runner(study, options.scripts, study.keep ? folder : std::filesystem::path());
@@ -56,7 +56,7 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   call.progress = [&](int done, int n) { progress.show("runs", double(done) / n); };
   if (!asked.share.empty())
     call.share = share_of(asked.share);
-  const StudyAnswer answer = make_study(study, design, runner, call);
+  const StudyAnswer answer = make_study(study, points, runner, call);
   progress.done();
   std::cout << study.name << ": " << count_text(std::size_t(answer.n_made), "run") << " made";
   if (answer.n_failed() > 0)

@@ -5,6 +5,8 @@
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 namespace gestell::apps
 {
@@ -121,9 +123,17 @@ void refuse_others(const SceneTable &table, const std::string &type)
       throw table.error(key, "is a key of " + listed(types) + ", but the type is '" + type + "'; leave it out");
 }
 
+/// Coded values and back leave an error in the last digits.
+double rounded_level(double level)
+{
+  char text[40];
+  std::snprintf(text, sizeof text, "%.15g", level);
+  return std::strtod(text, nullptr);
+}
+
 } // namespace
 
-Design read_design(const StudyFile &study)
+StudyPoints read_design(const StudyFile &study)
 {
   const SceneNode *node = study.root.find("design");
   if (!node)
@@ -147,10 +157,14 @@ Design read_design(const StudyFile &study)
   table.finish();
   try
   {
-    Design design = make_design(request, study.values());
+    const auto variables = study.values();
+    Design     design    = make_design(request, variables);
     if (std::size_t(design.n_runs()) > most_runs)
       throw table.error("asks for " + std::to_string(design.n_runs()) + " runs; a million are the most");
-    return design;
+    const Eigen::MatrixXd levels = request.list.size() > 0
+                                       ? request.list
+                                       : physical_points(design.points, variables).unaryExpr(&rounded_level).eval();
+    return {design, levels};
   }
   catch (const std::invalid_argument &error)
   {

@@ -89,6 +89,23 @@ void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest
   }
 }
 
+void read_choices(const SceneNode &node, const SceneTable &table, VariableRequest &request)
+{
+  const SceneNode &choices = *node.find("choices");
+  if (table.has("levels") || table.has("from") || table.has("to"))
+    throw table.error("choices", "stand in place of 'levels' or 'from' and 'to'; give one of them");
+  if (choices.type != Type::table || choices.entries.size() < 2)
+    throw table.error("choices", "needs a table of two named values or more, got " + described(choices));
+  for (const auto &[word, value] : choices.entries)
+  {
+    request.words.push_back(word);
+    request.choices.push_back(value);
+    request.variable.levels.push_back(double(request.words.size()) - 1.);
+  }
+  request.variable.from = 0.;
+  request.variable.to   = double(request.words.size()) - 1.;
+}
+
 void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable &variable)
 {
   const std::string scatter = table.choice("scatter");
@@ -128,10 +145,13 @@ VariableRequest read_variable(const SceneNode &node, const SceneTable &given)
   VariableRequest  request;
   StudyVariable   &variable = request.variable;
   variable.name             = given.name();
-  variable.key              = table.text("key", "parameters." + variable.name);
-  variable.unit             = table.text("unit", "");
-  request.place             = table.has("key") ? table.place("key") : table.place();
-  if (table.has("levels"))
+  request.keys  = table.has("key") ? table.texts("key") : std::vector<std::string>{"parameters." + variable.name};
+  variable.key  = request.keys.front();
+  variable.unit = table.text("unit", "");
+  request.place = table.has("key") ? table.place("key") : table.place();
+  if (table.has("choices"))
+    read_choices(node, table, request);
+  else if (table.has("levels"))
     read_levels(node, table, request);
   else
     read_range(node, table, variable);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 namespace gestell::apps
 {
@@ -67,11 +68,12 @@ void read_variables(const SceneTable &root, const SceneNode &node, StudyFile &st
     check_name(table.name(), table, names);
     study.variables.push_back(read_variable(*node.find("variables")->find(table.name()), table));
   }
-  for (auto first = study.variables.begin(); first != study.variables.end(); ++first)
-    for (auto second = first + 1; second != study.variables.end(); ++second)
-      if (first->variable.key == second->variable.key)
-        throw std::invalid_argument(second->place + ": '" + second->variable.key + "' is the key of variable " +
-                                    first->variable.name + " already; leave one of them out");
+  std::map<std::string, std::string> takers;
+  for (const VariableRequest &request : study.variables)
+    for (const std::string &key : request.keys)
+      if (const auto [taker, is_new] = takers.emplace(key, request.variable.name); !is_new)
+        throw std::invalid_argument(request.place + ": '" + key + "' takes the value of variable " + taker->second +
+                                    " already; leave it out in one of them");
 }
 
 void read_outputs(const SceneTable &root, const SceneNode &node, StudyFile &study, std::vector<std::string> &names)

@@ -14,7 +14,9 @@ namespace gestell::apps
 struct VariableRequest
 {
   StudyVariable            variable;
-  std::vector<std::string> words{}; ///< of a variable that takes words or truths: level k is the k-th of them
+  std::vector<std::string> keys{};    ///< all that take its value, variable.key the first
+  std::vector<std::string> words{};   ///< of a variable that takes words or truths: level k is the k-th of them
+  std::vector<SceneNode>   choices{}; ///< of a variable with choices: what the words stand for
   std::string              place{};
 
   /// As a value of the scene is written: 900 kN/mm, linear, true.

@@ -35,12 +35,17 @@ const std::vector<Key> &study_scene_keys()
 const std::vector<Key> &study_variable_keys()
 {
   static const std::vector<Key> keys = {
-      key::plain("key", Key::Form::text, "entry of the scene, such as `element.rod.stiffness`")
+      key::plain("key", Key::Form::texts,
+                 "entry of the scene, such as `element.rod.stiffness`, or several that take "
+                 "the same value")
           .by_default("`parameters.NAME`"),
       key::plain("from", Key::Form::quantity, "coded value -1").by_default("`levels`"),
       key::plain("to", Key::Form::quantity, "coded value +1").by_default("`levels`"),
       key::plain("levels", Key::Form::texts, "values that a factorial takes: numbers, texts with a unit, words")
           .by_default("`from`, `to`"),
+      key::plain("choices", Key::Form::map,
+                 "named values of any form in place of levels, tables as well, `{ soft = { ... }, hard = { ... } }`")
+          .by_default("none"),
       key::plain("unit", Key::Form::text, "of plain numbers").by_default("that of `from` or of the first level"),
       key::choice("scatter", {"none", "uniform", "normal"}, true,
                   "how it scatters about its value, for robust figures"),

@@ -3,6 +3,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/tokens.h"
+#include "fem/values/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>
@@ -73,6 +74,19 @@ Quantity in_unit(double value, const std::string &unit)
   return quantity;
 }
 
+bool is_unit(const std::string &name)
+{
+  try
+  {
+    parse_quantity("1 " + name, [](const std::string &) { return std::optional<Quantity>(); });
+    return true;
+  }
+  catch (const std::invalid_argument &)
+  {
+    return false;
+  }
+}
+
 std::string unit_of(const Quantity &quantity)
 {
   static const std::vector<std::pair<Kind, std::string>> names = {{kind::force, "N"},
@@ -121,22 +135,42 @@ OutputFormulas::OutputFormulas(const StudyFile &study, const Scene &scene, const
   check_names(parameters);
 }
 
-/// Reads every formula with numbers of any dimension in place of what runs will give.
+/// Every name in a formula is known; its value waits for a run.
 void OutputFormulas::check_names(const Parameters &parameters) const
 {
-  const Eigen::VectorXd levels = Eigen::VectorXd::Ones(Eigen::Index(variables_.size()));
-  Known                 known{parameters, levels, std::vector<AnswerValue>(entries_.size(), {1., "of any kind"})};
+  std::vector<std::string> names = all_names(parameters);
+  for (const Entry &entry : entries_)
+    names.push_back(entry.name);
   for (std::size_t i = 0; i < outputs_.size(); ++i)
+  {
+    const std::string place = outputs_[i].place.text() + ": outputs." + outputs_[i].name + ": ";
     try
     {
-      known.open.clear();
-      if (formulas_[i].single < 0)
-        quantity_of(i, known);
+      for (const Token &token : tokens_of(formulas_[i].text))
+        if (token.kind == Token::name && !is_reserved_name(token.text) && !is_unit(token.text) &&
+            std::find(names.begin(), names.end(), token.text) == names.end())
+          throw std::invalid_argument("there is no '" + token.text + "'" + character(token.place) +
+                                      " among outputs, variables and "
+                                      "parameters" +
+                                      suggestion(token.text, all_names(parameters)) + "; entries of a run begin with " +
+                                      listed(answer_entry::tables()));
     }
     catch (const std::invalid_argument &error)
     {
-      throw std::invalid_argument(outputs_[i].place.text() + ": outputs." + outputs_[i].name + ": " + error.what());
+      throw std::invalid_argument(place + error.what());
     }
+  }
+}
+
+std::vector<std::string> OutputFormulas::all_names(const Parameters &parameters) const
+{
+  std::vector<std::string> names = parameters.names();
+  for (const OutputRequest &other : outputs_)
+    names.push_back(other.name);
+  for (const VariableRequest &request : variables_)
+    if (request.words.empty())
+      names.push_back(request.variable.name);
+  return names;
 }
 
 bool OutputFormulas::reads(const std::string &table) const
@@ -184,12 +218,8 @@ Quantity OutputFormulas::quantity_of(std::size_t output, Known &known) const
   if (std::find(known.open.begin(), known.open.end(), output) != known.open.end())
     throw std::invalid_argument("depends on itself");
   known.open.push_back(output);
-  std::vector<std::string> names = known.parameters.names();
-  for (const OutputRequest &other : outputs_)
-    names.push_back(other.name);
-  for (const VariableRequest &request : variables_)
-    names.push_back(request.variable.name);
-  const auto look_up = [&](const std::string &name) -> std::optional<Quantity>
+  const std::vector<std::string> names   = all_names(known.parameters);
+  const auto                     look_up = [&](const std::string &name) -> std::optional<Quantity>
   {
     for (std::size_t i = 0; i < entries_.size(); ++i)
       if (entries_[i].name == name)

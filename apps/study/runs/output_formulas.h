@@ -41,10 +41,11 @@ private:
   };
   struct Known;
 
-  Formula  formula_of(const OutputRequest &output);
-  int      entry_of(const std::vector<std::string> &segments, const OutputRequest &output);
-  Quantity quantity_of(std::size_t output, Known &known) const;
-  void     check_names(const Parameters &parameters) const;
+  Formula                  formula_of(const OutputRequest &output);
+  int                      entry_of(const std::vector<std::string> &segments, const OutputRequest &output);
+  Quantity                 quantity_of(std::size_t output, Known &known) const;
+  void                     check_names(const Parameters &parameters) const;
+  std::vector<std::string> all_names(const Parameters &parameters) const;
 
   std::vector<VariableRequest> variables_;
   std::vector<OutputRequest>   outputs_;

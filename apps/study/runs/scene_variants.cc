@@ -6,6 +6,7 @@
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace gestell::apps
@@ -24,6 +25,8 @@ std::vector<std::string> names_in(const SceneNode &table)
 /// The value as an entry of the scene: a number, a truth or text.
 SceneNode value_node(const VariableRequest &request, double level)
 {
+  if (!request.choices.empty())
+    return request.choices.at(std::size_t(std::lround(level)));
   SceneNode node;
   node.place.file = request.place;
   node.text       = request.text(level);
@@ -92,20 +95,21 @@ SceneVariants::SceneVariants(const StudyFile &study, fem::Scripts scripts) : stu
   for (const std::string &text : study.overrides)
     apply_override(root_, text);
   for (const VariableRequest &request : study.variables)
-    check_key(request);
+    for (const std::string &key : request.keys)
+      check_key(request, key);
 }
 
-void SceneVariants::check_key(const VariableRequest &request) const
+void SceneVariants::check_key(const VariableRequest &request, const std::string &key) const
 {
-  const auto       path = key_segments(request.variable.key, {request.place, 0});
+  const auto       path = key_segments(key, {request.place, 0});
   const SceneNode *node = &root_;
   for (std::size_t i = 0; i < path.size(); ++i)
   {
     const SceneNode *next = node->find(path[i]);
     const bool       leaf = i + 1 == path.size();
-    if (next && leaf && next->type == SceneNode::Type::table)
-      throw std::invalid_argument(request.place + ": '" + request.variable.key + "' is a table of the scene (" +
-                                  next->place.text() + "); name one of its entries: " + listed(names_in(*next)));
+    if (next && leaf && next->type == SceneNode::Type::table && request.choices.empty())
+      throw std::invalid_argument(request.place + ": '" + key + "' is a table of the scene (" + next->place.text() +
+                                  "); name one of its entries: " + listed(names_in(*next)));
     if (!next && leaf && i > 0 && path.front() != "parameters")
       return; // an entry that may be left out: its reader knows it
     if (!next)
@@ -120,7 +124,8 @@ SceneNode SceneVariants::node_at(const Eigen::VectorXd &levels) const
 {
   SceneNode root = root_;
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
-    apply_override(root, study_.variables[i].variable.key, value_node(study_.variables[i], levels[Eigen::Index(i)]));
+    for (const std::string &key : study_.variables[i].keys)
+      apply_override(root, key, value_node(study_.variables[i], levels[Eigen::Index(i)]));
   return root;
 }
 
@@ -144,8 +149,8 @@ std::vector<std::string> SceneVariants::overrides_at(const Eigen::VectorXd &leve
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
   {
     const SceneNode value = value_node(study_.variables[i], levels[Eigen::Index(i)]);
-    overrides.push_back(study_.variables[i].variable.key + '=' +
-                        (value.type == SceneNode::Type::text ? '"' + value.text + '"' : value.text));
+    for (const std::string &key : study_.variables[i].keys)
+      overrides.push_back(key + '=' + shown_value(value));
   }
   return overrides;
 }

@@ -37,7 +37,7 @@ public:
 private:
   SceneNode       node_at(const Eigen::VectorXd &levels) const;
   Eigen::VectorXd middle() const;
-  void            check_key(const VariableRequest &request) const;
+  void            check_key(const VariableRequest &request, const std::string &key) const;
 
   StudyFile    study_;
   fem::Scripts scripts_;

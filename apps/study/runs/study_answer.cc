@@ -5,21 +5,11 @@
 #include "coupling/frame/frame_recipe.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace gestell::apps
 {
 namespace
 {
-
-/// Coded values and back leave an error in the last digit.
-double rounded_level(double level)
-{
-  char text[40];
-  std::snprintf(text, sizeof text, "%.15g", level);
-  return std::strtod(text, nullptr);
-}
 
 std::string frame_key(const StudyRunner &runner, const Eigen::MatrixXd &levels)
 {
@@ -41,13 +31,13 @@ void enter(const RunRow &row, StudyTable &table)
     table.outputs[i].unit = row.units[i];
 }
 
-StudyTable empty_table(const StudyFile &study, const Design &design)
+StudyTable empty_table(const StudyFile &study, const StudyPoints &points)
 {
   std::vector<StudyOutput> outputs;
   for (const OutputRequest &output : study.outputs)
     outputs.push_back({output.name, ""});
-  StudyTable table = waiting_table(design, study.values(), outputs);
-  table.levels     = table.levels.unaryExpr(&rounded_level);
+  StudyTable table = waiting_table(points.design, study.values(), outputs);
+  table.levels     = points.levels;
   return table;
 }
 
@@ -65,9 +55,9 @@ bool StudyAnswer::complete() const
                      [](const StudyRun &run) { return run.status != RunStatus::waiting; });
 }
 
-StudyAnswer make_study(const StudyFile &study, const Design &design, StudyRunner &runner, const StudyCall &call)
+StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyRunner &runner, const StudyCall &call)
 {
-  StudyAnswer       answer{empty_table(study, design), design, 0, false};
+  StudyAnswer       answer{empty_table(study, points), points.design, 0, false};
   StudyTable       &table = answer.table;
   const RowsText    text(study);
   const StudyRecord record = record_of(study, runner.variants(), table.n_runs(), frame_key(runner, table.levels));

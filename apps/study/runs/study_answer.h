@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/study/file/read_design.h"
 #include "apps/study/runs/run_pool.h"
 #include "apps/study/runs/study_folder.h"
 
@@ -32,6 +33,6 @@ struct StudyAnswer
 
 /// Makes the runs of a study that its folder does not hold yet.
 /// @throws std::invalid_argument with place and remedy, before any run or at the first one
-StudyAnswer make_study(const StudyFile &study, const Design &design, StudyRunner &runner, const StudyCall &call);
+StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyRunner &runner, const StudyCall &call);
 
 } // namespace gestell::apps
