@@ -5,6 +5,8 @@
 #include "coupling/frame/frame_recipe.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 namespace gestell::apps
 {
@@ -41,6 +43,13 @@ StudyTable empty_table(const StudyFile &study, const StudyPoints &points)
   return table;
 }
 
+/// Until the other shares have all their rows.
+void wait_for(const StudyFolder &folder, int n_runs, const std::atomic<bool> &stop)
+{
+  while (!stop && int(folder.rows().size()) < n_runs)
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+}
+
 } // namespace
 
 int StudyAnswer::n_failed() const
@@ -64,6 +73,8 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
   StudyFolder       folder(call.folder, record, text, table.levels);
   for (const RunRow &row : folder.open(call.begin, call.share))
     enter(row, table);
+  for (std::size_t i = 0; i < folder.units().size(); ++i)
+    table.outputs.at(i).unit = folder.units()[i];
   std::vector<RunOrder> orders;
   for (int run = 1; run <= table.n_runs(); ++run)
     if (call.share.has(run) && table.runs[std::size_t(run) - 1].status == RunStatus::waiting)
@@ -74,15 +85,24 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
     {
       rows.append(text.line(row, table.levels.row(row.run - 1).transpose()));
       enter(row, table);
+      if (folder.units().empty() && !row.units.empty())
+        folder.keep_units(row.units);
       ++answer.n_made;
       if (call.progress)
         call.progress(answer.n_made, int(orders.size()));
     };
     make_runs(runner, text, orders, call.jobs, *call.stop, take);
   }
+  if (call.waits_for_shares)
+    wait_for(folder, table.n_runs(), *call.stop);
   answer.interrupted = *call.stop;
-  if (call.share.is_whole())
-    folder.merge(folder.rows());
+  if (call.share.is_whole() || (call.waits_for_shares && !answer.interrupted))
+  {
+    const std::vector<RunRow> rows = folder.rows();
+    folder.merge(rows);
+    for (const RunRow &row : rows)
+      enter(row, table);
+  }
   return answer;
 }
 

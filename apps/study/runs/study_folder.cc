@@ -144,11 +144,19 @@ std::vector<RunRow> StudyFolder::open(Begin begin, const StudyShare &share)
     throw std::invalid_argument(rows_file(share).string() + ": holds rows of this share already; go on with --resume, "
                                                             "or remove it");
   fs::create_directories(folder_);
+  if (const auto before = read_record(folder_ / "study.json"))
+    record_.units = before->units;
   write_record(folder_ / "study.json", record_);
   std::vector<RunRow> known = rows();
   if (share.is_whole() && shares)
     merge(known);
   return known;
+}
+
+void StudyFolder::keep_units(const std::vector<std::string> &units)
+{
+  record_.units = units;
+  write_record(folder_ / "study.json", record_);
 }
 
 void StudyFolder::merge(const std::vector<RunRow> &rows)

@@ -50,6 +50,10 @@ public:
    */
   std::vector<RunRow> open(Begin begin, const StudyShare &share);
 
+  /// Units of the outputs, that an earlier call learned; empty: none has.
+  const std::vector<std::string> &units() const { return record_.units; }
+  void                            keep_units(const std::vector<std::string> &units);
+
   /// Rows of a share go into a file of its own.
   std::filesystem::path rows_file(const StudyShare &share) const;
   /// All rows of all shares, in the order of runs.

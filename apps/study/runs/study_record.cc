@@ -52,7 +52,7 @@ SceneNode without_words(const SceneNode &root)
 
 StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int n_runs, const std::string &frame_key)
 {
-  StudyRecord record{study.name, n_runs, {}};
+  StudyRecord record{study.name, n_runs, {}, {}};
   flatten(without_words(study.root), "", record.entries);
   flatten(without_words(variants.root()), "scene", record.entries);
   if (!frame_key.empty())
@@ -68,7 +68,8 @@ std::optional<StudyRecord> read_record(const std::filesystem::path &file)
   try
   {
     const Json json = Json::parse(in);
-    return StudyRecord{json.at("study"), json.at("runs"), json.at("entries").get<Entries>()};
+    return StudyRecord{json.at("study"), json.at("runs"), json.at("entries").get<Entries>(),
+                       json.value("units", std::vector<std::string>())};
   }
   catch (const nlohmann::json::exception &)
   {
@@ -82,6 +83,7 @@ void write_record(const std::filesystem::path &file, const StudyRecord &record)
   Json json;
   json["study"]   = record.study;
   json["runs"]    = record.n_runs;
+  json["units"]   = record.units;
   json["entries"] = record.entries;
   write_file(file, json.dump(1) + '\n');
 }

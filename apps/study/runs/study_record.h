@@ -18,6 +18,7 @@ struct StudyRecord
   std::string                        study{};
   int                                n_runs = 0;
   std::map<std::string, std::string> entries{}; ///< "variables.c_P.to": "1080 kN/mm"
+  std::vector<std::string>           units{};   ///< of the outputs; empty: no run has told them yet
 };
 
 /// @param frame_key  of the frame's content, or ""
