@@ -16,14 +16,14 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double nan             = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number    = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_level      = 1e-9;  ///< coded levels nearer than this are the same
 constexpr double full_leverage   = 1e-10; ///< 1 - h_ii below it is rounding
 constexpr double exact_repeating = 1e-24; ///< of the sum of squares: repeated runs that differ by rounding alone
 
 double quotient_or_nan(double a, double b)
 {
-  return b > 0. ? a / b : nan;
+  return b > 0. ? a / b : not_a_number;
 }
 
 Eigen::VectorXd terms_at(const ResponseSurface &surface, const Eigen::VectorXd &xi)
@@ -64,8 +64,8 @@ void judge_lack_of_fit(double sse, FitQuality &quality)
 {
   quality.lack_of_fit         = std::max(0., sse - quality.pure_error);
   quality.lack_of_fit_dof     = quality.n_runs - quality.n_coefficients - quality.pure_error_dof;
-  quality.lack_of_fit_F       = nan;
-  quality.lack_of_fit_p_value = nan;
+  quality.lack_of_fit_F       = not_a_number;
+  quality.lack_of_fit_p_value = not_a_number;
   if (quality.pure_error_dof < 1 || quality.lack_of_fit_dof < 1)
     return;
   quality.lack_of_fit_F =
@@ -82,7 +82,7 @@ Eigen::VectorXd leave_one_out(const Eigen::VectorXd &y, const Eigen::VectorXd &f
 {
   Eigen::VectorXd left_out(y.size());
   for (Eigen::Index i = 0; i < y.size(); ++i)
-    left_out(i) = 1. - leverage(i) > full_leverage ? y(i) - (y(i) - fitted(i)) / (1. - leverage(i)) : nan;
+    left_out(i) = 1. - leverage(i) > full_leverage ? y(i) - (y(i) - fitted(i)) / (1. - leverage(i)) : not_a_number;
   return left_out;
 }
 
@@ -97,8 +97,8 @@ void judge_fit(const Eigen::MatrixXd &coded, ResponseSurface &surface)
   q.press          = (y - surface.left_out).squaredNorm();
   q.r2             = 1. - quotient_or_nan(sse, sst);
   q.predicted_r2   = 1. - quotient_or_nan(q.press, sst);
-  q.standard_error = dof > 0 ? std::sqrt(sse / dof) : nan;
-  q.adjusted_r2    = dof > 0 ? 1. - quotient_or_nan(sse / dof, sst / (q.n_runs - 1)) : nan;
+  q.standard_error = dof > 0 ? std::sqrt(sse / dof) : not_a_number;
+  q.adjusted_r2    = dof > 0 ? 1. - quotient_or_nan(sse / dof, sst / (q.n_runs - 1)) : not_a_number;
   add_pure_error(coded, y, q);
   judge_lack_of_fit(sse, q);
 }
@@ -106,7 +106,8 @@ void judge_fit(const Eigen::MatrixXd &coded, ResponseSurface &surface)
 void judge_coefficients(ResponseSurface &surface)
 {
   const int    dof = surface.quality.n_runs - surface.quality.n_coefficients;
-  const double t   = dof > 0 ? boost::math::quantile(boost::math::students_t(dof), 0.5 + 0.5 * surface.level) : nan;
+  const double t =
+      dof > 0 ? boost::math::quantile(boost::math::students_t(dof), 0.5 + 0.5 * surface.level) : not_a_number;
   surface.standard_errors = surface.quality.standard_error * surface.inverse_normal.diagonal().cwiseSqrt();
   surface.confidence      = t * surface.standard_errors;
 }
