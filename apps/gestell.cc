@@ -186,7 +186,7 @@ int run_program(int argc, char **argv)
 int main(int argc, char **argv)
 {
   const bool speaks = coupling::launch().rank == 0; // of all that mpirun started
-  if (argc > 1 && std::string(argv[1]) == "study") // ranks make shares of it, each by itself
+  if (argc > 1 && std::string(argv[1]) == "study")  // ranks make shares of it, each by itself
     leave_team();
   try
   {

@@ -1,9 +1,12 @@
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/team.h"
 #include "apps/output/result_folder.h"
-#include "apps/study/file/read_design.h"
-#include "apps/study/runs/study_answer.h"
+#include "apps/output/text/write_file.h"
+#include "apps/study/results/optimum_scene.h"
+#include "apps/study/results/study_analysis.h"
+#include "apps/study/results/study_tables.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -28,8 +31,19 @@ std::filesystem::path study_folder(const CommonOptions &options, const StudyFile
   return options.folder.empty() ? std::filesystem::path("results") / study.name : std::filesystem::path(options.folder);
 }
 
-void print_failures(const StudyAnswer &answer)
+void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCall &call)
 {
+  std::cout << study.name << ": " << count_text(std::size_t(answer.n_made), "run") << " made";
+  if (answer.n_failed() > 0)
+    std::cout << ", " << answer.n_failed() << " failed";
+  if (!answer.complete())
+    std::cout << ", "
+              << std::count_if(answer.table.runs.begin(), answer.table.runs.end(),
+                               [](const StudyRun &run) { return run.status == RunStatus::waiting; })
+              << " to be made";
+  const bool merged = call.share.is_whole() || call.waits_for_shares;
+  std::cout << "\nrows: " << (call.folder / (merged ? "runs.csv" : StudyFolder::name_of(call.share))).string() << '\n';
+
   constexpr int most_told = 3;
   int           told      = 0;
   for (std::size_t i = 0; i < answer.table.runs.size() && told < most_told; ++i)
@@ -39,31 +53,76 @@ void print_failures(const StudyAnswer &answer)
     std::cerr << "gestell: warning: " << answer.n_failed() - most_told << " further runs failed; see runs.csv\n";
 }
 
+/// Ranks of mpirun make a share each; the first merges them.
+void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
+{
+  if (ranks.size == 1)
+    return;
+  if (!call.share.is_whole())
+    throw std::invalid_argument("--share: ranks of mpirun share the runs among them; leave one of both out");
+  call.share            = {ranks.rank + 1, ranks.size};
+  call.waits_for_shares = ranks.rank == 0;
+}
+
+void write_findings(const std::filesystem::path &folder, const StudyFile &study, const StudyRunner &runner,
+                    const StudyFindings &findings)
+{
+  if (!findings.surfaces.empty())
+  {
+    write_file(folder / "surface.csv", surface_csv(findings.surfaces));
+    write_file(folder / "surface_fit.csv", fit_csv(findings.surfaces));
+    write_file(folder / "effects.csv", effects_csv(findings.surfaces));
+  }
+  if (!findings.front.empty())
+    write_file(folder / "pareto.csv", pareto_csv(findings.front, findings.table));
+  if (!findings.robust.empty())
+    write_file(folder / "robust.csv", robust_csv(findings.robust));
+  if (!findings.optimum)
+    return;
+  Eigen::VectorXd levels(findings.table.variables.size());
+  for (Eigen::Index i = 0; i < levels.size(); ++i)
+    levels[i] = findings.table.variables[std::size_t(i)].physical(findings.optimum->found.coded[i]);
+  write_file(folder / "optimum.toml", optimum_scene(study, runner.variants(), levels, folder));
+}
+
 int study_scene(const CommonOptions &options, const StudyCommand &asked)
 {
   setenv("OPENBLAS_NUM_THREADS", "1", 1); // processes, not threads, do the work
-  const StudyFile             study  = read_study(options.input, options.overrides);
-  const StudyPoints           points = read_design(study);
-  const std::filesystem::path folder = study_folder(options, study);
-  require_writable(folder);
-  StudyRunner  runner(study, options.scripts, study.keep ? folder : std::filesystem::path());
-  ProgressLine progress(options.quiet);
-  StudyCall    call;
-  call.folder   = folder;
-  call.jobs     = options.jobs;
-  call.stop     = &interruption();
-  call.begin    = asked.resume ? StudyFolder::Begin::resumed : StudyFolder::Begin::anew;
-  call.progress = [&](int done, int n) { progress.show("runs", double(done) / n); };
+  const StudyFile       study    = read_study(options.input, options.overrides);
+  const StudyPoints     points   = read_design(study);
+  const AnalysisRequest analysis = read_analysis(study, points.design.n_runs());
+  check_analysis(analysis, study, points);
+  StudyCall call;
+  call.folder = study_folder(options, study);
+  call.jobs   = options.jobs;
+  call.stop   = &interruption();
+  call.begin  = asked.resume ? StudyFolder::Begin::resumed : StudyFolder::Begin::anew;
   if (!asked.share.empty())
     call.share = share_of(asked.share);
+  const bool speaks = team_left().rank == 0;
+  share_among_ranks(team_left(), call);
+  require_writable(call.folder);
+  StudyRunner  runner(study, options.scripts, study.keep ? call.folder : std::filesystem::path());
+  ProgressLine progress(options.quiet || !speaks);
+  call.progress            = [&](int done, int n) { progress.show("runs", double(done) / n); };
   const StudyAnswer answer = make_study(study, points, runner, call);
   progress.done();
-  std::cout << study.name << ": " << count_text(std::size_t(answer.n_made), "run") << " made";
-  if (answer.n_failed() > 0)
-    std::cout << ", " << answer.n_failed() << " failed";
-  std::cout << "\nrows: " << (folder / (call.share.is_whole() ? "runs.csv" : "")).string() << '\n';
-  print_failures(answer);
-  return answer.interrupted ? exit_interrupted : exit_done;
+  if (!speaks)
+    return answer.interrupted ? exit_interrupted : exit_done;
+  print_rows(answer, study, call);
+  if (answer.interrupted)
+    return exit_interrupted;
+  if (!answer.complete())
+    return exit_done; // a share
+  if (answer.table.n_done() == 0)
+  {
+    std::cerr << "gestell: the computation failed: no run of the study ended well\n";
+    return exit_failed;
+  }
+  const StudyFindings findings = StudyAnalysis(study, analysis, runner, call.folder, interruption()).of(answer);
+  write_findings(call.folder, study, runner, findings);
+  std::cout << findings_text(findings);
+  return interruption() ? exit_interrupted : exit_done;
 }
 
 } // namespace

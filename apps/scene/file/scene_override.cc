@@ -73,7 +73,7 @@ std::vector<std::string> key_segments(const std::string &path, const Place &plac
   return result;
 }
 
-void apply_override(SceneNode &root, const std::string &text)
+std::pair<std::string, SceneNode> parsed_override(const std::string &text)
 {
   const Place place{"--set " + text, 0};
   const auto  equals = equals_sign(text);
@@ -82,7 +82,13 @@ void apply_override(SceneNode &root, const std::string &text)
   const std::string key = trimmed(text.substr(0, equals));
   if (key_segments(key, place).front() == "extends")
     place.fail("what a scene extends cannot be overridden");
-  apply_override(root, key, override_value(trimmed(text.substr(equals + 1)), place));
+  return {key, override_value(trimmed(text.substr(equals + 1)), place)};
+}
+
+void apply_override(SceneNode &root, const std::string &text)
+{
+  const auto [key, value] = parsed_override(text);
+  apply_override(root, key, value);
 }
 
 void apply_override(SceneNode &root, const std::string &key, const SceneNode &value)

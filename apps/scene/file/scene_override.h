@@ -10,7 +10,9 @@ namespace gestell::apps
 
 /// Sets one entry: "key.path=value", as explained at read_scene_file().
 void apply_override(SceneNode &root, const std::string &text);
-/// The same of a value that was read elsewhere; messages name its place.
+/// The key and the value of "key.path=value".
+std::pair<std::string, SceneNode> parsed_override(const std::string &text);
+/// apply_override() of a value that was read elsewhere; messages name its place.
 void apply_override(SceneNode &root, const std::string &key, const SceneNode &value);
 
 /// Segments of  frame.surface."crown bearing left".faces .

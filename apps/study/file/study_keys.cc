@@ -76,4 +76,57 @@ const std::vector<Key> &study_design_keys()
   return keys;
 }
 
+const std::vector<Key> &study_surface_keys()
+{
+  static const std::vector<Key> keys = {
+      key::choice("order", {"quadratic", "interactions", "linear"}, true, "which terms the surfaces have"),
+      key::number("confidence", kind::number, "of the intervals about coefficients").as_share().by_default(0.95),
+      key::plain("outputs", Key::Form::texts, "that get a surface").by_default("all")};
+  return keys;
+}
+
+const std::vector<Key> &study_goal_keys()
+{
+  static const std::vector<Key> keys = {
+      key::choice("sense", {"minimise", "maximise"}, true, "which way is better"),
+      key::number("weight", kind::number, "in the sum of all goals").above_zero().by_default(1.),
+      key::plain("scale", Key::Form::quantity, "what the output is divided by").by_default("1")};
+  return keys;
+}
+
+const std::vector<Key> &study_limit_keys()
+{
+  static const std::vector<Key> keys = {
+      key::plain("least", Key::Form::quantity, "the output must not fall below").by_default("none"),
+      key::plain("most", Key::Form::quantity, "the output must not rise above").by_default("none")};
+  return keys;
+}
+
+const std::vector<Key> &study_robust_keys()
+{
+  static const std::vector<Key> keys = {
+      key::choice("on", {"surface", "runs"}, true, "where the draws are computed"),
+      key::plain("draws", Key::Form::whole, "of the scattered variables").by_default("10000; 100 runs"),
+      key::plain("seed", Key::Form::whole, "of the draws").by_default("1")};
+  return keys;
+}
+
+const std::vector<Key> &study_optimise_keys()
+{
+  static const std::vector<Key> keys = {
+      key::choice("on", {"surface", "runs"}, true, "what the search asks: the surfaces, or a run at each point"),
+      key::table("goals", {}, "`[optimise.goals.OUTPUT]`: the weighted sum of these is made small").by_default(""),
+      key::table("limits", {}, "`[optimise.limits.OUTPUT]`").by_default("none"),
+      key::choice("method", {"gradient", "derivative-free"}, true,
+                  "sequential quadratic programming, or quadratic and linear models through earlier points"),
+      key::plain("starts", Key::Form::whole, "searches; the first in the middle of all ranges").by_default("5"),
+      key::plain("seed", Key::Form::whole, "of the other starts").by_default("1"),
+      key::plain("most_runs", Key::Form::whole, "points of a search").by_default("1000; 60 runs"),
+      key::truth("verify", true, "a run at the optimum of the surfaces tells what they are worth"),
+      key::plain("pareto", Key::Form::whole, "points of the front of all goals, on the surfaces").by_default("none"),
+      key::table("robust", study_robust_keys(), "what the scatter of variables makes of the outputs at the optimum")
+          .by_default("none")};
+  return keys;
+}
+
 } // namespace gestell::apps

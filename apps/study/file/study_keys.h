@@ -12,5 +12,8 @@ const std::vector<Key> &study_variable_keys();
 const std::vector<Key> &study_design_keys();
 const std::vector<Key> &study_surface_keys();
 const std::vector<Key> &study_optimise_keys();
+const std::vector<Key> &study_goal_keys();
+const std::vector<Key> &study_limit_keys();
+const std::vector<Key> &study_robust_keys();
 
 } // namespace gestell::apps

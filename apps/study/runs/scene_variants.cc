@@ -58,12 +58,20 @@ std::vector<SceneNode::Entry> settings_of(const StudyFile &study)
   return settings;
 }
 
+std::string in_toml(const std::string &text)
+{
+  std::string escaped = "\"";
+  for (const char c : text)
+    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
+  return escaped + '"';
+}
+
 std::string shown_value(const SceneNode &node)
 {
   switch (node.type)
   {
   case SceneNode::Type::text:
-    return '"' + node.text + '"';
+    return in_toml(node.text);
   case SceneNode::Type::boolean:
     return node.boolean ? "true" : "false";
   case SceneNode::Type::array:
@@ -140,18 +148,36 @@ Parameters SceneVariants::parameters_at(const Eigen::VectorXd &levels) const
   return Parameters(root.find("parameters"));
 }
 
+std::vector<std::pair<std::string, std::string>> SceneVariants::changes_at(const Eigen::VectorXd &levels) const
+{
+  std::vector<std::pair<std::string, std::string>> changes;
+  const auto                                       add = [&](const std::string &key, const std::string &value)
+  {
+    const auto found =
+        std::find_if(changes.begin(), changes.end(), [&](const auto &change) { return change.first == key; });
+    if (found == changes.end())
+      changes.emplace_back(key, value);
+    else
+      found->second = value;
+  };
+  for (const auto &[key, value] : settings_of(study_))
+    add(key, shown_value(value));
+  for (const std::string &text : study_.overrides)
+  {
+    const auto [key, value] = parsed_override(text);
+    add(key, shown_value(value));
+  }
+  for (std::size_t i = 0; i < study_.variables.size(); ++i)
+    for (const std::string &key : study_.variables[i].keys)
+      add(key, shown_value(value_node(study_.variables[i], levels[Eigen::Index(i)])));
+  return changes;
+}
+
 std::vector<std::string> SceneVariants::overrides_at(const Eigen::VectorXd &levels) const
 {
   std::vector<std::string> overrides;
-  for (const auto &[key, value] : settings_of(study_))
-    overrides.push_back(key + '=' + shown_value(value));
-  overrides.insert(overrides.end(), study_.overrides.begin(), study_.overrides.end());
-  for (std::size_t i = 0; i < study_.variables.size(); ++i)
-  {
-    const SceneNode value = value_node(study_.variables[i], levels[Eigen::Index(i)]);
-    for (const std::string &key : study_.variables[i].keys)
-      overrides.push_back(key + '=' + shown_value(value));
-  }
+  for (const auto &[key, value] : changes_at(levels))
+    overrides.push_back(key + '=' + value);
   return overrides;
 }
 

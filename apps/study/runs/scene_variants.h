@@ -26,7 +26,9 @@ public:
   Parameters parameters_at(const Eigen::VectorXd &levels) const;
   /// "key=value" of what the study changes in the scene file: its settings, the command line's, and the levels.
   std::vector<std::string> overrides_at(const Eigen::VectorXd &levels) const;
-  const std::string       &scene_file() const { return study_.scene; }
+  /// The same, each key once, its values as TOML writes them.
+  std::vector<std::pair<std::string, std::string>> changes_at(const Eigen::VectorXd &levels) const;
+  const std::string                               &scene_file() const { return study_.scene; }
   /// The scene with the settings of the study, before any variable.
   const SceneNode &root() const { return root_; }
 

@@ -15,8 +15,8 @@ struct StudyCall
   int                                       jobs    = 1;
   StudyFolder::Begin                        begin   = StudyFolder::Begin::anew;
   StudyShare                                share{};
-  bool                                      waits_for_shares = false; ///< others are being made; merges all
-  const std::atomic<bool>                  *stop = nullptr; ///< must not be null
+  bool                                      waits_for_shares = false;   ///< others are being made; merges all
+  const std::atomic<bool>                  *stop             = nullptr; ///< must not be null
   std::function<void(int done, int n_runs)> progress{};
 };
 

@@ -57,11 +57,10 @@ StudyShare share_of(const std::string &text)
   return share;
 }
 
-fs::path StudyFolder::rows_file(const StudyShare &share) const
+std::string StudyFolder::name_of(const StudyShare &share)
 {
-  return folder_ / (share.is_whole()
-                        ? std::string("runs.csv")
-                        : "runs_share_" + std::to_string(share.part) + "_of_" + std::to_string(share.of) + ".csv");
+  return share.is_whole() ? std::string("runs.csv")
+                          : "runs_share_" + std::to_string(share.part) + "_of_" + std::to_string(share.of) + ".csv";
 }
 
 std::vector<fs::path> StudyFolder::share_files() const

@@ -55,7 +55,8 @@ public:
   void                            keep_units(const std::vector<std::string> &units);
 
   /// Rows of a share go into a file of its own.
-  std::filesystem::path rows_file(const StudyShare &share) const;
+  static std::string    name_of(const StudyShare &share);
+  std::filesystem::path rows_file(const StudyShare &share) const { return folder_ / name_of(share); }
   /// All rows of all shares, in the order of runs.
   std::vector<RunRow> rows() const;
   /// Makes one runs.csv of the rows, and removes those of shares.
