@@ -3,10 +3,9 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/team.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/write_file.h"
-#include "apps/study/results/optimum_scene.h"
+#include "apps/study/results/findings_text.h"
 #include "apps/study/results/study_analysis.h"
-#include "apps/study/results/study_tables.h"
+#include "apps/study/results/study_files.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -64,27 +63,6 @@ void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
   call.waits_for_shares = ranks.rank == 0;
 }
 
-void write_findings(const std::filesystem::path &folder, const StudyFile &study, const StudyRunner &runner,
-                    const StudyFindings &findings)
-{
-  if (!findings.surfaces.empty())
-  {
-    write_file(folder / "surface.csv", surface_csv(findings.surfaces));
-    write_file(folder / "surface_fit.csv", fit_csv(findings.surfaces));
-    write_file(folder / "effects.csv", effects_csv(findings.surfaces));
-  }
-  if (!findings.front.empty())
-    write_file(folder / "pareto.csv", pareto_csv(findings.front, findings.table));
-  if (!findings.robust.empty())
-    write_file(folder / "robust.csv", robust_csv(findings.robust));
-  if (!findings.optimum)
-    return;
-  Eigen::VectorXd levels(findings.table.variables.size());
-  for (Eigen::Index i = 0; i < levels.size(); ++i)
-    levels[i] = findings.table.variables[std::size_t(i)].physical(findings.optimum->found.coded[i]);
-  write_file(folder / "optimum.toml", optimum_scene(study, runner.variants(), levels, folder));
-}
-
 int study_scene(const CommonOptions &options, const StudyCommand &asked)
 {
   setenv("OPENBLAS_NUM_THREADS", "1", 1); // processes, not threads, do the work
@@ -120,8 +98,8 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
     return exit_failed;
   }
   const StudyFindings findings = StudyAnalysis(study, analysis, runner, call.folder, interruption()).of(answer);
-  write_findings(call.folder, study, runner, findings);
-  std::cout << findings_text(findings);
+  write_findings(call.folder, study, runner.variants(), findings);
+  std::cout << findings_text(findings) << "report: " << (call.folder / "report.html").string() << '\n';
   return interruption() ? exit_interrupted : exit_done;
 }
 
