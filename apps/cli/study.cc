@@ -80,7 +80,7 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   const bool speaks = team_left().rank == 0;
   share_among_ranks(team_left(), call);
   require_writable(call.folder);
-  StudyRunner  runner(study, options.scripts, study.keep ? call.folder : std::filesystem::path());
+  StudyRunner  runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
   ProgressLine progress(options.quiet || !speaks);
   call.progress            = [&](int done, int n) { progress.show("runs", double(done) / n); };
   const StudyAnswer answer = make_study(study, points, runner, call);

@@ -115,7 +115,7 @@ void refuse_others(const SceneTable &table, const std::string &type)
       {"levels", {"full factorial"}},
       {"star", {"central composite"}},
       {"alpha", {"central composite"}},
-      {"centre_points", {"full factorial", "central composite", "Box-Behnken"}},
+      {"centre_points", {"central composite", "Box-Behnken"}},
       {"columns", {"list"}},
       {"rows", {"list"}}};
   for (const auto &[key, types] : owners)

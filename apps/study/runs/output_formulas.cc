@@ -157,9 +157,23 @@ void OutputFormulas::check_names(const Parameters &parameters) const
     }
     catch (const std::invalid_argument &error)
     {
-      throw std::invalid_argument(place + error.what());
+      throw std::invalid_argument(place + with_entries(error.what()));
     }
   }
+}
+
+/// A message with the entries as the study writes them.
+std::string OutputFormulas::with_entries(std::string text) const
+{
+  for (auto entry = entries_.rbegin(); entry != entries_.rend(); ++entry) // ..._12 before ..._1
+    for (std::size_t at; (at = text.find(entry->name)) != std::string::npos;)
+    {
+      std::string path;
+      for (const std::string &segment : entry->segments)
+        path += (path.empty() ? "" : ".") + written_key(segment);
+      text.replace(at, entry->name.size(), path);
+    }
+  return text;
 }
 
 std::vector<std::string> OutputFormulas::all_names(const Parameters &parameters) const
@@ -170,6 +184,8 @@ std::vector<std::string> OutputFormulas::all_names(const Parameters &parameters)
   for (const VariableRequest &request : variables_)
     if (request.words.empty())
       names.push_back(request.variable.name);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 
@@ -265,7 +281,8 @@ std::vector<AnswerValue> OutputFormulas::of(const Result &result, const Paramete
     }
     catch (const std::invalid_argument &error)
     {
-      throw std::invalid_argument(outputs_[i].place.text() + ": outputs." + outputs_[i].name + ": " + error.what());
+      throw std::invalid_argument(outputs_[i].place.text() + ": outputs." + outputs_[i].name + ": " +
+                                  with_entries(error.what()));
     }
   return values;
 }

@@ -45,6 +45,7 @@ private:
   int                      entry_of(const std::vector<std::string> &segments, const OutputRequest &output);
   Quantity                 quantity_of(std::size_t output, Known &known) const;
   void                     check_names(const Parameters &parameters) const;
+  std::string              with_entries(std::string text) const;
   std::vector<std::string> all_names(const Parameters &parameters) const;
 
   std::vector<VariableRequest> variables_;

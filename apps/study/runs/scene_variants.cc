@@ -189,33 +189,33 @@ Eigen::VectorXd SceneVariants::middle() const
   return levels;
 }
 
-void SceneVariants::check_ranges() const
+void SceneVariants::check_ranges(const Eigen::MatrixXd &levels) const
 {
-  const auto tried = [&](const Eigen::VectorXd &levels, const std::string &what)
+  const auto tried = [&](const Eigen::VectorXd &point, const std::string &what)
   {
     try
     {
-      const Scene scene = at(levels);
+      const Scene scene = at(point);
       require_run(scene);
       check_scene(scene);
     }
     catch (const std::invalid_argument &error)
     {
-      throw std::invalid_argument(what + "the scene does not accept it: " + error.what());
+      throw std::invalid_argument(what + " the scene does not accept: " + error.what());
     }
   };
-  tried(middle(), study_.scene_place + ": with all variables in the middle of their ranges ");
+  tried(middle(), study_.scene_place + ": all variables in the middle of their ranges");
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
   {
     const VariableRequest &request = study_.variables[i];
-    std::set<double>       levels(request.variable.levels.begin(), request.variable.levels.end());
-    levels.insert({request.variable.from, request.variable.to});
-    for (const double level : levels)
+    const auto             column  = levels.col(Eigen::Index(i));
+    std::set<double>       some(request.variable.levels.begin(), request.variable.levels.end());
+    some.insert({request.variable.from, request.variable.to, column.minCoeff(), column.maxCoeff()});
+    for (const double level : some)
     {
       Eigen::VectorXd point  = middle();
       point[Eigen::Index(i)] = level;
-      tried(point, request.place + ": variable " + request.variable.name + " at " + request.text(level) +
-                       ", a level outside of what the scene takes: ");
+      tried(point, request.place + ": " + request.text(level) + " of variable " + request.variable.name);
     }
   }
 }

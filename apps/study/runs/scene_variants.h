@@ -32,14 +32,16 @@ public:
   /// The scene with the settings of the study, before any variable.
   const SceneNode &root() const { return root_; }
 
-  /// Tries the ends and levels of each variable, the others in their middles.
+  /// Tries the ends of each variable, and the smallest and largest of its levels, the others in their middles.
+  /// @param levels  of all runs [runs x variables]
   /// @throws std::invalid_argument with the place of the variable, its value, and what the scene says against it
-  void check_ranges() const;
+  void check_ranges(const Eigen::MatrixXd &levels) const;
+
+  Eigen::VectorXd middle() const; ///< of all ranges; of words the first
 
 private:
-  SceneNode       node_at(const Eigen::VectorXd &levels) const;
-  Eigen::VectorXd middle() const;
-  void            check_key(const VariableRequest &request, const std::string &key) const;
+  SceneNode node_at(const Eigen::VectorXd &levels) const;
+  void      check_key(const VariableRequest &request, const std::string &key) const;
 
   StudyFile    study_;
   fem::Scripts scripts_;

@@ -19,18 +19,6 @@ double cpu_of_process()
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-/// The middle of each range, where the study is checked.
-Eigen::VectorXd middle_of(const StudyFile &study)
-{
-  Eigen::VectorXd levels(study.variables.size());
-  for (Eigen::Index i = 0; i < levels.size(); ++i)
-  {
-    const VariableRequest &request = study.variables[std::size_t(i)];
-    levels[i]                      = request.words.empty() ? request.variable.centre() : 0.;
-  }
-  return levels;
-}
-
 RunRow failed(RunRow row, const std::string &message)
 {
   row.status  = RunStatus::failed;
@@ -40,10 +28,11 @@ RunRow failed(RunRow row, const std::string &message)
 
 } // namespace
 
-StudyRunner::StudyRunner(const StudyFile &study, fem::Scripts scripts, const std::filesystem::path &kept)
+StudyRunner::StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, fem::Scripts scripts,
+                         const std::filesystem::path &kept)
     : variants_(study, scripts), frames_(!kept.empty()),
-      outputs_(study, (variants_.check_ranges(), variants_.at(middle_of(study))),
-               variants_.parameters_at(middle_of(study))),
+      outputs_((variants_.check_ranges(levels), study), variants_.at(variants_.middle()),
+               variants_.parameters_at(variants_.middle())),
       kept_(kept)
 {
 }
@@ -105,11 +94,24 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
     row.cpu_s = spent();
     return failed(row, result->run->failure);
   }
-  for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
+  try
   {
-    row.values.push_back(value.value);
-    row.units.push_back(value.unit);
+    for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
+    {
+      row.values.push_back(value.value);
+      row.units.push_back(value.unit);
+    }
   }
+  catch (const std::invalid_argument &error)
+  {
+    if (!any_done_)
+      throw;
+    row.values.clear();
+    row.units.clear();
+    row.cpu_s = spent();
+    return failed(row, error.what());
+  }
+  any_done_  = true;
   row.status = RunStatus::done;
   row.cpu_s  = spent();
   return row;

@@ -29,15 +29,17 @@ class StudyRunner
 {
 public:
   /// Checks all that can be known without a run.
+  /// @param levels  of all runs [runs x variables]
   /// @param kept  folder for results of runs; empty: none are kept
   /// @throws std::invalid_argument with the place in the study
-  StudyRunner(const StudyFile &study, fem::Scripts scripts, const std::filesystem::path &kept);
+  StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, fem::Scripts scripts,
+              const std::filesystem::path &kept);
 
   /**
    * @param levels  values of the variables
    * @param stop    ends the run, whose row then is `waiting`; may be null
    * @return a row that is `failed` where the scene refuses the levels or the computation fails
-   * @throws std::invalid_argument where the run has no such output
+   * @throws std::invalid_argument where the first run has no such output; of a later one the row has failed
    */
   RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop);
 
@@ -52,6 +54,7 @@ private:
   FrameShelf            frames_;
   OutputFormulas        outputs_;
   std::filesystem::path kept_;
+  bool                  any_done_ = false; ///< outputs could be read
 };
 
 /// Folder of a run's own results, from that of the study: "run_12".
