@@ -18,8 +18,9 @@ namespace
 constexpr std::size_t most_outputs   = 12; ///< with pictures
 constexpr std::size_t most_contours  = 6;  ///< of an output
 constexpr int         most_residuals = 300;
-constexpr double      high_leverage  = 2.;  ///< times the mean p / n
-constexpr double      poor_r2        = 0.9; ///< of what is predicted
+constexpr double      high_leverage  = 2.;   ///< times the mean p / n
+constexpr double      least_weight   = 1e-3; ///< of the variance, for a picture
+constexpr double      poor_r2        = 0.9;  ///< of what is predicted
 
 std::string number_or_dash(double x, int digits = 4)
 {
@@ -38,6 +39,18 @@ std::string folded(const std::string &title, const std::string &html, bool open 
 {
   return std::string("<details") + (open ? " open" : "") + "><summary>" + escape_xml(title) + "</summary>\n" + html +
          "</details>\n";
+}
+
+/// Whether the runs differ by more than rounding.
+bool changes(const ResponseSurface &surface)
+{
+  const Eigen::VectorXd &y = surface.computed;
+  return y.maxCoeff() - y.minCoeff() > 1e-9 * y.cwiseAbs().maxCoeff();
+}
+
+std::string unchanged_note(const ResponseSurface &surface)
+{
+  return "<p>" + escape_xml(surface.output.name) + " does not change over the runs.</p>\n";
 }
 
 std::size_t n_pictured(const StudyFindings &findings)
@@ -99,7 +112,7 @@ std::string quality_words(const StudyFindings &findings)
          "</p>\n";
 }
 
-/// Pairs of variables, those that make more of the variance first.
+/// Pairs of variables that make a part of the variance, the larger first.
 std::vector<std::pair<int, int>> pairs_by_weight(const ResponseSurface &surface)
 {
   const int           k = static_cast<int>(surface.variables.size());
@@ -116,6 +129,8 @@ std::vector<std::pair<int, int>> pairs_by_weight(const ResponseSurface &surface)
       weight[i * k + j] += own[i] + own[j];
       pairs.emplace_back(i, j);
     }
+  const auto slight = [&](const auto &pair) { return weight[pair.first * k + pair.second] < least_weight; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), slight), pairs.end());
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto &a, const auto &b)
                    { return weight[a.first * k + a.second] > weight[b.first * k + b.second]; });
@@ -187,6 +202,8 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
 
 std::string of_output(const StudyFindings &findings, const ResponseSurface &surface, Pictures &pictures)
 {
+  if (!changes(surface))
+    return unchanged_note(surface);
   const std::vector<int> runs = findings.table.usable_runs();
   const std::string     &name = surface.output.name;
   return "<h3>" + escape_xml(name) + "</h3>\n" + contours(findings, surface, pictures) +
@@ -203,7 +220,9 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
     return "";
   std::string html;
   for (std::size_t i = 0; i < n_pictured(findings); ++i)
-    html += drawn("effects_" + findings.surfaces[i].output.name, effect_picture(findings.surfaces[i]), pictures);
+    html += changes(findings.surfaces[i])
+                ? drawn("effects_" + findings.surfaces[i].output.name, effect_picture(findings.surfaces[i]), pictures)
+                : unchanged_note(findings.surfaces[i]);
   return section("effects", "Effects", html + left_out_note(findings) + shares_table(findings));
 }
 
