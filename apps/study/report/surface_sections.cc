@@ -19,6 +19,7 @@ constexpr std::size_t most_outputs   = 12; ///< with pictures
 constexpr std::size_t most_contours  = 6;  ///< of an output
 constexpr int         most_residuals = 300;
 constexpr double      high_leverage  = 2.;   ///< times the mean p / n
+constexpr double      nearly_one     = 0.95; ///< leverage beyond which a run stands alone
 constexpr double      least_weight   = 1e-3; ///< of the variance, for a picture
 constexpr double      poor_r2        = 0.9;  ///< of what is predicted
 
@@ -66,6 +67,12 @@ std::string left_out_note(const StudyFindings &findings)
              : "";
 }
 
+/// Shares below it are rounding.
+std::string share_text(double share)
+{
+  return share < 1e-12 ? "0 %" : percent(share);
+}
+
 std::string shares_table(const StudyFindings &findings)
 {
   std::vector<std::string> titles = {"effect", "kind"};
@@ -79,7 +86,7 @@ std::string shares_table(const StudyFindings &findings)
   {
     std::vector<HtmlTable::Cell> row = {effects.front()[i].name, kind_word(effects.front()[i].kind)};
     for (const auto &of_output : effects)
-      row.push_back(peak(percent(of_output[i].share), of_output[i].share >= 0.1));
+      row.push_back(peak(share_text(of_output[i].share), of_output[i].share >= 0.1));
     table.add(row);
   }
   return "<h3>Shares of the variance over the ranges</h3>" + table.scrolled_html();
@@ -187,17 +194,18 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
 {
   const ShownAxis axis = shown_axis(surface.output, magnitude_of(surface.computed));
   const double    mean = static_cast<double>(surface.quality.n_coefficients) / surface.quality.n_runs;
+  const double    high = std::min(high_leverage * mean, nearly_one);
   HtmlTable       table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",
                          "#residual", "#of the other runs", "#leverage"});
   for (Eigen::Index run = 0; run < std::min<Eigen::Index>(surface.computed.size(), most_residuals); ++run)
     table.add({std::to_string(run_numbers[static_cast<std::size_t>(run)] + 1), axis.text(surface.computed(run), 6),
                axis.text(surface.fitted(run), 6), axis.text(surface.computed(run) - surface.fitted(run), 3),
                std::isnan(surface.left_out(run)) ? "–" : axis.text(surface.left_out(run), 6),
-               peak(short_text(surface.leverage(run), 3), surface.leverage(run) > high_leverage * mean)});
+               peak(short_text(surface.leverage(run), 3), surface.leverage(run) > high)});
   if (surface.computed.size() > most_residuals)
     table.add_note("and more runs");
   return table.scrolled_html() + "<p class=\"soft\">Leverages are " + short_text(mean, 3) +
-         " on average; bold: above twice that, such a run draws the surface to itself.</p>\n";
+         " on average; a run above " + short_text(high, 3) + ", bold, draws the surface to itself.</p>\n";
 }
 
 std::string of_output(const StudyFindings &findings, const ResponseSurface &surface, Pictures &pictures)
