@@ -15,28 +15,6 @@ namespace
 
 using Type = SceneNode::Type;
 
-bool is_number(const SceneNode &value)
-{
-  return value.type == Type::integer || value.type == Type::real;
-}
-
-/// Takes the unit of a value for that of the variable, or refuses another one.
-double in_unit(const SceneNode &value, StudyVariable &variable, const std::string &key)
-{
-  const NumberWithUnit number = number_with_unit(value);
-  if (!number.is_number || !std::isfinite(number.value))
-    value.place.fail("variables." + variable.name + "." + key +
-                     ": needs a number, with its unit if it has one, such "
-                     "as \"900 kN/mm\", got " +
-                     described(value));
-  if (variable.unit.empty())
-    variable.unit = number.unit;
-  if (!number.unit.empty() && number.unit != variable.unit)
-    value.place.fail("variables." + variable.name + "." + key + ": is in " + number.unit + ", other values in " +
-                     variable.unit + "; give all values of a variable in one unit");
-  return number.value;
-}
-
 void read_range(const SceneNode &node, const SceneTable &table, StudyVariable &variable)
 {
   if (!table.has("from") || !table.has("to"))
@@ -73,7 +51,7 @@ void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest
   if (levels.type != Type::array || levels.elements.size() < 2)
     throw table.error("levels", "needs an array of two values or more, such as [\"800 kN/mm\", \"900 kN/mm\"], got " +
                                     described(levels));
-  if (!number_with_unit(levels.elements.front()).is_number)
+  if (!starts_with_number(levels.elements.front()))
     return read_words(levels, request);
   StudyVariable      &variable = request.variable;
   std::vector<double> values;
@@ -124,21 +102,6 @@ void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable 
 
 } // namespace
 
-NumberWithUnit number_with_unit(const SceneNode &value)
-{
-  if (is_number(value))
-    return {true, value.number, ""};
-  if (value.type != Type::text)
-    return {};
-  char          *end = nullptr;
-  NumberWithUnit number;
-  number.value     = std::strtod(value.text.c_str(), &end);
-  number.is_number = end != value.text.c_str();
-  number.unit      = end;
-  number.unit.erase(0, std::min(number.unit.find_first_not_of(' '), number.unit.size()));
-  return number;
-}
-
 VariableRequest read_variable(const SceneNode &node, const SceneTable &given)
 {
   const SceneTable table = given.declared(study_variable_keys());
@@ -157,27 +120,6 @@ VariableRequest read_variable(const SceneNode &node, const SceneTable &given)
     read_range(node, table, variable);
   read_scatter(node, table, variable);
   return request;
-}
-
-std::string VariableRequest::text(double level) const
-{
-  if (!words.empty())
-    return words.at(std::size_t(std::lround(level)));
-  return exact_text(level) + (variable.unit.empty() ? "" : ' ' + variable.unit);
-}
-
-double VariableRequest::level(const SceneNode &value) const
-{
-  if (words.empty())
-  {
-    StudyVariable copy = variable;
-    return in_unit(value, copy, "value");
-  }
-  const std::string word  = value.type == Type::boolean ? (value.boolean ? "true" : "false") : value.text;
-  const auto        found = std::find(words.begin(), words.end(), word);
-  if (found == words.end())
-    value.place.fail("variable " + variable.name + ": there is no level '" + word + "'" + suggestion(word, words));
-  return double(found - words.begin());
 }
 
 } // namespace gestell::apps

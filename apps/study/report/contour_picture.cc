@@ -17,8 +17,9 @@ constexpr double contour_left = 66., contour_top = 30., contour_side = 260., con
                  contour_height     = 340.;
 constexpr int         contour_cells = 52; ///< along a side
 constexpr int         contour_count = 7;  ///< levels, about
-constexpr double      darkest       = 0.62;
-constexpr std::size_t most_rings    = 300;
+constexpr double      lightest = 0.04, darkest = 0.62;
+constexpr double      flat       = 1e-9; ///< of the values: below it they differ by rounding
+constexpr std::size_t most_rings = 80;
 
 struct Point2
 {
@@ -56,46 +57,65 @@ ContourGrid grid_of(const ResponseSurface &surface, const SurfaceCut &cut, const
   return grid;
 }
 
-/// A stretch of a row of cells between two levels.
-void append_band(double from, double to, double y, double height, double opacity, std::string &svg)
-{
-  if (to - from < 0.05)
-    return;
-  svg += "<rect class=\"f0\" fill-opacity=\"" + short_text(opacity, 2) + "\"" + svg_box(from, y, to - from, height) +
-         " shape-rendering=\"crispEdges\"/>\n";
-}
-
 std::size_t band_at(const std::vector<double> &levels, double value)
 {
   return static_cast<std::size_t>(std::upper_bound(levels.begin(), levels.end(), value) - levels.begin());
 }
 
+/// Stretches of rows between two levels, a path for each band between levels.
+class Bands
+{
+public:
+  explicit Bands(std::size_t n) : paths_(n) {}
+
+  void add(std::size_t band, double from, double to, double y, double height)
+  {
+    if (to - from > 0.05)
+      paths_[band] += "M" + coordinate(from) + " " + coordinate(y) + "h" + coordinate(to - from) + "v" +
+                      coordinate(height) + "h" + coordinate(from - to) + "z";
+  }
+
+  std::string svg() const
+  {
+    std::string svg = "<g class=\"f0\" shape-rendering=\"crispEdges\">\n";
+    for (std::size_t band = 0; band < paths_.size(); ++band)
+      if (!paths_[band].empty())
+        svg += "<path fill-opacity=\"" + short_text(opacity(band), 2) + "\" d=\"" + paths_[band] + "\"/>\n";
+    return svg + "</g>\n";
+  }
+
+private:
+  double opacity(std::size_t band) const
+  {
+    return lightest + darkest * static_cast<double>(band) / static_cast<double>(paths_.size());
+  }
+
+  std::vector<std::string> paths_;
+};
+
 /// Shades rows of half cells, cut where the value passes a level.
 std::string shading(const ContourGrid &grid, const std::vector<double> &levels)
 {
-  std::string  svg;
+  Bands        bands(levels.size() + 1);
   const double height = 0.5 * contour_side / contour_cells;
   for (int half = 0; half < 2 * contour_cells; ++half)
   {
-    const double          j = 0.5 * half + 0.25, share = j - std::floor(j);
+    const double          j = 0.5 * half + 0.25, share = j - std::floor(j), y = ContourGrid::y(0.5 * (half + 1));
     const Eigen::VectorXd row = (1. - share) * grid.values.row(static_cast<int>(j)).transpose() +
                                 share * grid.values.row(static_cast<int>(j) + 1).transpose();
     double      from = 0.;
     std::size_t band = band_at(levels, row(0));
     const auto  end  = [&](double to)
     {
-      append_band(ContourGrid::x(from), ContourGrid::x(to), ContourGrid::y(0.5 * (half + 1)), height,
-                  0.04 + darkest * static_cast<double>(band) /
-                             static_cast<double>(std::max<std::size_t>(1, levels.size())),
-                  svg);
+      bands.add(band, ContourGrid::x(from), ContourGrid::x(to), y, height);
       from = to;
     };
     for (int i = 0; i < contour_cells; ++i)
-      for (std::size_t next = band_at(levels, row(i + 1)); band != next; band += band < next ? 1 : -1)
+      for (std::size_t next = band_at(levels, row(i + 1)); band != next; band < next ? ++band : --band)
         end(i + (levels[band < next ? band : band - 1] - row(i)) / (row(i + 1) - row(i)));
     end(contour_cells);
   }
-  return svg;
+  return bands.svg();
 }
 
 /// Where a level passes the edge from a to b; both sides in units of cells.
@@ -223,12 +243,13 @@ std::string contour_picture(const ResponseSurface &surface, const std::vector<St
   const ShownAxis           axis = shown_axis(surface.output, magnitude_of(surface.computed));
   const ContourGrid         grid = grid_of(surface, cut, axis);
   const double              low = grid.values.minCoeff(), high = grid.values.maxCoeff();
-  const std::vector<double> levels = high > low ? nice_ticks(low, high, contour_count) : std::vector<double>();
+  const bool                varies = high - low > flat * std::max(std::abs(low), std::abs(high));
+  const std::vector<double> levels = varies ? nice_ticks(low, high, contour_count) : std::vector<double>();
   const std::string         title  = axis.head();
   return svg_head(contour_width, contour_height,
                   title + " over " + variables[cut.first].name + " and " + variables[cut.second].name) +
-         svg_text(contour_left, 19., title, "title") + shading(grid, levels) + contour_lines(grid, levels) +
-         frame_svg(variables, cut) + marks_svg(coded_runs, cut) + "</svg>\n";
+         svg_text(contour_left, 19., varies ? title : title + ": does not change", "title") + shading(grid, levels) +
+         contour_lines(grid, levels) + frame_svg(variables, cut) + marks_svg(coded_runs, cut) + "</svg>\n";
 }
 
 } // namespace gestell::apps

@@ -54,24 +54,34 @@ std::vector<EffectBar> widest(std::vector<EffectBar> bars)
   return bars;
 }
 
-std::string bar_svg(const std::string &colour, double from, double to, double y)
+std::string bar_svg(const std::string &colour, double from, double to, double y, double height = 14.)
 {
   return "<rect class=\"" + colour + "\" rx=\"1.5\"" +
-         svg_box(std::min(from, to), y + 3., std::max(std::abs(to - from), 0.5), 14.) + "/>";
+         svg_box(std::min(from, to), y + 3., std::max(std::abs(to - from), 0.5), height) + "/>";
 }
 
-std::string signed_text(const ShownAxis &axis, double value)
+/// The bars to either end, one below the other where they go to the same side.
+std::string two_bars_svg(double zero, double low, double high, double y)
 {
-  return (value > 0. ? "+" : "") + axis.text(value, 3);
+  const bool same_side = (low > zero) == (high > zero);
+  return same_side ? bar_svg("f0", zero, low, y, 7.) + bar_svg("f1", zero, high, y + 7., 7.)
+                   : bar_svg("f0", zero, low, y) + bar_svg("f1", zero, high, y);
+}
+
+/// With its sign; rounding of what the bar is wide is zero.
+std::string signed_text(const ShownAxis &axis, double value, double width)
+{
+  const double rounded = std::abs(value) < 1e-9 * width ? 0. : value;
+  return (rounded > 0. ? "+" : "") + axis.text(rounded, 3);
 }
 
 std::string row_svg(const EffectBar &bar, const ShownAxis &axis, const AxisMap &map, double y)
 {
-  const double      zero = map.at(0.), low = map.at(axis.shown(bar.low)), high = map.at(axis.shown(bar.high));
-  const std::string bars =
-      bar.is_interaction ? bar_svg("f5", low, high, y) : bar_svg("f0", zero, low, y) + bar_svg("f1", zero, high, y);
-  const std::string numbers = bar.is_interaction ? "±" + axis.text(bar.high, 3)
-                                                 : signed_text(axis, bar.low) + " / " + signed_text(axis, bar.high);
+  const double      low = map.at(axis.shown(bar.low)), high = map.at(axis.shown(bar.high));
+  const std::string bars = bar.is_interaction ? bar_svg("f5", low, high, y) : two_bars_svg(map.at(0.), low, high, y);
+  const std::string numbers =
+      bar.is_interaction ? "±" + axis.text(bar.high, 3)
+                         : signed_text(axis, bar.low, bar.width()) + " / " + signed_text(axis, bar.high, bar.width());
   return svg_text(name_width - 8., y + 14., bar.name, "label", "end") + bars +
          svg_text(tornado_width - 8., y + 14., numbers, "tick", "end");
 }

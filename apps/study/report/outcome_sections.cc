@@ -15,6 +15,8 @@ constexpr double at_a_wall = 1e-6; ///< coded
 
 std::string signed_percent(double share)
 {
+  if (std::abs(share) < 1e-9) // rounding
+    return "0 %";
   return !std::isfinite(share) ? "–" : (share > 0. ? "+" : "") + short_text(100. * share, 3) + " %";
 }
 

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr int         slice_points       = 40;
-constexpr std::size_t most_rings_of_runs = 2000;
+constexpr std::size_t most_rings_of_runs = 400;
 
 double t_quantile(const ResponseSurface &surface)
 {
@@ -182,12 +182,9 @@ std::string pareto_chart(const StudyFindings &findings, int first_goal, int seco
   panel.curves.push_back(dots_of(table, rows, x, a.output, y, b.output, rings("runs", 5)));
   panel.curves.push_back(dots_of(table, rows_on_front(table, rows, findings.front_task), x, a.output, y, b.output,
                                  {"runs that none dominates", {}, {}, 0, LineStyle::none, Marker::disc}));
-  Curve front{"front on the surfaces", {}, {}, 1, LineStyle::full, Marker::none};
+  Curve front{"front on the surfaces", {}, {}, 1, LineStyle::full, Marker::triangle};
   if (findings.front_task.goals.size() > 2)
-  {
-    front.line   = LineStyle::none;
-    front.marker = Marker::triangle;
-  }
+    front.line = LineStyle::none;
   for (const ParetoPoint &point : findings.front)
     front.add(x.shown(point.values(a.output)), y.shown(point.values(b.output)));
   if (!findings.front.empty())

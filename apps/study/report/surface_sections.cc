@@ -18,8 +18,10 @@ namespace
 constexpr std::size_t most_outputs   = 12; ///< with pictures
 constexpr std::size_t most_contours  = 6;  ///< of an output
 constexpr int         most_residuals = 300;
-constexpr double      high_leverage  = 2.;  ///< times the mean p / n
-constexpr double      poor_r2        = 0.9; ///< of what is predicted
+constexpr double      high_leverage  = 2.;   ///< times the mean p / n
+constexpr double      nearly_one     = 0.95; ///< leverage beyond which a run stands alone
+constexpr double      least_weight   = 1e-3; ///< of the variance, for a picture
+constexpr double      poor_r2        = 0.9;  ///< of what is predicted
 
 std::string number_or_dash(double x, int digits = 4)
 {
@@ -40,6 +42,18 @@ std::string folded(const std::string &title, const std::string &html, bool open 
          "</details>\n";
 }
 
+/// Whether the runs differ by more than rounding.
+bool changes(const ResponseSurface &surface)
+{
+  const Eigen::VectorXd &y = surface.computed;
+  return y.maxCoeff() - y.minCoeff() > 1e-9 * y.cwiseAbs().maxCoeff();
+}
+
+std::string unchanged_note(const ResponseSurface &surface)
+{
+  return "<p>" + escape_xml(surface.output.name) + " does not change over the runs.</p>\n";
+}
+
 std::size_t n_pictured(const StudyFindings &findings)
 {
   return std::min(findings.surfaces.size(), most_outputs);
@@ -51,6 +65,12 @@ std::string left_out_note(const StudyFindings &findings)
              ? "<p class=\"soft\">Pictures of the first " + std::to_string(most_outputs) +
                    " outputs; the others stand in surface.csv.</p>\n"
              : "";
+}
+
+/// Shares below it are rounding.
+std::string share_text(double share)
+{
+  return share < 1e-12 ? "0 %" : percent(share);
 }
 
 std::string shares_table(const StudyFindings &findings)
@@ -66,7 +86,7 @@ std::string shares_table(const StudyFindings &findings)
   {
     std::vector<HtmlTable::Cell> row = {effects.front()[i].name, kind_word(effects.front()[i].kind)};
     for (const auto &of_output : effects)
-      row.push_back(peak(percent(of_output[i].share), of_output[i].share >= 0.1));
+      row.push_back(peak(share_text(of_output[i].share), of_output[i].share >= 0.1));
     table.add(row);
   }
   return "<h3>Shares of the variance over the ranges</h3>" + table.scrolled_html();
@@ -99,7 +119,7 @@ std::string quality_words(const StudyFindings &findings)
          "</p>\n";
 }
 
-/// Pairs of variables, those that make more of the variance first.
+/// Pairs of variables that make a part of the variance, the larger first.
 std::vector<std::pair<int, int>> pairs_by_weight(const ResponseSurface &surface)
 {
   const int           k = static_cast<int>(surface.variables.size());
@@ -116,6 +136,8 @@ std::vector<std::pair<int, int>> pairs_by_weight(const ResponseSurface &surface)
       weight[i * k + j] += own[i] + own[j];
       pairs.emplace_back(i, j);
     }
+  const auto slight = [&](const auto &pair) { return weight[pair.first * k + pair.second] < least_weight; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), slight), pairs.end());
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto &a, const auto &b)
                    { return weight[a.first * k + a.second] > weight[b.first * k + b.second]; });
@@ -172,21 +194,24 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
 {
   const ShownAxis axis = shown_axis(surface.output, magnitude_of(surface.computed));
   const double    mean = static_cast<double>(surface.quality.n_coefficients) / surface.quality.n_runs;
+  const double    high = std::min(high_leverage * mean, nearly_one);
   HtmlTable       table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",
                          "#residual", "#of the other runs", "#leverage"});
   for (Eigen::Index run = 0; run < std::min<Eigen::Index>(surface.computed.size(), most_residuals); ++run)
     table.add({std::to_string(run_numbers[static_cast<std::size_t>(run)] + 1), axis.text(surface.computed(run), 6),
                axis.text(surface.fitted(run), 6), axis.text(surface.computed(run) - surface.fitted(run), 3),
                std::isnan(surface.left_out(run)) ? "–" : axis.text(surface.left_out(run), 6),
-               peak(short_text(surface.leverage(run), 3), surface.leverage(run) > high_leverage * mean)});
+               peak(short_text(surface.leverage(run), 3), surface.leverage(run) > high)});
   if (surface.computed.size() > most_residuals)
     table.add_note("and more runs");
   return table.scrolled_html() + "<p class=\"soft\">Leverages are " + short_text(mean, 3) +
-         " on average; bold: above twice that, such a run draws the surface to itself.</p>\n";
+         " on average; a run above " + short_text(high, 3) + ", bold, draws the surface to itself.</p>\n";
 }
 
 std::string of_output(const StudyFindings &findings, const ResponseSurface &surface, Pictures &pictures)
 {
+  if (!changes(surface))
+    return unchanged_note(surface);
   const std::vector<int> runs = findings.table.usable_runs();
   const std::string     &name = surface.output.name;
   return "<h3>" + escape_xml(name) + "</h3>\n" + contours(findings, surface, pictures) +
@@ -203,7 +228,9 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
     return "";
   std::string html;
   for (std::size_t i = 0; i < n_pictured(findings); ++i)
-    html += drawn("effects_" + findings.surfaces[i].output.name, effect_picture(findings.surfaces[i]), pictures);
+    html += changes(findings.surfaces[i])
+                ? drawn("effects_" + findings.surfaces[i].output.name, effect_picture(findings.surfaces[i]), pictures)
+                : unchanged_note(findings.surfaces[i]);
   return section("effects", "Effects", html + left_out_note(findings) + shares_table(findings));
 }
 

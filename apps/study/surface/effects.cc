@@ -1,6 +1,7 @@
 #include "apps/study/surface/effects.h"
 
 #include <array>
+#include <cmath>
 
 namespace gestell::apps
 {
@@ -36,8 +37,9 @@ std::vector<Effect> effects_of(const ResponseSurface &surface)
                        factor_of(kind) * surface.confidence(j), variance_of(kind) * b * b});
     variance += effects.back().share;
   }
+  const double rounding = 1e-12 * std::abs(surface.coefficients(0)); // of an output that does not change
   for (Effect &effect : effects)
-    effect.share = variance > 0. ? effect.share / variance : 0.;
+    effect.share = variance > rounding * rounding ? effect.share / variance : 0.;
   return effects;
 }
 

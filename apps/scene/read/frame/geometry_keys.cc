@@ -53,11 +53,12 @@ const std::vector<Key> &mesh_keys()
       key::choice("overlaps", {"refused", "once"}, true,
                   "solids that overlap would count twice what they share; `\"once\"` gives it to the solid that comes "
                   "first in the file"),
-      key::choice("plates", {"tetrahedra", "swept"}, true,
-                  "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
-                  "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
-                  "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
-                  "other face all is meshed in tetrahedra, and a note names the face"),
+      key::choice(
+          "plates", {"tetrahedra", "swept"}, true,
+          "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
+          "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
+          "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
+          "other face all is meshed in tetrahedra, and a note names the face"),
       key::plain("layers", Key::Form::whole, "of cells through a swept plate, at least").by_default(1.),
       key::truth(
           "curved", false,
@@ -77,6 +78,11 @@ const std::vector<Key> &frame_keys()
       key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`")
           .above_zero()
           .by_default("of the file"),
+      key::map("dimensions", kind::length, {},
+               "of a script (`.geo`): lengths and numbers in place of those that it assigns, `{ web_plate = \"70 mm\" "
+               "}` for its "
+               "first line `web_plate = ...;`. A [study](../study.md) may vary them")
+          .by_default("those of the script"),
       key::map(
           "mesh", kind::length, mesh_keys(),
           "`{ size = \"60 mm\", \"crown bearing *\" = \"30 mm\" }`: size of elements, and at surfaces by patterns of "
