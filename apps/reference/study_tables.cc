@@ -14,6 +14,7 @@ const std::vector<DeclaredTable> &study_tables()
       {"study.design", "[design]", "", "Which runs a study makes.", "", study_design_keys(), {}},
       {"study.surface", "[surface]", "", "Response surfaces of the outputs.", "", study_surface_keys(), {}},
       {"study.optimise", "[optimise]", "", "What a study looks for.", "", study_optimise_keys(), {}},
+      {"study.choose", "[choose]", "", "Which of the runs of a study is the best.", "", study_choose_keys(), {}},
       {"study.goals",
        "[optimise.goals.OUTPUT]",
        "",

@@ -47,7 +47,7 @@ SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)
   return request;
 }
 
-void read_goals(const StudyFile &study, const SceneTable &table, OptimumTask &task)
+void read_goals(const StudyFile &study, const SceneTable &table, std::vector<Goal> &goals)
 {
   for (const SceneTable &given : table.tables("goals"))
   {
@@ -59,13 +59,13 @@ void read_goals(const StudyFile &study, const SceneTable &table, OptimumTask &ta
     read.scale  = goal.has("scale") ? goal.quantity("scale").value : 1.;
     if (!(read.scale > 0.))
       throw goal.error("scale", "needs a value above 0, got " + short_text(read.scale));
-    task.goals.push_back(read);
+    goals.push_back(read);
   }
-  if (task.goals.empty())
+  if (goals.empty())
     throw table.error("goals", "needs a goal, such as goals = { F_max = { weight = 1, scale = \"100 kN\" } }");
 }
 
-void read_limits(const StudyFile &study, const SceneTable &table, OptimumTask &task)
+void read_limits(const StudyFile &study, const SceneTable &table, std::vector<Limit> &limits)
 {
   for (const SceneTable &given : table.tables("limits"))
   {
@@ -81,7 +81,7 @@ void read_limits(const StudyFile &study, const SceneTable &table, OptimumTask &t
     if (!(read.least < read.most))
       throw limit.error("most",
                         "needs a value above 'least' = " + short_text(read.least) + ", got " + short_text(read.most));
-    task.limits.push_back(read);
+    limits.push_back(read);
   }
 }
 
@@ -104,8 +104,8 @@ OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table)
   request.on        = table.choice("on") == "runs" ? AnalysisOn::runs : AnalysisOn::surface;
   request.task.low  = Eigen::VectorXd::Constant(n, -1.);
   request.task.high = Eigen::VectorXd::Constant(n, 1.);
-  read_goals(study, table, request.task);
-  read_limits(study, table, request.task);
+  read_goals(study, table, request.task.goals);
+  read_limits(study, table, request.task.limits);
   OptimumOptions &options  = request.options;
   const bool      runs     = request.on == AnalysisOn::runs;
   options.method           = search_method(table.choice("method"));
@@ -120,11 +120,32 @@ OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table)
   if (const auto robust = table.optional_table("robust"))
     request.robust = read_robust(study, *robust);
   for (const VariableRequest &variable : study.variables)
-    if (!variable.words.empty())
+    if (!variable.variable.words.empty())
       throw table.error("variable " + variable.variable.name +
                         " takes words, between which nothing can be searched; "
                         "leave it out of the study, or give the study a list of runs without [optimise]");
   return request;
+}
+
+RowChoiceTask read_choose(const StudyFile &study, const SceneTable &table)
+{
+  RowChoiceTask task;
+  read_goals(study, table, task.goals);
+  read_limits(study, table, task.limits);
+  if (table.has("over"))
+    task.over = output_named(study, table, table.text("over"));
+  std::vector<std::string> names;
+  for (const VariableRequest &request : study.variables)
+    names.push_back(request.variable.name);
+  if (table.has("by"))
+    for (const std::string &name : table.texts("by"))
+    {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found == names.end())
+        throw table.error("by", "there is no variable '" + name + "'" + suggestion(name, names));
+      task.by.push_back(int(found - names.begin()));
+    }
+  return task;
 }
 
 /// Before hours of runs, not after them.
@@ -161,6 +182,12 @@ AnalysisRequest read_analysis(const StudyFile &study, int n_runs)
   {
     const SceneTable table = SceneTable(*optimise, none, "optimise").declared(study_optimise_keys());
     request.optimise       = read_optimise(study, table);
+    table.finish();
+  }
+  if (const SceneNode *choose = study.root.find("choose"))
+  {
+    const SceneTable table = SceneTable(*choose, none, "choose").declared(study_choose_keys());
+    request.choose         = read_choose(study, table);
     table.finish();
   }
   if (request.needs_surfaces())

@@ -2,6 +2,7 @@
 
 #include "apps/study/file/study_file.h"
 #include "apps/study/optimum/optimum.h"
+#include "apps/study/optimum/row_choice.h"
 #include "apps/study/surface/response_surface.h"
 
 #include <optional>
@@ -43,11 +44,12 @@ struct AnalysisRequest
 {
   std::optional<SurfaceRequest>  surface{};
   std::optional<OptimiseRequest> optimise{};
+  std::optional<RowChoiceTask>   choose{};
 
   bool needs_surfaces() const;
 };
 
-/// [surface] and [optimise].
+/// [surface], [optimise] and [choose].
 /// @throws std::invalid_argument with file and line; for fewer runs than a surface has coefficients, too
 AnalysisRequest read_analysis(const StudyFile &study, int n_runs);
 

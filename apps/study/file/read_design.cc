@@ -101,7 +101,7 @@ Eigen::MatrixXd read_list(const StudyFile &study, const SceneTable &table, const
 void refuse_words(const StudyFile &study, const SceneTable &table, const std::string &type)
 {
   for (const VariableRequest &request : study.variables)
-    if (!request.words.empty() && type != "list" && type != "full factorial")
+    if (!request.variable.words.empty() && type != "list" && type != "full factorial")
       throw table.error("type", "\"" + type + "\" takes values between the levels of a variable, but those of " +
                                     request.variable.name + " are words; take \"full factorial\" or \"list\"");
 }

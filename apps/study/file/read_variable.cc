@@ -34,13 +34,13 @@ void read_words(const SceneNode &levels, VariableRequest &request)
     const std::string word = level.type == Type::boolean ? (level.boolean ? "true" : "false") : level.text;
     if (level.type != Type::boolean && level.type != Type::text)
       level.place.fail("variables." + request.variable.name + ".levels: mixes words and numbers; give one of both");
-    if (std::find(request.words.begin(), request.words.end(), word) != request.words.end())
+    if (std::find(request.variable.words.begin(), request.variable.words.end(), word) != request.variable.words.end())
       level.place.fail("variables." + request.variable.name + ".levels: '" + word + "' stands there twice");
-    request.words.push_back(word);
-    request.variable.levels.push_back(double(request.words.size()) - 1.);
+    request.variable.words.push_back(word);
+    request.variable.levels.push_back(double(request.variable.words.size()) - 1.);
   }
   request.variable.from = 0.;
-  request.variable.to   = double(request.words.size()) - 1.;
+  request.variable.to   = double(request.variable.words.size()) - 1.;
 }
 
 void read_levels(const SceneNode &node, const SceneTable &table, VariableRequest &request)
@@ -76,12 +76,12 @@ void read_choices(const SceneNode &node, const SceneTable &table, VariableReques
     throw table.error("choices", "needs a table of two named values or more, got " + described(choices));
   for (const auto &[word, value] : choices.entries)
   {
-    request.words.push_back(word);
+    request.variable.words.push_back(word);
     request.choices.push_back(value);
-    request.variable.levels.push_back(double(request.words.size()) - 1.);
+    request.variable.levels.push_back(double(request.variable.words.size()) - 1.);
   }
   request.variable.from = 0.;
-  request.variable.to   = double(request.words.size()) - 1.;
+  request.variable.to   = double(request.variable.words.size()) - 1.;
 }
 
 void read_scatter(const SceneNode &node, const SceneTable &table, StudyVariable &variable)

@@ -111,7 +111,7 @@ StudyFile read_study(const std::string &path, const std::vector<std::string> &ov
   const Parameters none;
   const SceneTable table = SceneTable(study.root, none, "").declared(study_keys());
   table.has("extends");
-  for (const char *read_later : {"design", "surface", "optimise"})
+  for (const char *read_later : {"design", "surface", "optimise", "choose"})
     table.has(read_later);
   study.name        = table.text("name", std::filesystem::path(path).stem().string());
   study.description = table.text("description", "");

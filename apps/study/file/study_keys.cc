@@ -19,7 +19,8 @@ const std::vector<Key> &study_keys()
                  "variables and parameters"),
       key::table("design", {}, "which runs are made").by_default(""),
       key::table("surface", {}, "response surfaces of the outputs").by_default("none"),
-      key::table("optimise", {}, "what is looked for").by_default("none")};
+      key::table("optimise", {}, "what is looked for").by_default("none"),
+      key::table("choose", {}, "which of the runs is the best").by_default("none")};
   return keys;
 }
 
@@ -126,6 +127,17 @@ const std::vector<Key> &study_optimise_keys()
       key::plain("pareto", Key::Form::whole, "points of the front of all goals, on the surfaces").by_default("none"),
       key::table("robust", study_robust_keys(), "what the scatter of variables makes of the outputs at the optimum")
           .by_default("none")};
+  return keys;
+}
+
+const std::vector<Key> &study_choose_keys()
+{
+  static const std::vector<Key> keys = {
+      key::table("goals", {}, "`[choose.goals.OUTPUT]`, as of `[optimise]`").by_default(""),
+      key::table("limits", {}, "`[choose.limits.OUTPUT]`, as of `[optimise]`").by_default("none"),
+      key::plain("over", Key::Form::text, "output over which those of goals and limits are drawn").by_default("none"),
+      key::plain("by", Key::Form::texts, "variables whose words part the runs into families, a curve each")
+          .by_default("one family")};
   return keys;
 }
 

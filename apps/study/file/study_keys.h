@@ -12,6 +12,7 @@ const std::vector<Key> &study_variable_keys();
 const std::vector<Key> &study_design_keys();
 const std::vector<Key> &study_surface_keys();
 const std::vector<Key> &study_optimise_keys();
+const std::vector<Key> &study_choose_keys();
 const std::vector<Key> &study_goal_keys();
 const std::vector<Key> &study_limit_keys();
 const std::vector<Key> &study_robust_keys();

@@ -60,15 +60,9 @@ double in_unit(const SceneNode &value, StudyVariable &variable, const std::strin
   return number.value;
 }
 
-std::string VariableRequest::text(double level) const
-{
-  if (!words.empty())
-    return words.at(std::size_t(std::lround(level)));
-  return exact_text(level) + (variable.unit.empty() ? "" : ' ' + variable.unit);
-}
-
 double VariableRequest::level(const SceneNode &value) const
 {
+  const std::vector<std::string> &words = variable.words;
   if (words.empty())
   {
     StudyVariable copy = variable;

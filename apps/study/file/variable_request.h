@@ -14,12 +14,11 @@ struct VariableRequest
 {
   StudyVariable            variable;
   std::vector<std::string> keys{};    ///< all that take its value, variable.key the first
-  std::vector<std::string> words{};   ///< of a variable that takes words or truths: level k is the k-th of them
   std::vector<SceneNode>   choices{}; ///< of a variable with choices: what the words stand for
   std::string              place{};
 
   /// As a value of the scene is written: 900 kN/mm, linear, true.
-  std::string text(double level) const;
+  std::string text(double level) const { return variable.text(level); }
   /// The level of a value written in the study: "900 kN/mm", 900, "linear".
   /// @throws std::invalid_argument with the place of the value
   double level(const SceneNode &value) const;

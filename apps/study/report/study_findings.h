@@ -2,6 +2,7 @@
 
 #include "apps/study/optimum/pareto.h"
 #include "apps/study/optimum/robust.h"
+#include "apps/study/optimum/row_choice.h"
 #include "apps/study/surface/effects.h"
 
 #include <optional>
@@ -31,6 +32,7 @@ struct StudyFindings
   StudyTable                   table{};
   std::vector<ResponseSurface> surfaces{};
   std::optional<StudyOptimum>  optimum{};
+  std::optional<RowChoice>     choice{};     ///< the best of the runs that were made
   OptimumTask                  front_task{}; ///< whose goals the front has as axes; of runs alone, too
   std::vector<ParetoPoint>     front{};      ///< on the surfaces; empty: none was asked for
   std::vector<RobustResult>    robust{};

@@ -1,6 +1,7 @@
 #include "apps/study/report/study_report.h"
 
 #include "apps/output/text/html.h"
+#include "apps/study/report/choice_section.h"
 #include "apps/study/report/outcome_sections.h"
 #include "apps/study/report/scatter_matrix.h"
 #include "apps/study/report/shown_axis.h"
@@ -39,7 +40,10 @@ std::string overview(const StudyFindings &findings)
   for (const StudyVariable &variable : table.variables)
   {
     const ShownAxis axis = shown_axis(variable);
-    variables.add({variable.name, variable.key, axis.text_with_unit(variable.from), axis.text_with_unit(variable.to)});
+    if (variable.words.empty())
+      variables.add({variable.name, variable.key, axis.text_with_unit(variable.from), axis.text_with_unit(variable.to)});
+    else
+      variables.add({variable.name, variable.key, variable.words.front(), variable.words.back()});
   }
   return "<p>" +
          escape_xml(count_text(table.n_runs(), "run") + " of " + findings.scene + " (" + design_text(findings.design) +
@@ -109,7 +113,8 @@ std::string runs_section(const StudyFindings &findings)
   {
     std::vector<HtmlTable::Cell> row = {run_cell(table, run)};
     for (std::size_t j = 0; j < inputs.size(); ++j)
-      row.push_back(inputs[j].text(table.levels(run, static_cast<Eigen::Index>(j)), 5));
+      row.push_back(table.variables[j].words.empty() ? inputs[j].text(table.levels(run, static_cast<Eigen::Index>(j)), 5)
+                                                     : table.variables[j].text(table.levels(run, static_cast<Eigen::Index>(j))));
     for (std::size_t j = 0; j < outputs.size(); ++j)
     {
       const double value = table.values(run, static_cast<Eigen::Index>(j));
@@ -130,6 +135,7 @@ std::string study_contents(const std::string &body)
 {
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("optimum", "Optimum"),
+                                 {"choice", "The best run"},
                                  {"effects", "Effects"},
                                  {"front", "Pareto front"},
                                  {"surfaces", "Surfaces"},
@@ -154,7 +160,7 @@ void make_file_names(Pictures &pictures)
 StudyReport make_study_report(const StudyFindings &findings)
 {
   StudyReport       report;
-  const std::string body = optimum_section(findings) + effects_section(findings, report.pictures) +
+  const std::string body = optimum_section(findings) + choice_section(findings, report.pictures) + effects_section(findings, report.pictures) +
                            front_section(findings, report.pictures) + surfaces_section(findings, report.pictures) +
                            robust_section(findings) + scatter_section(findings, report.pictures) +
                            runs_section(findings);

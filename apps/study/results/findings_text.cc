@@ -1,5 +1,7 @@
 #include "apps/study/results/findings_text.h"
 
+#include "apps/study/report/choice_section.h"
+
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -58,6 +60,8 @@ std::string findings_text(const StudyFindings &findings)
 {
   std::ostringstream text;
   tell_surfaces(findings, text);
+  if (findings.choice)
+    text << choice_text(findings) << '\n';
   if (findings.optimum)
     tell_optimum(findings, text);
   if (!findings.front.empty())

@@ -153,6 +153,8 @@ StudyFindings StudyAnalysis::of(const StudyAnswer &answer)
   findings.design      = answer.design;
   findings.table       = answer.table;
   number_              = answer.table.n_runs();
+  if (request_.choose)
+    findings.choice = choose_row(answer.table, *request_.choose);
   OutputModel model;
   if (request_.needs_surfaces())
   {

@@ -182,7 +182,7 @@ std::vector<std::string> OutputFormulas::all_names(const Parameters &parameters)
   for (const OutputRequest &other : outputs_)
     names.push_back(other.name);
   for (const VariableRequest &request : variables_)
-    if (request.words.empty())
+    if (request.variable.words.empty())
       names.push_back(request.variable.name);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -244,7 +244,7 @@ Quantity OutputFormulas::quantity_of(std::size_t output, Known &known) const
       if (outputs_[i].name == name)
         return quantity_of(i, known);
     for (std::size_t i = 0; i < variables_.size(); ++i)
-      if (variables_[i].variable.name == name && variables_[i].words.empty())
+      if (variables_[i].variable.name == name && variables_[i].variable.words.empty())
         return in_unit(known.levels[Eigen::Index(i)], variables_[i].variable.unit);
     return known.parameters.find(name);
   };

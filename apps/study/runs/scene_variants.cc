@@ -36,7 +36,7 @@ SceneNode value_node(const VariableRequest &request, double level)
     node.type    = SceneNode::Type::boolean;
     node.boolean = node.text == "true";
   }
-  else if (request.words.empty() && request.variable.unit.empty())
+  else if (request.variable.words.empty() && request.variable.unit.empty())
   {
     const bool whole = level == std::nearbyint(level) && std::abs(level) < 1e15;
     node.type        = whole ? SceneNode::Type::integer : SceneNode::Type::real;
@@ -185,7 +185,7 @@ Eigen::VectorXd SceneVariants::middle() const
 {
   Eigen::VectorXd levels(study_.variables.size());
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
-    levels[Eigen::Index(i)] = study_.variables[i].words.empty() ? study_.variables[i].variable.centre() : 0.;
+    levels[Eigen::Index(i)] = study_.variables[i].variable.words.empty() ? study_.variables[i].variable.centre() : 0.;
   return levels;
 }
 

@@ -20,6 +20,13 @@ void check_variable(const StudyVariable &variable)
                                 "; it must be positive");
 }
 
+std::string StudyVariable::text(double level) const
+{
+  if (!words.empty())
+    return words.at(std::size_t(std::lround(level)));
+  return exact_text(level) + (unit.empty() ? "" : ' ' + unit);
+}
+
 StudyVariable variable_of_levels(StudyVariable variable, std::vector<double> levels)
 {
   for (const double level : levels)

@@ -27,6 +27,7 @@ struct StudyVariable
   std::string         unit{}; ///< of all values below; empty: none
   double              from = -1., to = 1.;
   std::vector<double> levels{}; ///< of a full factorial design, ascending; empty: as many as it asks for, evenly
+  std::vector<std::string> words{}; ///< of a variable that takes words: level k is the k-th of them
   Scatter             scatter = Scatter::none;
   double              width   = 0.; ///< of the scatter, in the unit of the variable
 
@@ -34,6 +35,9 @@ struct StudyVariable
   double half_range() const { return 0.5 * (to - from); }
   double coded(double physical) const { return (physical - centre()) / half_range(); }
   double physical(double coded) const { return centre() + half_range() * coded; }
+
+  /// A level as it is written: 900 kN/mm, linear.
+  std::string text(double level) const;
 
   /// Name with its unit, as columns and axes are headed.
   std::string head() const { return unit.empty() ? name : name + " [" + unit + "]"; }
