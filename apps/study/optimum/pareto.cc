@@ -15,6 +15,7 @@ namespace
 
 constexpr int    most_corners     = 10;   ///< variables
 constexpr double least_weight     = 1e-3; ///< of a goal, so that the front's ends are not weakly dominated
+constexpr double same_point       = 1e-5; ///< of the ranges of the goals on the front
 constexpr double weight_of_others = 1e-4;
 constexpr double kept_limits      = 1e-6;
 
@@ -150,6 +151,12 @@ FrontScale scale_of(const Eigen::MatrixXd &front)
     if (!(scale.range(j) > 0.))
       scale.range(j) = std::max(1e-12, std::abs(scale.best(j)));
   return scale;
+}
+
+/// Whether two rows differ by what searches leave.
+bool is_same(const Eigen::MatrixXd &goals, int a, int b, const Eigen::VectorXd &range)
+{
+  return (goals.row(a) - goals.row(b)).transpose().cwiseQuotient(range).cwiseAbs().maxCoeff() < same_point;
 }
 
 std::vector<Sense> all_minimised(const OptimumTask &task)
@@ -289,9 +296,15 @@ std::vector<ParetoPoint> pareto_front(const OutputModel &model, const OptimumTas
   for (const Eigen::VectorXd &weights : all_weights(static_cast<int>(task.goals.size()), options.points))
     found.push_back(searched_point(model, sized, samples, scale, weights));
 
+  const Eigen::MatrixXd    goals = goals_of(found, task);
   std::vector<ParetoPoint> front;
-  for (const int row : nondominated(goals_of(found, task), all_minimised(task)))
-    front.push_back(found[row]);
+  std::vector<int>         kept;
+  for (const int row : nondominated(goals, all_minimised(task)))
+    if (std::none_of(kept.begin(), kept.end(), [&](int other) { return is_same(goals, other, row, scale.range); }))
+    {
+      kept.push_back(row);
+      front.push_back(found[row]);
+    }
   return front;
 }
 

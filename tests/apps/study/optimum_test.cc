@@ -277,6 +277,15 @@ TEST(ParetoFront, HoldsItsConcavePartToo)
     EXPECT_NEAR(point.values.norm(), 1., 1e-6);
 }
 
+TEST(ParetoFront, OfThePressHoldsNoPointTwice)
+{
+  const auto front = pareto_front(model_of(press_surfaces()), task_in_box(4, press_goals()));
+
+  ASSERT_GT(front.size(), 5u);
+  for (std::size_t i = 1; i < front.size(); ++i)
+    EXPECT_GT((front[i].values - front[i - 1].values).cwiseQuotient(front[i].values).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(ParetoFront, KeepsLimitsAndRefusesASingleGoal)
 {
   const auto front = pareto_front(Bowl(), task_in_box(2, {{0}, {1, Sense::maximise}}, {{1, -10., 0.5}}));

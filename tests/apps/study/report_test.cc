@@ -166,7 +166,8 @@ TEST(StudyTables, HoldTheNumbersExactly)
 
   EXPECT_THAT(csv, ::testing::StartsWith("output,term,coefficient,confidence\nF,1,"));
   EXPECT_EQ(count_of(csv, "\n"), 1u + 2u * 6u);
-  EXPECT_THAT(effects_csv(findings.surfaces), ::testing::ContainsRegex("\nF,c_P.s_cl,interaction,-(4000|3999\\.999999999)"));
+  EXPECT_THAT(effects_csv(findings.surfaces),
+              ::testing::ContainsRegex("\nF,c_P.s_cl,interaction,-(4000|3999\\.999999999)"));
   EXPECT_EQ(count_of(front_csv(findings), "\n"), 1u + findings.front.size());
   EXPECT_EQ(count_of(robust_csv(findings.robust), "\n"), 3u);
   EXPECT_THAT(surface_quality_csv(findings.surfaces), HasSubstr("\nF [N],10,6,"));
