@@ -4,6 +4,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/tables/sensitivity_table.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 
@@ -38,6 +39,7 @@ struct BudgetOptions
 {
   bool        budget = false;
   std::string outputs;
+  std::string sensitivities;
 };
 
 int run_scene(const CommonOptions &options, const BudgetOptions &asked)
@@ -50,7 +52,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
-  Result result = session.run();
+  Result result = session.run(asked.sensitivities);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
     result.budget = error_budget(session.scene(), outputs, answer_of(result, outputs), &interruption());
   prepare_folder(folder);
@@ -60,6 +62,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   print_answer(*result.run);
   if (result.budget)
     std::cout << budget_text(*result.budget);
+  if (result.sensitivities)
+    std::cout << sensitivities_text(*result.sensitivities);
   if (!result.model.damping.empty())
     std::cout << "damping of the frame: " << result.model.damping << '\n';
   for (const auto *warnings : {&result.warnings, &result.run->warnings})
@@ -91,7 +95,10 @@ Command run_command()
             "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)",
             {},
             {},
-            "--budget"}},
+            "--budget"},
+           {"--sensitivities", &asked->sensitivities,
+            "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
+            "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}},
           [asked](const CommonOptions &options) { return run_scene(options, *asked); }};
 }
 
