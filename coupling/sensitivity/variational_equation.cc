@@ -110,6 +110,31 @@ void VariationalEquation::complete(MotionState &state)
   consistent_.solve(state.q, state.v, state.a, state.local, work_);
 }
 
+void VariationalEquation::begin_piece(const std::vector<MotionState> &passed)
+{
+  for (Changes &what : changes_)
+    what.forces = what.joints = true;
+  of_accelerations_ = true;
+  Linearised at;
+  MatrixXd   p, gamma, P_a;
+  for (const MotionState &state : passed)
+  {
+    linearise(state, at);
+    for (auto &[sum, part] : {std::pair(&p, &at.p), std::pair(&gamma, &at.gamma), std::pair(&P_a, &at.P_a)})
+    {
+      if (sum->size() == 0)
+        sum->setZero(part->rows(), part->cols());
+      *sum += part->cwiseAbs();
+    }
+  }
+  for (std::size_t k = 0; k < changes_.size() && !passed.empty(); ++k)
+  {
+    changes_[k].forces = !p.col(Index(k)).isZero(0.);
+    changes_[k].joints = changes_[k].forces || !gamma.col(Index(k)).isZero(0.);
+  }
+  of_accelerations_ = passed.empty() || !P_a.isZero(0.);
+}
+
 void VariationalEquation::linearise(const MotionState &state, Linearised &at)
 {
   const Index n = machine_.size(), n_u = state.local.u.size(), n_c = machine_.joints().n_rows(), K = n_parameters();
@@ -117,8 +142,13 @@ void VariationalEquation::linearise(const MotionState &state, Linearised &at)
   at.P_v.setZero(n_u, n_u);
   product_.resize(n_u);
   machine_.forces().derivatives(state.local, product_, at.P_u, at.P_v);
-  at.P_a.resize(n_u, n_u);
-  machine_.forces().tangent(state.local, 0., 0., 1., product_, at.P_a);
+  if (of_accelerations_)
+  {
+    at.P_a.resize(n_u, n_u);
+    machine_.forces().tangent(state.local, 0., 0., 1., product_, at.P_a);
+  }
+  else
+    at.P_a.setZero(n_u, n_u);
   for (const HeldMeasure &h : machine_.forces().held())
     for (MatrixXd *P : {&at.P_u, &at.P_v, &at.P_a})
       P->row(h.measure).setZero();
@@ -131,7 +161,8 @@ void VariationalEquation::linearise(const MotionState &state, Linearised &at)
   for (int k = 0; k < K; ++k)
   {
     add_loads(state, k, at);
-    add_forces(state, k, at);
+    if (changes_[std::size_t(k)].forces)
+      add_forces(state, k, at);
   }
   if (n_c > 0)
     add_joints(state, at);
@@ -202,6 +233,8 @@ void VariationalEquation::add_joints(const MotionState &state, Linearised &at)
   VectorXd below(n_c), above(n_c), p_below = VectorXd::Zero(n_u), p_above = p_below;
   for (int k = 0; k < n_parameters(); ++k)
   {
+    if (!changes_[std::size_t(k)].joints)
+      continue;
     const ParameterTwins &twin     = twins_[std::size_t(k)];
     const double          quotient = 0.5 / twin.step;
     joint_terms(*twin.minus.machine, state.local, below, G_minus_);
@@ -361,6 +394,7 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
   MatrixXd S_G;
   if (n_c > 0)
   {
+    S_G.resize(n_u, n_c);
     at.G.times_transposed(base.S, S_G);
     matrix_.block(0, n_u, n_u, n_c) = -S_G;
     matrix_.block(n_u, 0, n_c, n_u) = c * c * at.Gamma_u + c * at.Gamma_v;

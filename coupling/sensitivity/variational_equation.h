@@ -67,6 +67,9 @@ public:
 
   /// Accelerations, forces and multipliers of a motion; state.t, q, v are given, local.lambda is where to begin.
   void complete(MotionState &state);
+  /// A smooth piece of the motion begins, that passes these instants: parameters whose two machines have bit by bit
+  /// equal forces at all of them are not looked at on it, nor are forces' dependences on u'' that are zero there.
+  void begin_piece(const std::vector<MotionState> &passed);
   /// What there is at a state, by the histories that the machine and its twins have now.
   void linearise(const MotionState &state, Linearised &at);
   /// Of columns.q = s_0, columns.v = s'_0 the stage: all of `columns`.
@@ -83,6 +86,7 @@ private:
   struct Changes
   {
     bool                        mass = false, damping = false, stiffness = false, load = false;
+    bool forces = true, joints = true; ///< on the present piece
     Eigen::SparseMatrix<double> W; ///< dW/dx; empty: none
   };
 
@@ -109,7 +113,7 @@ private:
   Eigen::VectorXd                    minus_, plus_, product_, rate_, bias_, g_;
   ConstraintJacobian                 G_minus_, G_plus_;
   LocalState                         moved_;
-  bool                               reads_accelerations_ = false; ///< a force depends on u''
+  bool                               of_accelerations_ = true; ///< a force depends on u'' on the present piece
 };
 
 } // namespace gestell::coupling

@@ -28,6 +28,7 @@ constexpr double same_instant   = 1e-9;  ///< of the distance of nodes
 constexpr double weak           = 1e-3;  ///< coordinates that move less, in the norm of the mass, count as that
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
 constexpr int    most_halvings  = 30;
+constexpr int    looks          = 7; ///< at a piece, for what acts on it
 } // namespace
 
 void PieceReader::begin(const SmoothPiece &piece)
@@ -95,6 +96,31 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
   size_v_ = size_q_;
   for (MotionState *state : {&state_, &stage_state_})
     state->local.resize(equation.machine());
+  root_mass_ = equation.mass_diagonal().cwiseSqrt();
+}
+
+/// Some of its instants.
+void VariationalSteps::look_along(const SmoothPiece &piece)
+{
+  std::vector<MotionState> passed;
+  const std::size_t        last = piece.nodes.size() - 1;
+  for (int i = 0; i <= looks; ++i)
+  {
+    const MotionNode &node = piece.nodes[last * std::size_t(i) / looks];
+    MotionState       at   = state_;
+    at.t                   = node.t;
+    at.q                   = node.q;
+    at.v                   = node.v;
+    equation_.complete(at);
+    passed.push_back(std::move(at));
+  }
+  equation_.begin_piece(passed);
+}
+
+void VariationalSteps::expect(const MatrixXd &s, const MatrixXd &s_rate)
+{
+  size_q_ = s;
+  size_v_ = s_rate;
 }
 
 void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, const MatrixXd &s, const MatrixXd &s_rate)
@@ -105,6 +131,7 @@ void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, c
   state_.v            = piece.nodes.front().v;
   state_.local.lambda = lambda;
   equation_.complete(state_);
+  look_along(piece);
   equation_.linearise(state_, at_);
   columns_.q = s;
   columns_.v = s_rate;
@@ -177,23 +204,22 @@ bool VariationalSteps::try_step(double to)
 /// Largest error of the step against the tolerance, each coordinate by its own size.
 double VariationalSteps::error(double length) const
 {
-  const Index    n = size_q_.rows(), K = size_q_.cols();
-  const VectorXd root = equation_.mass_diagonal().cwiseSqrt();
-  MatrixXd       e_q = MatrixXd::Zero(n, K), e_v = e_q;
-  for (int i = 0; i < n_stages; ++i)
-  {
-    e_q += length * differences[i] * v_[i];
-    e_v += length * differences[i] * a_[i];
-  }
+  e_q_ = length * (differences[0] * v_[0] + differences[1] * v_[1] + differences[2] * v_[2] + differences[4] * v_[4]);
+  e_v_ = length * (differences[0] * a_[0] + differences[1] * a_[1] + differences[2] * a_[2] + differences[4] * a_[4]);
   double largest = 0.;
-  for (Index k = 0; k < K; ++k)
-    for (const auto &[e, before, now] : {std::tuple(&e_q, &size_q_, &stage_.q), std::tuple(&e_v, &size_v_, &stage_.v)})
+  for (const auto &[e, before, now] : {std::tuple(&e_q_, &size_q_, &stage_.q), std::tuple(&e_v_, &size_v_, &stage_.v)})
+    for (Index k = 0; k < e->cols(); ++k)
     {
-      const VectorXd size  = before->col(k).cwiseMax(now->col(k).cwiseAbs());
-      const double   floor = weak * size.cwiseProduct(root).maxCoeff();
-      for (Index i = 0; i < n; ++i)
-        if (const double own = std::max(size[i], root[i] > 0. ? floor / root[i] : 0.); own > 0.)
-          largest = std::max(largest, std::abs((*e)(i, k)) / own);
+      double floor = 0.;
+      for (Index i = 0; i < e->rows(); ++i)
+        floor = std::max(floor, weak * root_mass_[i] * std::max((*before)(i, k), std::abs((*now)(i, k))));
+      for (Index i = 0; i < e->rows(); ++i)
+      {
+        const double own   = std::max((*before)(i, k), std::abs((*now)(i, k)));
+        const double scale = root_mass_[i] > 0. ? std::max(own, floor / root_mass_[i]) : own;
+        if (scale > 0.)
+          largest = std::max(largest, std::abs((*e)(i, k)) / scale);
+      }
     }
   return largest / tolerance_;
 }

@@ -41,8 +41,11 @@ class VariationalSteps
 {
 public:
   /// @param first      [s] the first step that is tried
-  /// @param tolerance  of a step, of the largest derivatives so far
+  /// @param tolerance  of a step, of the largest derivatives so far or those expected
   VariationalSteps(VariationalEquation &equation, double first, double tolerance);
+
+  /// Derivatives count from these sizes on, however small they have been so far.  @param s, s_rate  [n x K]
+  void expect(const Eigen::MatrixXd &s, const Eigen::MatrixXd &s_rate);
 
   /// At the begin of a piece.  @param s, s_rate  [n x K]
   void begin(const SmoothPiece &piece, const Eigen::VectorXd &lambda, const Eigen::MatrixXd &s,
@@ -59,6 +62,7 @@ private:
   static constexpr int n_stages = 5;
 
   bool   try_step(double to);
+  void   look_along(const SmoothPiece &piece);
   double error(double length) const;
   void   note_sizes();
 
@@ -71,6 +75,8 @@ private:
   MotionColumns                       columns_, stage_;
   std::array<Eigen::MatrixXd, n_stages> v_, a_;         ///< s', s'' of the stages
   Eigen::MatrixXd                     size_q_, size_v_; ///< largest |s|, |s'| so far
+  mutable Eigen::MatrixXd             e_q_, e_v_;
+  Eigen::VectorXd                     root_mass_;
 };
 
 } // namespace gestell::coupling

@@ -1,5 +1,6 @@
 #include "apps/session/sensitivity/sensitivity_answer.h"
 
+#include "coupling/sensitivity/frequency_sensitivities.h"
 #include "coupling/sensitivity/run_sensitivities.h"
 
 #include <algorithm>
@@ -26,6 +27,25 @@ void warn_of_idle_keys(const SensitivityResult &found, std::vector<std::string> 
   }
 }
 
+void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins, const Result &result,
+                     SensitivityResult &found)
+{
+  const auto at = [](const Scene &of, coupling::Machine &machine)
+  { return coupling::LinearisedAt{&machine, modes_configuration(of, machine), &of.modes.open}; };
+  std::vector<coupling::FrequencyTwins> sides;
+  for (std::size_t k = 0; k < twins.twins.size(); ++k)
+  {
+    SceneTwin &below = twins.scenes[2 * k], &above = twins.scenes[2 * k + 1];
+    sides.push_back({at(*below.scene, below.prepared->machine), at(*above.scene, above.prepared->machine),
+                     twins.twins[k].step});
+  }
+  const Eigen::MatrixXd slopes =
+      coupling::frequency_sensitivities(at(scene, prepared.machine), result.coupled_modes, sides);
+  for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
+    found.outputs.push_back({"modes." + std::to_string(j + 1), "Hz", "", result.coupled_modes[j].frequency_hz,
+                             slopes.row(Eigen::Index(j)).transpose()});
+}
+
 } // namespace
 
 SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins,
@@ -41,6 +61,7 @@ SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepar
   for (const coupling::OutputDerivatives &output : run.outputs)
     found.outputs.push_back({output.output, output.unit, output.note, output.value, output.derivative});
   found.steps = run.steps;
+  add_frequencies(scene, prepared, twins, result, found);
   result.warnings.insert(result.warnings.end(), run.warnings.begin(), run.warnings.end());
   warn_of_idle_keys(found, result.warnings);
   return found;
