@@ -18,6 +18,9 @@ using Eigen::VectorXd;
 constexpr Index       largest_inverse = 200;  ///< coordinates of systems whose A^-1 is kept
 constexpr std::size_t most_bases      = 64;   ///< factors kept
 constexpr double      bend            = 1e-6; ///< of the size of a joint, by which its measures are moved
+constexpr double      shift           = 1e-7; ///< of the size of an element, likewise
+constexpr double      exact           = 1e-5; ///< of derivatives: quotients do not differ by more
+constexpr double      slow            = 1e-3; ///< [m/s, rad/s] speed below which measures are moved as if they had it
 
 void refuse_what_is_not_carried(const Machine &machine)
 {
@@ -58,6 +61,8 @@ VariationalEquation::VariationalEquation(Machine &machine, const std::vector<Par
     x->setZero(n_c);
   G_minus_ = G_plus_ = ConstraintJacobian(machine.joints().blocks());
   moved_.resize(machine);
+  blocks_ = machine.forces().blocks();
+  inexact_.assign(blocks_.size(), 0);
   MatrixXd M;
   if (n > largest_inverse || !machine.linear().dense_matrices(M, B_, C_))
     B_.resize(0, 0);
@@ -115,6 +120,8 @@ void VariationalEquation::begin_piece(const std::vector<MotionState> &passed)
   for (Changes &what : changes_)
     what.forces = what.joints = true;
   of_accelerations_ = true;
+  for (const MotionState &state : passed)
+    find_inexact(state);
   Linearised at;
   MatrixXd   p, gamma, P_a;
   for (const MotionState &state : passed)
@@ -142,6 +149,7 @@ void VariationalEquation::linearise(const MotionState &state, Linearised &at)
   at.P_v.setZero(n_u, n_u);
   product_.resize(n_u);
   machine_.forces().derivatives(state.local, product_, at.P_u, at.P_v);
+  differentiate(state, inexact_, at);
   if (of_accelerations_)
   {
     at.P_a.resize(n_u, n_u);
@@ -166,6 +174,63 @@ void VariationalEquation::linearise(const MotionState &state, Linearised &at)
   }
   if (n_c > 0)
     add_joints(state, at);
+}
+
+/// Quotients for P_u and P_v of the blocks that are marked, by moving the same measure of all at once.
+void VariationalEquation::differentiate(const MotionState &state, const std::vector<char> &marked, Linearised &at)
+{
+  int most = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    most = marked[b] ? std::max(most, blocks_[b].n_measures) : most;
+  for (int j = 0; j < most; ++j)
+    for (const bool rates : {false, true})
+    {
+      const auto way = [&](const ForceBlock &block)
+      {
+        const int    measure = block.first_measure + j;
+        const double x       = std::abs(rates ? state.local.v[measure] : state.local.u[measure]);
+        const double size    = rates ? slow : block.size > 0. ? block.size : 1.;
+        return shift * std::max(x, size);
+      };
+      const auto forces_at = [&](double sign, VectorXd &p)
+      {
+        moved_      = state.local;
+        VectorXd &x = rates ? moved_.v : moved_.u;
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+          if (marked[b] && j < blocks_[b].n_measures)
+            x[blocks_[b].first_measure + j] += sign * way(blocks_[b]);
+        p = state.local.p;
+        machine_.forces().force(moved_, p);
+      };
+      forces_at(-1., minus_);
+      forces_at(1., plus_);
+      for (std::size_t b = 0; b < blocks_.size(); ++b)
+        if (const ForceBlock &block = blocks_[b]; marked[b] && j < block.n_measures)
+          (rates ? at.P_v : at.P_u).col(block.first_measure + j).segment(block.first_measure, block.n_measures) =
+              (plus_ - minus_).segment(block.first_measure, block.n_measures) * (0.5 / way(block));
+    }
+}
+
+void VariationalEquation::find_inexact(const MotionState &state)
+{
+  const Index n_u = state.local.u.size();
+  Linearised  told, seen;
+  for (Linearised *at : {&told, &seen})
+  {
+    at->P_u.setZero(n_u, n_u);
+    at->P_v.setZero(n_u, n_u);
+  }
+  product_.resize(n_u);
+  machine_.forces().derivatives(state.local, product_, told.P_u, told.P_v);
+  differentiate(state, std::vector<char>(blocks_.size(), 1), seen);
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (MatrixXd Linearised::*P : {&Linearised::P_u, &Linearised::P_v})
+    {
+      const int      first = blocks_[b].first_measure, k = blocks_[b].n_measures;
+      const MatrixXd own = (told.*P).block(first, first, k, k), other = (seen.*P).block(first, first, k, k);
+      if (!((own - other).cwiseAbs().maxCoeff() <= exact * other.cwiseAbs().maxCoeff()))
+        inexact_[b] = 1;
+    }
 }
 
 void VariationalEquation::add_loads(const MotionState &state, int k, Linearised &at)

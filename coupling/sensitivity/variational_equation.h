@@ -47,7 +47,7 @@ struct Linearised
  *     G W^T s'' + Gamma_u W^T s + Gamma_v W^T s' + gamma_x = 0          ideal joints, index 1
  *     (W^T s'')_h = 0                                                   measures h that stick, dp_h unknown.
  *
- * P are the exact derivatives of the laws; what carries the index x is the central quotient of two machines at a fixed
+ * P are the exact derivatives of the laws (of those that act along directions which turn, by quotients); what carries the index x is the central quotient of two machines at a fixed
  * motion and with the histories that each of them has by then.
  *
  * A stage of an implicit method, s = s_0 + c s', s' = s'_0 + c s'', is solved as a step of an integrator is, with
@@ -96,6 +96,8 @@ private:
   void        add_loads(const MotionState &state, int k, Linearised &at);
   void        add_forces(const MotionState &state, int k, Linearised &at);
   void        add_joints(const MotionState &state, Linearised &at);
+  void        find_inexact(const MotionState &state);
+  void        differentiate(const MotionState &state, const std::vector<char> &blocks, Linearised &at);
   void        bend_joints(const MotionState &state, Eigen::VectorXd LocalState::*moved, Eigen::MatrixXd &Gamma,
                           Eigen::MatrixXd *P);
   void        joint_terms(const Machine &machine, const LocalState &local, Eigen::VectorXd &terms,
@@ -113,6 +115,8 @@ private:
   Eigen::VectorXd                    minus_, plus_, product_, rate_, bias_, g_;
   ConstraintJacobian                 G_minus_, G_plus_;
   LocalState                         moved_;
+  std::vector<ForceBlock>            blocks_;
+  std::vector<char>                  inexact_; ///< blocks whose derivatives leave out how their directions turn
   bool                               of_accelerations_ = true; ///< a force depends on u'' on the present piece
 };
 
