@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-double tolerance   = getenv("TOL")?atof(getenv("TOL")):1e-8;  ///< of a step of the variational equations
+constexpr double finest = 1e-8, coarsest = 1e-6; ///< tolerances of a step of the variational equations
 constexpr double little      = 0.02;  ///< of their step, over which rates in time are taken
 constexpr double same_time   = 1e-9;  ///< of the run's length
 constexpr double jump        = 1e-6;  ///< of the fastest coordinate: velocities that differ by more jump
@@ -89,6 +89,14 @@ private:
   double                    near_ = 0.;
 };
 
+/// Derivatives are no better than the motion they follow.
+double tolerance_for(const MethodOptions &method)
+{
+  if (controlled(method))
+    return std::clamp(100. * method.tolerance, finest, coarsest);
+  return method.order > 2 ? finest : coarsest;
+}
+
 double first_step(const SensitivityProblem &problem)
 {
   const double length = problem.options.end - problem.options.begin;
@@ -99,7 +107,7 @@ double first_step(const SensitivityProblem &problem)
 
 Passage::Passage(const SensitivityProblem &problem)
     : problem_(problem), machine_(problem.machine), K_(int(problem.twins.size())), equation_(machine_, problem.twins),
-      steps_(equation_, first_step(problem), tolerance)
+      steps_(equation_, first_step(problem), tolerance_for(problem.options.method))
 {
   near_ = same_time * (problem.options.end - problem.options.begin);
   for (std::size_t i = 0; i < problem.signals.size(); ++i)

@@ -55,6 +55,11 @@ const VectorXd &PieceReader::acceleration(std::size_t node)
   return kept.second;
 }
 
+double PieceReader::spacing() const
+{
+  return here_ + 1 < piece_->nodes.size() ? piece_->nodes[here_ + 1].t - piece_->nodes[here_].t : 0.;
+}
+
 void PieceReader::read(double close, MotionState &state)
 {
   const auto  &nodes = piece_->nodes;
@@ -156,7 +161,7 @@ void VariationalSteps::advance_to(double t)
     const double length = last ? left : step_;
     const bool   made   = try_step(last ? t : from + length);
     const double err    = error(length);
-    if (!made || !(err <= 1.))
+    if (!made || (!(err <= 1.) && length > reader_.spacing()))
     {
       if (++halvings > most_halvings)
         throw ConvergenceFailure("the derivatives of the motion cannot be carried beyond t = " + std::to_string(from) +

@@ -19,6 +19,8 @@ public:
   /// q, q' at state.t.
   /// @param close  [s] nodes that are no farther apart lie close
   void read(double close, MotionState &state);
+  /// [s] of the nodes about where it was read last: what is shorter the run did not resolve.
+  double spacing() const;
 
 private:
   const Eigen::VectorXd &acceleration(std::size_t node);
@@ -33,7 +35,8 @@ private:
 /**
  * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five stages
  * and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the step H,
- * from a ladder of powers of two, is controlled by the embedded method of order 3.
+ * from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are not divided:
+ * what seems to move faster is its own error.
  *
  * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6).
  */
