@@ -77,7 +77,7 @@ std::string orders(const Result &result)
 
 std::string sensitivities(const Result &result)
 {
-  return result.sensitivities ? sensitivities_csv(*result.sensitivities) : "";
+  return result.sensitivities && result.sensitivities->failure.empty() ? sensitivities_csv(*result.sensitivities) : "";
 }
 
 std::string models(const Result &result)

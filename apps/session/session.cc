@@ -251,9 +251,9 @@ Result Session::run(const std::string &sensitivities)
 {
   check_run();
   const bool             differentiated = !sensitivities.empty();
-  const SceneNode        root = differentiated ? read_scene_file(path_, overrides_) : SceneNode();
-  std::vector<VariedKey> keys = differentiated ? varied_keys(root, sensitivities) : std::vector<VariedKey>();
-  PreparedMachine &prepared = machine();
+  const SceneNode        root           = differentiated ? read_scene_file(path_, overrides_) : SceneNode();
+  std::vector<VariedKey> keys           = differentiated ? varied_keys(root, sensitivities) : std::vector<VariedKey>();
+  PreparedMachine       &prepared       = machine();
   require_stress(scene_, prepared.machine.model().reduced_frame());
   const auto signals = with_normal_forces(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
   progress()("start", -1.);
@@ -375,8 +375,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
 }
 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,
-                                       const std::vector<coupling::Signal> &signals,
-                                       coupling::Trajectory                *trajectory)
+                                       const std::vector<coupling::Signal> &signals, coupling::Trajectory *trajectory)
 {
   const coupling::RunOptions &run = scene_.run.options;
   const auto                  now = progress();

@@ -62,10 +62,10 @@ bool stands_alone(const std::vector<Mode> &modes, std::size_t j)
 MatrixXd frequency_sensitivities(const LinearisedAt &at, const std::vector<Mode> &modes,
                                  const std::vector<FrequencyTwins> &twins)
 {
-  MatrixXd found = MatrixXd::Constant(Index(modes.size()), Index(twins.size()),
-                                      std::numeric_limits<double>::quiet_NaN());
-  const Matrices own = matrices(at);
-  const bool     jointed = own.G.rows() > 0;
+  MatrixXd found =
+      MatrixXd::Constant(Index(modes.size()), Index(twins.size()), std::numeric_limits<double>::quiet_NaN());
+  const Matrices     own     = matrices(at);
+  const bool         jointed = own.G.rows() > 0;
   LeastSquaresSolver joints;
   if (jointed)
     joints = LeastSquaresSolver(MatrixXd(own.G.transpose()));
@@ -84,9 +84,9 @@ MatrixXd frequency_sensitivities(const LinearisedAt &at, const std::vector<Mode>
     {
       if (!stands_alone(modes, j))
         continue;
-      const VectorXd &v      = modes[j].shape;
-      const double    omega  = 2. * M_PI * modes[j].frequency_hz;
-      double          slope  = v.dot((above.K - below.K) * v) - omega * omega * v.dot((above.M - below.M) * v);
+      const VectorXd &v     = modes[j].shape;
+      const double    omega = 2. * M_PI * modes[j].frequency_hz;
+      double          slope = v.dot((above.K - below.K) * v) - omega * omega * v.dot((above.M - below.M) * v);
       if (jointed)
         slope += 2. * mu[j].dot((above.G - below.G) * v);
       found(Index(j), Index(k)) = quotient * slope / (4. * M_PI * omega);

@@ -24,7 +24,8 @@ struct FrequencyTwins
 };
 
 /**
- * Derivatives of the natural frequencies [Hz] of a linearised machine by parameters [modes x K], from its eigenvectors v,
+ * Derivatives of the natural frequencies [Hz] of a linearised machine by parameters [modes x K], from its eigenvectors
+ * v,
  *
  *     8 pi^2 f df/dx = v^T (K_x - omega^2 M_x) v + 2 v^T G_x^T mu,     K v - omega^2 M v + G^T mu = 0,
  *

@@ -22,8 +22,8 @@ struct MachineTwin
 /// Derivatives at a fixed motion are quotients of the two; no motion of theirs is ever computed.
 struct ParameterTwins
 {
-  std::string key;       ///< "parameters.c_P"
-  std::string unit;      ///< "N/m", of SI
+  std::string key;  ///< "parameters.c_P"
+  std::string unit; ///< "N/m", of SI
   double      value = 0.;
   double      step  = 0.; ///< > 0
   MachineTwin minus, plus;

@@ -21,13 +21,13 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 constexpr double finest = 1e-8, coarsest = 1e-6; ///< tolerances of a step of the variational equations
-constexpr double little      = 0.02;  ///< of their step, over which rates in time are taken
-constexpr double same_time   = 1e-9;  ///< of the run's length
-constexpr double jump        = 1e-6;  ///< of the fastest coordinate: velocities that differ by more jump
-constexpr double touching    = 1e-6;  ///< of what a guard moves in a step, its rate: it touches its zero only
+constexpr double little      = 0.02;             ///< of their step, over which rates in time are taken
+constexpr double same_time   = 1e-9;             ///< of the run's length
+constexpr double jump        = 1e-6;             ///< of the fastest coordinate: velocities that differ by more jump
+constexpr double touching    = 1e-6; ///< of what a guard moves in a step, its rate: it touches its zero only
 constexpr double one_percent = 0.01;
 
-constexpr double expected    = 0.01;  ///< relative change of the motion by that of a parameter: less need not be exact
+constexpr double expected = 0.01; ///< relative change of the motion by that of a parameter: less need not be exact
 
 const double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -53,27 +53,29 @@ private:
     double      t, value;
   };
 
-  void   start();
-  void   expect();
-  void   compare_structures(double t, const std::string &after);
-  void   pass_piece(std::size_t number);
-  void   take_events(std::size_t number);
-  void   take_transition(int guard, const MotionState &state, const MotionColumns &columns, const RowVectorXd &dt);
-  void   tell_piece_begin(std::size_t number);
-  void   look_at_extremes(double t);
-  void   at_extreme(Extreme &extreme);
-  void   at_event_extreme(Extreme &extreme, const Told &told, const VectorXd &rates, const RowVectorXd &dt);
-  Told   tell(const MotionState &state, const MotionColumns &columns);
-  VectorXd values(const MotionState &state);
-  void   find_rates(const MotionState &state, double way, LocalState &rates, VectorXd &y_rates);
-  MotionState   moved(const MotionState &state, const VectorXd &jerk, double by);
+  void        start();
+  void        expect();
+  void        warn_of_order();
+  void        compare_structures(double t, const std::string &after);
+  void        pass_piece(std::size_t number);
+  void        take_events(std::size_t number);
+  void        take_transition(int guard, const MotionState &state, const MotionColumns &columns, const RowVectorXd &dt);
+  void        tell_piece_begin(std::size_t number);
+  void        look_at_extremes(double t);
+  void        at_extreme(Extreme &extreme);
+  void        at_event_extreme(Extreme &extreme, const Told &told, const VectorXd &rates, const RowVectorXd &dt);
+  Told        tell(const MotionState &state, const MotionColumns &columns);
+  VectorXd    values(const MotionState &state);
+  void        find_rates(const MotionState &state, double way, LocalState &rates, VectorXd &y_rates);
+  MotionState moved(const MotionState &state, const VectorXd &jerk, double by);
   MotionColumns moved(const MotionState &at, const MotionColumns &columns, double by);
   VectorXd      jerk(const MotionState &state, double by);
-  void   find_signal_rates(const MotionState &state, const MotionColumns &columns, VectorXd &rate, VectorXd &second, MatrixXd &d_rate);
-  RowVectorXd event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns);
+  void find_signal_rates(const MotionState &state, const MotionColumns &columns, VectorXd &rate, VectorXd &second,
+                         MatrixXd &d_rate);
+  RowVectorXd        event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns);
   OutputDerivatives &output(const Extreme &extreme, bool instant);
-  void   set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant);
-  LocalState local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const;
+  void               set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant);
+  LocalState         local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const;
 
   const SensitivityProblem &problem_;
   Machine                  &machine_;
@@ -101,7 +103,8 @@ double first_step(const SensitivityProblem &problem)
 {
   const double length = problem.options.end - problem.options.begin;
   if (problem.options.method.step > 0. && !controlled(problem.options.method))
-    return problem.options.method.step * std::exp2(std::min(4., std::floor(std::log2(length / problem.options.method.step))));
+    return problem.options.method.step *
+           std::exp2(std::min(4., std::floor(std::log2(length / problem.options.method.step))));
   return length / 1024.;
 }
 
@@ -198,8 +201,8 @@ void Passage::compare_structures(double t, const std::string &after)
     for (const MachineTwin *twin : {&twins.minus, &twins.plus})
     {
       const EventSystem &own = machine_.events(), &its = twin->machine->events();
-      bool               same = own.n_guards() == its.n_guards() &&
-                  machine_.forces().held().size() == twin->machine->forces().held().size();
+      bool               same =
+          own.n_guards() == its.n_guards() && machine_.forces().held().size() == twin->machine->forces().held().size();
       for (int i = 0; same && i < own.n_guards(); ++i)
         same = own.guard(i).kind == its.guard(i).kind && own.guard(i).name == its.guard(i).name;
       if (same)
@@ -232,7 +235,7 @@ Told Passage::tell(const MotionState &state, const MotionColumns &columns)
     const ParameterTwins &twins = problem_.twins[std::size_t(k)];
     const double          h     = twins.step;
     const LocalState      above = local_at(state, columns, k, h), below = local_at(state, columns, k, -h);
-    const VectorXd q_above = state.q + h * columns.q.col(k), q_below = state.q - h * columns.q.col(k),
+    const VectorXd        q_above = state.q + h * columns.q.col(k), q_below = state.q - h * columns.q.col(k),
                    v_above = state.v + h * columns.v.col(k), v_below = state.v - h * columns.v.col(k),
                    a_above = state.a + h * columns.a.col(k), a_below = state.a - h * columns.a.col(k);
     for (std::size_t i = 0; i < problem_.signals.size(); ++i)
@@ -371,7 +374,7 @@ void Passage::take_events(std::size_t number)
   MotionState        state   = steps_.state();
   MotionColumns      columns = steps_.columns();
   equation_.begin_piece({});
-  dt_                        = event_time_derivatives(piece.guards.front(), state, columns);
+  dt_ = event_time_derivatives(piece.guards.front(), state, columns);
   LocalState rates;
   VectorXd   y_rates;
   find_rates(state, little * steps_.step(), rates, y_rates);
@@ -388,7 +391,7 @@ void Passage::take_events(std::size_t number)
     compare_structures(state.t, "\"" + name + "\"");
     const VectorXd before = state.a;
     equation_.complete(state);
-    s_rate_ = columns.v + (before - state.a) * dt_;
+    s_rate_   = columns.v + (before - state.a) * dt_;
     columns.v = s_rate_;
     Linearised at;
     equation_.linearise(state, at);
@@ -398,8 +401,10 @@ void Passage::take_events(std::size_t number)
   lambda_ = state.local.lambda;
   if (number + 1 < problem_.trajectory.pieces().size())
   {
-    const VectorXd &next = problem_.trajectory.pieces()[number + 1].nodes.front().v;
-    if (!((next - state.v).cwiseAbs().maxCoeff() <= jump * state.v.cwiseAbs().maxCoeff()))
+    VectorXd change = problem_.trajectory.pieces()[number + 1].nodes.front().v - state.v;
+    for (const int i : equation_.lags())
+      change[i] = 0.;
+    if (!(change.cwiseAbs().maxCoeff() <= jump * state.v.cwiseAbs().maxCoeff()))
     {
       std::ostringstream text;
       text << "sensitivities: velocities jump at t = " << state.t
@@ -413,7 +418,7 @@ void Passage::take_events(std::size_t number)
 /// At an event the signal has two values: the extreme is that of before if it is as near.
 void Passage::at_event_extreme(Extreme &extreme, const Told &told, const VectorXd &rates, const RowVectorXd &dt)
 {
-  const Index i = Index(extreme.signal);
+  const Index  i   = Index(extreme.signal);
   const double off = std::abs(told.y[i] - extreme.value);
   if (output(extreme, false).derivative.allFinite() && !(off < 1e-9 * std::abs(extreme.value)))
     return;
@@ -421,12 +426,12 @@ void Passage::at_event_extreme(Extreme &extreme, const Told &told, const VectorX
 }
 
 /// y', y'' and the rate of dy/dx here, of all signals.
-void Passage::find_signal_rates(const MotionState &state, const MotionColumns &columns, VectorXd &rate, VectorXd &second,
-                                MatrixXd &d_rate)
+void Passage::find_signal_rates(const MotionState &state, const MotionColumns &columns, VectorXd &rate,
+                                VectorXd &second, MatrixXd &d_rate)
 {
   const double   way = little * steps_.step();
-  const VectorXd j   = jerk(state, way), here = values(state);
-  const Index    n   = here.size();
+  const VectorXd j = jerk(state, way), here = values(state);
+  const Index    n = here.size();
   rate.setZero(n);
   second.setZero(n);
   d_rate.setZero(n, K_);
@@ -480,8 +485,8 @@ void Passage::pass_piece(std::size_t number)
   const SmoothPiece &piece = problem_.trajectory.pieces()[number];
   steps_.begin(piece, lambda_, s_, s_rate_);
   tell_piece_begin(number);
-  const double        begin = piece.nodes.front().t, end = piece.nodes.back().t;
-  std::set<double>    stops;
+  const double     begin = piece.nodes.front().t, end = piece.nodes.back().t;
+  std::set<double> stops;
   for (const Extreme &extreme : extremes_)
     if (extreme.t > begin + near_ && extreme.t < end - near_)
       stops.insert(extreme.t);
@@ -498,6 +503,39 @@ void Passage::pass_piece(std::size_t number)
   lambda_ = steps_.state().local.lambda;
   if (!piece.guards.empty())
     take_events(number);
+}
+
+/// By which share of its value a parameter makes neighbouring events meet, to first order: beyond, they change places
+/// and the derivative says nothing.
+void Passage::warn_of_order()
+{
+  std::vector<const OutputDerivatives *> events;
+  for (const OutputDerivatives &output : result_.outputs)
+    if (output.output.compare(0, 7, "events.") == 0)
+      events.push_back(&output);
+  for (int k = 0; k < K_; ++k)
+  {
+    const double value    = std::abs(problem_.twins[std::size_t(k)].value);
+    double       smallest = one_percent;
+    std::string  which;
+    for (std::size_t i = 1; i < events.size(); ++i)
+    {
+      const double gap   = events[i]->value - events[i - 1]->value;
+      const double share = gap / (std::abs(events[i]->derivative[k] - events[i - 1]->derivative[k]) * value);
+      if (gap > near_ && share < smallest)
+      {
+        smallest = share;
+        which    = events[i - 1]->note + " and " + events[i]->note;
+      }
+    }
+    if (which.empty())
+      continue;
+    std::ostringstream text;
+    text.precision(2);
+    text << "a change of " << problem_.twins[std::size_t(k)].key << " by " << 100. * smallest << " % makes " << which
+         << " meet; its derivatives hold for less";
+    result_.warnings.push_back(text.str());
+  }
 }
 
 RunSensitivities Passage::result()
@@ -521,6 +559,7 @@ RunSensitivities Passage::result()
   for (Extreme &extreme : extremes_)
     if (std::abs(extreme.t - steps_.state().t) <= near_)
       set(extreme, result_.outputs[5 * extreme.signal + 4].derivative, end.transpose());
+  warn_of_order();
   result_.steps  = steps_.steps();
   result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   return std::move(result_);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "coupling/sensitivity/parameter_twins.h"
-#include "coupling/simulation/trajectory.h"
 #include "coupling/simulation/run_result.h"
+#include "coupling/simulation/trajectory.h"
 
 #include <string>
 #include <vector>

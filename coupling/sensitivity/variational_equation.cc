@@ -22,19 +22,6 @@ constexpr double      shift           = 1e-7; ///< of the size of an element, li
 constexpr double      exact           = 1e-5; ///< of derivatives: quotients do not differ by more
 constexpr double      slow            = 1e-3; ///< [m/s, rad/s] speed below which measures are moved as if they had it
 
-void refuse_what_is_not_carried(const Machine &machine)
-{
-  if (!machine.linear().virtual_coordinates().empty())
-    throw std::invalid_argument(
-        "sensitivities: \"" + machine.coordinate_name(machine.linear().virtual_coordinates().front()) +
-        "\" is a state without mass, which the variational equations do not carry yet; take a law without lag (type = "
-        "\"asynchronous motor\"), or differences of two runs with --set");
-  if (machine.forces().need_multipliers())
-    throw std::invalid_argument("sensitivities: friction in an ideal joint follows from the force of the joint, which "
-                                "the variational equations do not carry yet; make the joint compliant, or take "
-                                "differences of two runs with --set");
-}
-
 bool same(const VectorXd &a, const VectorXd &b)
 {
   return a == b;
@@ -50,9 +37,17 @@ Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, c
 }
 } // namespace
 
+void require_variational(const Machine &machine)
+{
+  if (machine.forces().need_multipliers())
+    throw std::invalid_argument("sensitivities: friction in an ideal joint follows from the force of the joint, which "
+                                "the variational equations do not carry yet; make the joint compliant, or take "
+                                "differences of two runs with --set");
+}
+
 VariationalEquation::VariationalEquation(Machine &machine, const std::vector<ParameterTwins> &twins)
     : machine_(machine), twins_(twins),
-      consistent_((refuse_what_is_not_carried(machine), machine), "the variational equations")
+      consistent_((require_variational(machine), machine), "the variational equations")
 {
   const Index n = machine.size(), n_u = machine.forces().directions().cols(), n_c = machine.joints().n_rows();
   for (VectorXd *x : {&minus_, &plus_, &product_})
@@ -62,6 +57,7 @@ VariationalEquation::VariationalEquation(Machine &machine, const std::vector<Par
   G_minus_ = G_plus_ = ConstraintJacobian(machine.joints().blocks());
   moved_.resize(machine);
   blocks_ = machine.forces().blocks();
+  lags_   = machine.linear().virtual_coordinates();
   inexact_.assign(blocks_.size(), 0);
   MatrixXd M;
   if (n > largest_inverse || !machine.linear().dense_matrices(M, B_, C_))
@@ -73,7 +69,12 @@ VariationalEquation::VariationalEquation(Machine &machine, const std::vector<Par
     unit[i] = 1.;
     machine.linear().mass_times(unit, column);
     mass_[i] = column[i];
-    unit[i]  = 0.;
+    if (std::count(lags_.begin(), lags_.end(), int(i)) > 0)
+    {
+      machine.linear().damping_times(unit, column);
+      time_constants_.push_back(column[i]);
+    }
+    unit[i] = 0.;
   }
   find_changes();
 }
@@ -98,7 +99,8 @@ void VariationalEquation::find_changes()
     change.mass      = differ(&LinearSystem::mass_times);
     change.damping   = differ(&LinearSystem::damping_times);
     change.stiffness = differ(&LinearSystem::stiffness_times);
-    change.load      = !below.excitation().is_constant() || !same(below.excitation().constant(), above.excitation().constant());
+    change.load =
+        !below.excitation().is_constant() || !same(below.excitation().constant(), above.excitation().constant());
     change.W = quotient(twin.minus.machine->forces().directions(), twin.plus.machine->forces().directions(), twin.step);
     changes_.push_back(std::move(change));
   }
@@ -113,6 +115,8 @@ void VariationalEquation::complete(MotionState &state)
   keep_held_rates(machine_, state.local.v);
   state.a.resize(state.q.size());
   consistent_.solve(state.q, state.v, state.a, state.local, work_);
+  for (const int i : lags_)
+    state.a[i] = 0.;
 }
 
 void VariationalEquation::begin_piece(const std::vector<MotionState> &passed)
@@ -362,6 +366,21 @@ void VariationalEquation::bend_joints(const MotionState &state, VectorXd LocalSt
   }
 }
 
+/// Without mass, T s' + s = r + dp: what the equation lacks stands where accelerations do, and changes s'.
+void VariationalEquation::settle_lags(const Linearised &at, MotionColumns &columns) const
+{
+  for (std::size_t i = 0; i < lags_.size(); ++i)
+  {
+    columns.v.row(lags_[i]) += columns.a.row(lags_[i]) / time_constants_[i];
+    columns.a.row(lags_[i]).setZero();
+  }
+  if (lags_.empty())
+    return;
+  columns.u_rate.noalias() = machine_.forces().directions().transpose() * columns.v;
+  if (at.v.size() > 0)
+    columns.u_rate += at.v;
+}
+
 const VariationalEquation::Base &VariationalEquation::base(double c)
 {
   const auto found = bases_.find(c);
@@ -444,8 +463,8 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
     columns.u_rate += at.v;
     X_ += at.a;
   }
-  K_           = c * c * at.P_u + c * at.P_v + at.P_a;
-  k_           = at.p;
+  K_ = c * c * at.P_u + c * at.P_v + at.P_a;
+  k_ = at.p;
   k_.noalias() += at.P_u * columns.u;
   k_.noalias() += at.P_v * columns.u_rate;
   for (const HeldMeasure &h : held)
@@ -474,9 +493,9 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
   }
   for (Index h = 0; h < n_h; ++h)
   {
-    const int measure                     = held[std::size_t(h)].measure;
-    matrix_.col(n_u + n_c + h).head(n_u)  = -base.S.col(measure);
-    matrix_(n_u + n_c + h, measure)       = 1.;
+    const int measure                    = held[std::size_t(h)].measure;
+    matrix_.col(n_u + n_c + h).head(n_u) = -base.S.col(measure);
+    matrix_(n_u + n_c + h, measure)      = 1.;
   }
   if (size > 0)
     right_ = lu_solution(matrix_, right_);
@@ -494,6 +513,8 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
   for (Index h = 0; h < n_h; ++h)
     columns.p.row(held[std::size_t(h)].measure) = right_.row(n_u + n_c + h);
   columns.a.noalias() += base.Y * columns.p;
+  if (c == 0.)
+    settle_lags(at, columns);
   columns.q += c * c * columns.a;
   columns.v += c * columns.a;
   columns.u += c * c * columns.u_acc;

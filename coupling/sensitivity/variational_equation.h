@@ -10,6 +10,10 @@
 namespace gestell::coupling
 {
 
+/// Refuses a machine whose variational equations are not built, before it runs.
+/// @throws std::invalid_argument with what it is and the way out
+void require_variational(const Machine &machine);
+
 /// The motion and its accelerations, forces and multipliers, as the equation of motion gives them.
 struct MotionState
 {
@@ -30,7 +34,7 @@ struct MotionColumns
 /// The equations of motion linearised at a motion, and what parameters change in them while it is held fixed.
 struct Linearised
 {
-  Eigen::MatrixXd P_u, P_v, P_a; ///< dp/du, dp/du', dp/du'' [n_u x n_u]; that of joints, d(G^T lambda)/du, is in P_u
+  Eigen::MatrixXd    P_u, P_v, P_a; ///< dp/du, dp/du', dp/du'' [n_u x n_u]; that of joints, d(G^T lambda)/du, is in P_u
   ConstraintJacobian G;
   Eigen::MatrixXd    Gamma_u, Gamma_v; ///< d(G u'' + bias)/du, /du' [n_c x n_u]
   Eigen::MatrixXd    r;                ///< [n x K] loads by M, B, C, W and f_t of the parameters
@@ -47,8 +51,9 @@ struct Linearised
  *     G W^T s'' + Gamma_u W^T s + Gamma_v W^T s' + gamma_x = 0          ideal joints, index 1
  *     (W^T s'')_h = 0                                                   measures h that stick, dp_h unknown.
  *
- * P are the exact derivatives of the laws (of those that act along directions which turn, by quotients); what carries the index x is the central quotient of two machines at a fixed
- * motion and with the histories that each of them has by then.
+ * P are the exact derivatives of the laws (of those that act along directions which turn, by quotients); what carries
+ * the index x is the central quotient of two machines at a fixed motion and with the histories that each of them has by
+ * then.
  *
  * A stage of an implicit method, s = s_0 + c s', s' = s'_0 + c s'', is solved as a step of an integrator is, with
  * A = M + c B + c^2 C condensed to the measures; c = 0 gives the accelerations that belong to s and s'.
@@ -58,12 +63,13 @@ struct Linearised
 class VariationalEquation
 {
 public:
-  /// @throws std::invalid_argument for coordinates without mass and for friction in ideal joints, with the way out
+  /// @throws std::invalid_argument as require_variational(), and for a coordinate without mass that is no lag
   VariationalEquation(Machine &machine, const std::vector<ParameterTwins> &twins);
 
-  Machine       &machine() { return machine_; }
-  int            n_parameters() const { return int(twins_.size()); }
-  Eigen::VectorXd mass_diagonal() const { return mass_; }
+  Machine                &machine() { return machine_; }
+  int                     n_parameters() const { return int(twins_.size()); }
+  const Eigen::VectorXd  &mass_diagonal() const { return mass_; }
+  const std::vector<int> &lags() const { return lags_; }
 
   /// Accelerations, forces and multipliers of a motion; state.t, q, v are given, local.lambda is where to begin.
   void complete(MotionState &state);
@@ -86,13 +92,14 @@ private:
   struct Changes
   {
     bool                        mass = false, damping = false, stiffness = false, load = false;
-    bool forces = true, joints = true; ///< on the present piece
-    Eigen::SparseMatrix<double> W; ///< dW/dx; empty: none
+    bool                        forces = true, joints = true; ///< on the present piece
+    Eigen::SparseMatrix<double> W;                            ///< dW/dx; empty: none
   };
 
   const Base &base(double c);
   void        solve_base(const Base &base, const Eigen::MatrixXd &F, Eigen::MatrixXd &X) const;
   void        find_changes();
+  void        settle_lags(const Linearised &at, MotionColumns &columns) const;
   void        add_loads(const MotionState &state, int k, Linearised &at);
   void        add_forces(const MotionState &state, int k, Linearised &at);
   void        add_joints(const MotionState &state, Linearised &at);
@@ -100,8 +107,7 @@ private:
   void        differentiate(const MotionState &state, const std::vector<char> &blocks, Linearised &at);
   void        bend_joints(const MotionState &state, Eigen::VectorXd LocalState::*moved, Eigen::MatrixXd &Gamma,
                           Eigen::MatrixXd *P);
-  void        joint_terms(const Machine &machine, const LocalState &local, Eigen::VectorXd &terms,
-                          ConstraintJacobian &G);
+  void joint_terms(const Machine &machine, const LocalState &local, Eigen::VectorXd &terms, ConstraintJacobian &G);
 
   Machine                           &machine_;
   const std::vector<ParameterTwins> &twins_;
@@ -111,6 +117,8 @@ private:
   std::map<double, Base>             bases_;
   Eigen::MatrixXd                    B_, C_; ///< of small systems, else empty
   Eigen::VectorXd                    mass_;
+  std::vector<int>                   lags_;           ///< coordinates without mass, ascending
+  std::vector<double>                time_constants_; ///< [s] of them
   Eigen::MatrixXd                    F_, X_, K_, k_, matrix_, right_;
   Eigen::VectorXd                    minus_, plus_, product_, rate_, bias_, g_;
   ConstraintJacobian                 G_minus_, G_plus_;

@@ -15,17 +15,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double gamma                = 0.25;
-constexpr double at_shares[5]         = {1. / 4., 3. / 4., 11. / 20., 1. / 2., 1.};
-constexpr double weights[5][4]        = {{0., 0., 0., 0.},
-                                         {1. / 2., 0., 0., 0.},
-                                         {17. / 50., -1. / 25., 0., 0.},
-                                         {371. / 1360., -137. / 2720., 15. / 544., 0.},
-                                         {25. / 24., -49. / 48., 125. / 16., -85. / 12.}};
+constexpr double gamma         = 0.25;
+constexpr double at_shares[5]  = {1. / 4., 3. / 4., 11. / 20., 1. / 2., 1.};
+constexpr double weights[5][4] = {{0., 0., 0., 0.},
+                                  {1. / 2., 0., 0., 0.},
+                                  {17. / 50., -1. / 25., 0., 0.},
+                                  {371. / 1360., -137. / 2720., 15. / 544., 0.},
+                                  {25. / 24., -49. / 48., 125. / 16., -85. / 12.}};
 /// Weights of the method less those of the embedded one.
 constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96., 125. / 16. - 225. / 32., 0., 1. / 4.};
-constexpr double same_instant   = 1e-9;  ///< of the distance of nodes
-constexpr double weak           = 1e-3;  ///< coordinates that move less, in the norm of the mass, count as that
+constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
+constexpr double weak           = 1e-3;     ///< coordinates that move less, in the norm of the mass, count as that
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
 constexpr int    most_halvings  = 30;
 constexpr int    looks          = 7; ///< at a piece, for what acts on it
@@ -78,20 +78,34 @@ void PieceReader::read(double close, MotionState &state)
       return;
     }
   const double x = (t - a.t) / h, y = 1. - x;
-  if (h <= close)
+  const bool   near = h <= close;
+  if (near || !equation_.lags().empty())
   {
     state.q = (1. + 2. * x) * y * y * a.q + x * x * (1. + 2. * y) * b.q + h * x * y * (y * a.v - x * b.v);
     state.v = 6. * x * y / h * (b.q - a.q) + y * (1. - 3. * x) * a.v + x * (3. * x - 2.) * b.v;
+  }
+  if (near)
     return;
+  VectorXd q_cubic, v_cubic; // of lags, that have no accelerations
+  if (!equation_.lags().empty())
+  {
+    q_cubic = state.q;
+    v_cubic = state.v;
   }
   const VectorXd &a_a = acceleration(here_), &a_b = acceleration(here_ + 1);
   const double    x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x;
   const double    rise = 10. * x3 - 15. * x4 + 6. * x5, rise_rate = 30. * x2 - 60. * x3 + 30. * x4;
-  state.q = a.q + rise * (b.q - a.q) + h * ((x - 6. * x3 + 8. * x4 - 3. * x5) * a.v + (-4. * x3 + 7. * x4 - 3. * x5) * b.v) +
+  state.q = a.q + rise * (b.q - a.q) +
+            h * ((x - 6. * x3 + 8. * x4 - 3. * x5) * a.v + (-4. * x3 + 7. * x4 - 3. * x5) * b.v) +
             h * h * (0.5 * (x2 - 3. * x3 + 3. * x4 - x5) * a_a + 0.5 * (x3 - 2. * x4 + x5) * a_b);
   state.v = rise_rate / h * (b.q - a.q) + (1. - 18. * x2 + 32. * x3 - 15. * x4) * a.v +
             (-12. * x2 + 28. * x3 - 15. * x4) * b.v +
             h * (0.5 * (2. * x - 9. * x2 + 12. * x3 - 5. * x4) * a_a + 0.5 * (3. * x2 - 8. * x3 + 5. * x4) * a_b);
+  for (const int i : equation_.lags())
+  {
+    state.q[i] = q_cubic[i];
+    state.v[i] = v_cubic[i];
+  }
 }
 
 VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, double tolerance)
@@ -128,7 +142,8 @@ void VariationalSteps::expect(const MatrixXd &s, const MatrixXd &s_rate)
   size_v_ = s_rate;
 }
 
-void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, const MatrixXd &s, const MatrixXd &s_rate)
+void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, const MatrixXd &s,
+                             const MatrixXd &s_rate)
 {
   reader_.begin(piece);
   state_.t            = piece.nodes.front().t;
@@ -220,6 +235,8 @@ double VariationalSteps::error(double length) const
         floor = std::max(floor, weak * root_mass_[i] * std::max((*before)(i, k), std::abs((*now)(i, k))));
       for (Index i = 0; i < e->rows(); ++i)
       {
+        if (e == &e_v_ && root_mass_[i] == 0.) // rates of lags follow their law at once
+          continue;
         const double own   = std::max((*before)(i, k), std::abs((*now)(i, k)));
         const double scale = root_mass_[i] > 0. ? std::max(own, floor / root_mass_[i]) : own;
         if (scale > 0.)

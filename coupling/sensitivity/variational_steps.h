@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/simulation/trajectory.h"
 #include "coupling/sensitivity/variational_equation.h"
+#include "coupling/simulation/trajectory.h"
 
 #include <array>
 
@@ -25,18 +25,18 @@ public:
 private:
   const Eigen::VectorXd &acceleration(std::size_t node);
 
-  VariationalEquation &equation_;
-  const SmoothPiece   *piece_ = nullptr;
-  std::size_t          here_  = 0;
+  VariationalEquation                                   &equation_;
+  const SmoothPiece                                     *piece_ = nullptr;
+  std::size_t                                            here_  = 0;
   std::array<std::pair<std::size_t, Eigen::VectorXd>, 2> known_; ///< accelerations of nodes
-  MotionState          node_;
+  MotionState                                            node_;
 };
 
 /**
- * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five stages
- * and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the step H,
- * from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are not divided:
- * what seems to move faster is its own error.
+ * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
+ * stages and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the
+ * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are not
+ * divided: what seems to move faster is its own error.
  *
  * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6).
  */
@@ -69,17 +69,17 @@ private:
   double error(double length) const;
   void   note_sizes();
 
-  VariationalEquation                &equation_;
-  PieceReader                         reader_;
-  double                              step_, tolerance_;
-  long                                n_steps_ = 0;
-  MotionState                         state_, stage_state_;
-  Linearised                          at_, stage_at_;
-  MotionColumns                       columns_, stage_;
-  std::array<Eigen::MatrixXd, n_stages> v_, a_;         ///< s', s'' of the stages
-  Eigen::MatrixXd                     size_q_, size_v_; ///< largest |s|, |s'| so far
-  mutable Eigen::MatrixXd             e_q_, e_v_;
-  Eigen::VectorXd                     root_mass_;
+  VariationalEquation                  &equation_;
+  PieceReader                           reader_;
+  double                                step_, tolerance_;
+  long                                  n_steps_ = 0;
+  MotionState                           state_, stage_state_;
+  Linearised                            at_, stage_at_;
+  MotionColumns                         columns_, stage_;
+  std::array<Eigen::MatrixXd, n_stages> v_, a_;           ///< s', s'' of the stages
+  Eigen::MatrixXd                       size_q_, size_v_; ///< largest |s|, |s'| so far
+  mutable Eigen::MatrixXd               e_q_, e_v_;
+  Eigen::VectorXd                       root_mass_;
 };
 
 } // namespace gestell::coupling

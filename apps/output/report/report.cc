@@ -346,8 +346,8 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) +
-      budget_section(result, report.charts) + sensitivity_section(result, report.charts) + stress_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, report) + budget_section(result, report.charts) +
+      sensitivity_section(result, report.charts) + stress_section(result, report.charts) +
       chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +

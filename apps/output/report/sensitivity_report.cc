@@ -48,14 +48,15 @@ Chart tornado(const SensitivityResult &found, const SensitivityOutput &output, c
   chart.x.end       = 1.9 * most; // names stand at the right
   chart.y.begin     = 0.;
   chart.y.end       = double(n) + 0.4;
+  chart.y.ticks     = {0.};
   chart.y.tick_text = [](double) { return std::string(); };
   for (std::size_t i = 0; i < n; ++i)
   {
     const SensitivityKey &key    = found.keys[std::size_t(keys[i])];
     const double          change = output.percent(key, keys[i]), y = double(n - i) - 0.4;
     const std::string     name = short_key(key.key) + " " + signed_percent(change);
-    chart.panels[0].tiles.push_back({std::min(0., change), std::max(0., change), y - bar_half, y + bar_half,
-                                     change > 0. ? 0 : 1, name});
+    chart.panels[0].tiles.push_back(
+        {std::min(0., change), std::max(0., change), y - bar_half, y + bar_half, change > 0. ? 0 : 1, name});
     chart.levels.push_back({y, name});
   }
   return chart;
@@ -88,6 +89,8 @@ std::string sensitivity_section(const Result &result, Pictures &pictures)
 {
   if (!result.sensitivities)
     return "";
+  if (!result.sensitivities->failure.empty())
+    return section("sensitivities", "Sensitivities", note_box({result.sensitivities->failure}, "There are none"));
   const SensitivityResult &found = *result.sensitivities;
   std::string              html;
   std::size_t              n_charts = 0;

@@ -85,6 +85,8 @@ Json sensitivities_json(const SensitivityResult &result)
                                     {"change_by_1_percent", output.percent(key, k)}});
     }
   }
+  if (!result.failure.empty())
+    json["failure"] = result.failure;
   json["steps"] = result.steps;
   json["cpu_s"] = {{"run", result.run_cpu_s}, {"sensitivities", result.cpu_s}};
   return json;
@@ -97,8 +99,9 @@ std::string sensitivities_text(const SensitivityResult &result)
   for (const SensitivityOutput &output : result.outputs)
   {
     const std::string &name = output.output;
-    const bool         peak = name.size() > 4 && (name.substr(name.size() - 4) == ".max" || name.substr(name.size() - 4) == ".min");
-    const auto         keys = by_influence(result, output);
+    const bool         peak =
+        name.size() > 4 && (name.substr(name.size() - 4) == ".max" || name.substr(name.size() - 4) == ".min");
+    const auto keys = by_influence(result, output);
     if (!peak || keys.empty())
       continue;
     text << "  " << std::left << std::setw(14) << name;

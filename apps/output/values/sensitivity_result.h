@@ -25,10 +25,7 @@ struct SensitivityOutput
   Eigen::VectorXd derivative; ///< by every key [unit / unit of the key]; nan: there is none
 
   /// Relative change [%] of the output by 1 % more of a key; nan where the output is zero.
-  double percent(const SensitivityKey &key, Eigen::Index k) const
-  {
-    return derivative[k] * key.value / value;
-  }
+  double percent(const SensitivityKey &key, Eigen::Index k) const { return derivative[k] * key.value / value; }
 };
 
 /// Derivatives of what a run tells.
@@ -36,7 +33,8 @@ struct SensitivityResult
 {
   std::vector<SensitivityKey>    keys;
   std::vector<SensitivityOutput> outputs;
-  long                           steps    = 0;                ///< of the variational equations
+  std::string                    failure{};                  ///< why there are none, though the run is there
+  long                           steps     = 0;              ///< of the variational equations
   double                         run_cpu_s = 0., cpu_s = 0.; ///< of the run, and of all derivatives
 };
 

@@ -38,11 +38,13 @@ OutputGradients output_gradients(const std::string &path, const std::vector<std:
   const Result result = session.run(list);
   if (!result.sensitivities)
     throw coupling::ConvergenceFailure(result.run->failure);
+  if (!result.sensitivities->failure.empty())
+    throw coupling::ConvergenceFailure(result.sensitivities->failure);
   OutputGradients found;
   found.gradients.resize(Eigen::Index(outputs.size()), Eigen::Index(keys.size()));
   for (std::size_t i = 0; i < outputs.size(); ++i)
   {
-    const SensitivityOutput &output   = output_of(*result.sensitivities, outputs[i]);
+    const SensitivityOutput &output      = output_of(*result.sensitivities, outputs[i]);
     found.gradients.row(Eigen::Index(i)) = output.derivative.transpose();
     found.values.push_back(output.value);
   }

@@ -3,6 +3,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
+#include "coupling/sensitivity/variational_equation.h"
 
 #include <stdexcept>
 
@@ -34,8 +35,7 @@ bool reduces(const Scene &scene)
 
 bool same_frame(const Scene &a, const Scene &b)
 {
-  return !reduces(a) ||
-         coupling::content_key(frame_origin(a).recipe) == coupling::content_key(frame_origin(b).recipe);
+  return !reduces(a) || coupling::content_key(frame_origin(a).recipe) == coupling::content_key(frame_origin(b).recipe);
 }
 
 PreparedMachine machine_of(const Scene &twin, const Scene &scene, const coupling::ReducedFrame *frame, VariedKey &key)
@@ -107,6 +107,7 @@ SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scri
   if (scene.start.periodic)
     throw std::invalid_argument("--sensitivities: start.rule = \"periodic\" has no derivative here; take the rule "
                                 "\"steady\" or \"equilibrium\", or give the start");
+  coupling::require_variational(prepared.machine);
   std::optional<coupling::ReducedFrame> frame;
   if (frame_path(scene) == FramePath::reduce || frame_path(scene) == FramePath::from_file)
     frame = without_pictures(*prepared.machine.model().reduced_frame());

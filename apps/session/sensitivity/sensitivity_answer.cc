@@ -30,14 +30,15 @@ void warn_of_idle_keys(const SensitivityResult &found, std::vector<std::string> 
 void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins, const Result &result,
                      SensitivityResult &found)
 {
-  const auto at = [](const Scene &of, coupling::Machine &machine)
-  { return coupling::LinearisedAt{&machine, modes_configuration(of, machine), &of.modes.open}; };
+  const auto at = [](const Scene &of, coupling::Machine &machine) {
+    return coupling::LinearisedAt{&machine, modes_configuration(of, machine), &of.modes.open};
+  };
   std::vector<coupling::FrequencyTwins> sides;
   for (std::size_t k = 0; k < twins.twins.size(); ++k)
   {
     SceneTwin &below = twins.scenes[2 * k], &above = twins.scenes[2 * k + 1];
-    sides.push_back({at(*below.scene, below.prepared->machine), at(*above.scene, above.prepared->machine),
-                     twins.twins[k].step});
+    sides.push_back(
+        {at(*below.scene, below.prepared->machine), at(*above.scene, above.prepared->machine), twins.twins[k].step});
   }
   const Eigen::MatrixXd slopes =
       coupling::frequency_sensitivities(at(scene, prepared.machine), result.coupled_modes, sides);
@@ -49,15 +50,23 @@ void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &
 } // namespace
 
 SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins,
-                                     const std::vector<VariedKey>        &keys,
-                                     const std::vector<coupling::Signal> &signals,
+                                     const std::vector<VariedKey> &keys, const std::vector<coupling::Signal> &signals,
                                      const coupling::Trajectory &trajectory, Result &result)
 {
   SensitivityResult found;
   for (const VariedKey &key : keys)
     found.keys.push_back(key.told);
-  const coupling::RunSensitivities run = coupling::run_sensitivities(
-      {prepared.machine, signals, scene.run.options, *result.run, trajectory, twins.twins});
+  coupling::RunSensitivities run;
+  try
+  {
+    run = coupling::run_sensitivities(
+        {prepared.machine, signals, scene.run.options, *result.run, trajectory, twins.twins});
+  }
+  catch (const std::exception &none) // of this motion: what was computed of it stays
+  {
+    found.failure = none.what();
+    return found;
+  }
   for (const coupling::OutputDerivatives &output : run.outputs)
     found.outputs.push_back({output.output, output.unit, output.note, output.value, output.derivative});
   found.steps = run.steps;

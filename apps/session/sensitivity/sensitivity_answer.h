@@ -14,8 +14,7 @@ namespace gestell::apps
 /// @param result      with the run and its modes; warnings are added
 /// @param trajectory  of the run
 SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins,
-                                     const std::vector<VariedKey>        &keys,
-                                     const std::vector<coupling::Signal> &signals,
+                                     const std::vector<VariedKey> &keys, const std::vector<coupling::Signal> &signals,
                                      const coupling::Trajectory &trajectory, Result &result);
 
 } // namespace gestell::apps

@@ -67,8 +67,9 @@ void refuse_settings(const std::string &key, const std::string &table)
                                                               {"output", "what is written"},
                                                               {"reduction", "how the frame is reduced"}};
   if (const auto found = settings.find(table); found != settings.end())
-    refuse(key, "this entry says " + found->second + "; a run has no derivative by it. Name a parameter "
-                "(parameters.NAME) or a number of a body, an element, a load or a joint");
+    refuse(key, "this entry says " + found->second +
+                    "; a run has no derivative by it. Name a parameter "
+                    "(parameters.NAME) or a number of a body, an element, a load or a joint");
   if (table == "run" && key != "run.end")
     refuse(key, "this entry says how the run is integrated; a run has no derivative by it. Name a parameter "
                 "(parameters.NAME) or a number of a body, an element, a load or a joint");
@@ -83,7 +84,7 @@ const SceneNode &node_of(const SceneNode &root, const std::string &key)
     const std::string name = without_quotes(part);
     const SceneNode  *next = node->type == SceneNode::Type::table ? node->find(name) : nullptr;
     if (!next)
-      refuse(key, (path.empty() ? "the scene" : path) + " has no entry \"" + name + "\"" +
+      refuse(key, node->place.text() + ": " + (path.empty() ? "the scene" : path) + " has no entry \"" + name + "\"" +
                       suggestion(name, names_in(*node)));
     path += (path.empty() ? "" : ".") + name;
     node = next;
@@ -102,8 +103,9 @@ Quantity value_of(const std::string &key, const SceneNode &node, const Parameter
   }
   catch (const std::invalid_argument &)
   {
-    refuse(key, node.place.text() + ": " + described(node) + " is no number, and nothing changes by little with it; name "
-                "an entry that is one, as \"40 mm\"");
+    refuse(key, node.place.text() + ": " + described(node) +
+                    " is no number, and nothing changes by little with it; name "
+                    "an entry that is one, as \"40 mm\"");
   }
 }
 
@@ -113,7 +115,8 @@ VariedKey varied(const std::string &key, const SceneNode &root, const Parameters
   const SceneNode &node     = node_of(root, key);
   const Quantity   quantity = value_of(key, node, parameters);
   if (quantity.value == 0.)
-    refuse(key, node.place.text() + " is 0, of which nobody knows what is little; give it a small value, or leave it out");
+    refuse(key,
+           node.place.text() + " is 0, of which nobody knows what is little; give it a small value, or leave it out");
   VariedKey found;
   found.told.key   = key;
   found.told.value = quantity.value;
@@ -159,7 +162,7 @@ std::vector<std::string> all_keys(const SceneNode &root, const Parameters &param
 std::string VariedKey::overridden(double sign) const
 {
   // A whole number of a file that stands for a real one is written as a text.
-  return told.key + "=\"(" + text + ")*(1 " + (sign > 0. ? "+" : "-") + " 1e-6)\"";
+  return told.key + "=\"(" + text + ")*(1 " + (sign * told.value > 0. ? "+" : "-") + " 1e-6)\"";
 }
 
 std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list)

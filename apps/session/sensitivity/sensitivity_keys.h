@@ -13,7 +13,7 @@ namespace gestell::apps
 struct VariedKey
 {
   SensitivityKey told;
-  std::string    text; ///< in the file: "900 kN/mm"
+  std::string    text;      ///< in the file: "900 kN/mm"
   double         step = 0.; ///< of its value, > 0
 
   /// "parameters.c_P=(900 kN/mm)*(1 + 1e-6)"

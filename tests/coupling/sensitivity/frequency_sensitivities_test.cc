@@ -59,7 +59,7 @@ TEST(FrequencySensitivities, OfTwoMassesAreThoseOfTheClosedFormula)
       VectorXd     below = x, above = x;
       below[k] -= way;
       above[k] += way;
-      const double sign = mode == 0 ? -1. : 1.;
+      const double sign  = mode == 0 ? -1. : 1.;
       const double slope = (frequency(above, sign) - frequency(below, sign)) / (2. * way);
       EXPECT_NEAR(found(mode, k), slope, 1e-6 * frequency(x, sign) / x[k]) << mode << ' ' << k;
     }

@@ -12,8 +12,8 @@ namespace
 {
 
 using namespace gestell::coupling;
-using gestell::mechanism::Clearance;
 using Eigen::VectorXd;
+using gestell::mechanism::Clearance;
 
 RunOptions fine(double end)
 {
@@ -118,9 +118,9 @@ Made stopping(const VectorXd &x)
 
 TEST(RunSensitivities, GoOverSticking)
 {
-  const double   F = 6., v = 1.5, m = 2.;
-  const auto     found = differentiated(stopping, (VectorXd(2) << F, v).finished(), fine(1.));
-  const VectorXd &q    = found["q.final"].derivative, &t = found["events.1.t"].derivative;
+  const double    F = 6., v = 1.5, m = 2.;
+  const auto      found = differentiated(stopping, (VectorXd(2) << F, v).finished(), fine(1.));
+  const VectorXd &q = found["q.final"].derivative, &t = found["events.1.t"].derivative;
   // t = m v/F, q = m v^2/(2F)
   EXPECT_NEAR(t[0], -m * v / (F * F), 1e-7);
   EXPECT_NEAR(t[1], m / F, 1e-7);

@@ -40,8 +40,8 @@ SmoothPiece exact_motion()
 /// Of dq/dc at T, by n equal steps.
 double end_error(int n)
 {
-  Machine                     machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
-                              above = oscillator(stiffness * (1. + 1e-6));
+  Machine machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
+          above                     = oscillator(stiffness * (1. + 1e-6));
   std::vector<ParameterTwins> twins = {{"c", "N/m", stiffness, 1e-6 * stiffness, {&below}, {&above}}};
   VariationalEquation         equation(machine, twins);
   VariationalSteps            steps(equation, T / n, 1e300);
