@@ -68,7 +68,8 @@ public:
   /// Frequency responses of the machine linearised at an operating point.
   Result frequency_response(const FrfOptions &options);
   /// The scene simulated in time, with modes, stresses and warnings.
-  Result run();
+  /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); empty: none
+  Result run(const std::string &sensitivities = "");
 
   /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
   Result periodic(const PeriodicRequest &request = {});
@@ -80,7 +81,8 @@ public:
   coupling::Progress progress();
 
 private:
-  coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals);
+  coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
+                                coupling::Trajectory *trajectory);
   Result              periodic_here(const PeriodicRequest &request);
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);

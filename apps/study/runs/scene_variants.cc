@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace gestell::apps
@@ -58,6 +59,15 @@ std::vector<SceneNode::Entry> settings_of(const StudyFile &study)
   return settings;
 }
 
+/// A text that names a file from where it is written, by its whole path: it will be read from elsewhere.
+std::string with_whole_path(const SceneNode &node)
+{
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path  path = (fs::path(node.folder) / node.text).lexically_normal();
+  return !node.folder.empty() && fs::is_regular_file(path, none) ? fs::absolute(path).string() : node.text;
+}
+
 std::string in_toml(const std::string &text)
 {
   std::string escaped = "\"";
@@ -71,7 +81,7 @@ std::string shown_value(const SceneNode &node)
   switch (node.type)
   {
   case SceneNode::Type::text:
-    return in_toml(node.text);
+    return in_toml(with_whole_path(node));
   case SceneNode::Type::boolean:
     return node.boolean ? "true" : "false";
   case SceneNode::Type::array:
