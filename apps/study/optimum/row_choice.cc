@@ -15,8 +15,8 @@ constexpr double kept_to = 1e-9; ///< of the size of a limit
 bool keeps(const StudyTable &table, const RowChoiceTask &task, int row)
 {
   const Eigen::VectorXd values = table.values.row(row).transpose();
-  const bool known = std::all_of(task.goals.begin(), task.goals.end(),
-                                 [&](const Goal &goal) { return std::isfinite(values[goal.output]); });
+  const bool            known  = std::all_of(task.goals.begin(), task.goals.end(),
+                                             [&](const Goal &goal) { return std::isfinite(values[goal.output]); });
   return table.runs[std::size_t(row)].status == RunStatus::done && known &&
          violation_of(task.limits, values) <= kept_to;
 }

@@ -41,7 +41,8 @@ std::string overview(const StudyFindings &findings)
   {
     const ShownAxis axis = shown_axis(variable);
     if (variable.words.empty())
-      variables.add({variable.name, variable.key, axis.text_with_unit(variable.from), axis.text_with_unit(variable.to)});
+      variables.add(
+          {variable.name, variable.key, axis.text_with_unit(variable.from), axis.text_with_unit(variable.to)});
     else
       variables.add({variable.name, variable.key, variable.words.front(), variable.words.back()});
   }
@@ -113,8 +114,9 @@ std::string runs_section(const StudyFindings &findings)
   {
     std::vector<HtmlTable::Cell> row = {run_cell(table, run)};
     for (std::size_t j = 0; j < inputs.size(); ++j)
-      row.push_back(table.variables[j].words.empty() ? inputs[j].text(table.levels(run, static_cast<Eigen::Index>(j)), 5)
-                                                     : table.variables[j].text(table.levels(run, static_cast<Eigen::Index>(j))));
+      row.push_back(table.variables[j].words.empty()
+                        ? inputs[j].text(table.levels(run, static_cast<Eigen::Index>(j)), 5)
+                        : table.variables[j].text(table.levels(run, static_cast<Eigen::Index>(j))));
     for (std::size_t j = 0; j < outputs.size(); ++j)
     {
       const double value = table.values(run, static_cast<Eigen::Index>(j));
@@ -160,10 +162,10 @@ void make_file_names(Pictures &pictures)
 StudyReport make_study_report(const StudyFindings &findings)
 {
   StudyReport       report;
-  const std::string body = optimum_section(findings) + choice_section(findings, report.pictures) + effects_section(findings, report.pictures) +
-                           front_section(findings, report.pictures) + surfaces_section(findings, report.pictures) +
-                           robust_section(findings) + scatter_section(findings, report.pictures) +
-                           runs_section(findings);
+  const std::string body = optimum_section(findings) + choice_section(findings, report.pictures) +
+                           effects_section(findings, report.pictures) + front_section(findings, report.pictures) +
+                           surfaces_section(findings, report.pictures) + robust_section(findings) +
+                           scatter_section(findings, report.pictures) + runs_section(findings);
   make_file_names(report.pictures);
   report.html = page_html({findings.name, findings.description,
                            note_box(findings.warnings, "Warnings") + study_contents(body) + overview(findings) + body,

@@ -74,33 +74,53 @@ Eigen::VectorXd StudyAnalysis::levels_at(const Eigen::VectorXd &xi) const
   return levels;
 }
 
-/// Outputs of a run, nan of one that fails; derivatives by differences of two runs a variable, inside the ranges.
-OutputPoint StudyAnalysis::run_at(const Eigen::VectorXd &xi, Derivatives derivatives)
+Eigen::VectorXd StudyAnalysis::values_at(const Eigen::VectorXd &xi, Eigen::MatrixXd *derivatives)
 {
   if (!rows_)
   {
     std::filesystem::remove(file_);
     rows_ = std::make_unique<RowsFile>(file_, text_);
   }
-  const auto values_at = [&](const Eigen::VectorXd &at) -> Eigen::VectorXd
+  const auto            n      = Eigen::Index(study_.outputs.size());
+  const Eigen::VectorXd levels = levels_at(xi);
+  const RunRow          row    = runner_.run(++number_, levels, &stop_, derivatives);
+  if (derivatives && row.status == RunStatus::failed)
   {
-    const auto            n      = Eigen::Index(study_.outputs.size());
-    const Eigen::VectorXd levels = levels_at(at);
-    const RunRow          row    = runner_.run(++number_, levels, &stop_);
-    if (row.status != RunStatus::waiting)
-      rows_->append(text_.line(row, levels));
-    return row.status == RunStatus::done ? Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(row.values.data(), n))
-                                         : Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
-  };
-  OutputPoint point{values_at(xi), {}};
+    --number_; // it is made again without derivatives
+    return {};
+  }
+  if (row.status != RunStatus::waiting)
+    rows_->append(text_.line(row, levels));
+  return row.status == RunStatus::done ? Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(row.values.data(), n))
+                                       : Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Outputs of a run, nan of one that fails; derivatives by its sensitivities, or where it has none by differences of
+/// runs, one more a variable, inside the ranges.
+OutputPoint StudyAnalysis::run_at(const Eigen::VectorXd &xi, Derivatives derivatives)
+{
+  OutputPoint point;
+  if (derivatives == Derivatives::wanted)
+  {
+    point.values = values_at(xi, &point.derivatives);
+    if (point.values.size() > 0 && point.derivatives.size() > 0)
+    {
+      for (Eigen::Index i = 0; i < xi.size(); ++i)
+        point.derivatives.col(i) *= variables_[std::size_t(i)].half_range(); // by coded values
+      return point;
+    }
+  }
+  if (point.values.size() == 0)
+    point.values = values_at(xi, nullptr);
   if (derivatives == Derivatives::none)
     return point;
+  by_differences_ = true;
   point.derivatives.resize(point.values.size(), xi.size());
   for (Eigen::Index i = 0; i < xi.size(); ++i)
   {
     Eigen::VectorXd beside = xi;
     beside[i] += xi[i] > 0. ? -quotient_step : quotient_step;
-    point.derivatives.col(i) = (values_at(beside) - point.values) / (beside[i] - xi[i]);
+    point.derivatives.col(i) = (values_at(beside, nullptr) - point.values) / (beside[i] - xi[i]);
   }
   return point;
 }
@@ -164,7 +184,11 @@ StudyFindings StudyAnalysis::of(const StudyAnswer &answer)
   }
   if (!request_.optimise)
     return findings;
-  findings.optimum    = optimum_of(answer, model);
+  findings.optimum = optimum_of(answer, model);
+  if (by_differences_)
+    findings.warnings.push_back(
+        "the search on runs took derivatives from differences of runs, for outputs or variables "
+        "of this study have no sensitivities");
   findings.front_task = request_.optimise->task;
   if (request_.optimise->pareto > 0)
     findings.front = pareto_front(model, request_.optimise->task, {request_.optimise->pareto, 4096, 1});

@@ -154,6 +154,15 @@ Segments keys_of(const Json &json)
   return keys;
 }
 
+std::string unit_in_summary(const Segments &segments)
+{
+  if (segments.front() == "energy")
+    return "J";
+  if (segments.front() == "frame_frequencies_hz" || segments.back().find("_hz") != std::string::npos)
+    return "Hz";
+  return segments.back().find("mass") == std::string::npos ? "" : "kg";
+}
+
 /// Of summary.json; elements of arrays are counted from 1.
 AnswerValue summary_value(const Segments &segments, const Result &result)
 {
@@ -177,9 +186,7 @@ AnswerValue summary_value(const Segments &segments, const Result &result)
   if (!node->is_number())
     refuse(segments, "is no number in a run's summary.json" +
                          (node->is_object() ? "; name one of its entries: " + listed(keys_of(*node)) : ""));
-  return {node->get<double>(), segments.front() == "energy"                        ? "J"
-                               : segments.back().find("mass") == std::string::npos ? ""
-                                                                                   : "kg"};
+  return {node->get<double>(), unit_in_summary(segments)};
 }
 
 } // namespace

@@ -256,16 +256,36 @@ Quantity OutputFormulas::quantity_of(std::size_t output, Known &known) const
 std::vector<AnswerValue> OutputFormulas::of(const Result &result, const Parameters &parameters,
                                             const Eigen::VectorXd &levels) const
 {
-  Known known{parameters, levels, {}};
+  return values_of(entries_of(result), parameters, levels);
+}
+
+std::vector<std::vector<std::string>> OutputFormulas::paths() const
+{
+  std::vector<std::vector<std::string>> paths;
+  for (const Entry &entry : entries_)
+    paths.push_back(entry.segments);
+  return paths;
+}
+
+std::vector<AnswerValue> OutputFormulas::entries_of(const Result &result) const
+{
+  std::vector<AnswerValue> entries;
   for (const Entry &entry : entries_)
     try
     {
-      known.entries.push_back(answer_entry::value(entry.segments, result));
+      entries.push_back(answer_entry::value(entry.segments, result));
     }
     catch (const std::invalid_argument &error)
     {
       throw std::invalid_argument(entry.place + ": " + error.what());
     }
+  return entries;
+}
+
+std::vector<AnswerValue> OutputFormulas::values_of(const std::vector<AnswerValue> &entries,
+                                                   const Parameters &parameters, const Eigen::VectorXd &levels) const
+{
+  Known                    known{parameters, levels, entries};
   std::vector<AnswerValue> values;
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     try

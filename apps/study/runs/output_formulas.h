@@ -27,6 +27,13 @@ public:
   /// @throws std::invalid_argument for an entry that the run does not have, with the place of its output
   std::vector<AnswerValue> of(const Result &result, const Parameters &parameters, const Eigen::VectorXd &levels) const;
 
+  // The same in two steps, for derivatives.
+  std::vector<AnswerValue> entries_of(const Result &result) const;
+  std::vector<AnswerValue> values_of(const std::vector<AnswerValue> &entries, const Parameters &parameters,
+                                     const Eigen::VectorXd &levels) const;
+  /// Of each entry, "signals", "F_P", "max".
+  std::vector<std::vector<std::string>> paths() const;
+
 private:
   struct Entry
   {

@@ -82,7 +82,7 @@ std::string RowsText::line(const RunRow &row, const Eigen::VectorXd &levels) con
   line += row.status == RunStatus::done ? "done" : cell(failed_word + row.message);
   for (std::size_t i = 0; i < variables_.size(); ++i)
     line += ',' + (variables_[i].variable.words.empty() ? number_cell(levels[Eigen::Index(i)])
-                                               : cell(variables_[i].text(levels[Eigen::Index(i)])));
+                                                        : cell(variables_[i].text(levels[Eigen::Index(i)])));
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     line += ',' + (row.values.empty() ? "" : number_cell(row.values[i]));
   return line + ',' + rounded(row.cpu_s) + '\n';

@@ -2,6 +2,7 @@
 
 #include "apps/output/result_folder.h"
 #include "apps/session/session.h"
+#include "apps/study/runs/run_derivatives.h"
 
 #include <algorithm>
 #include <ctime>
@@ -30,7 +31,7 @@ RunRow failed(RunRow row, const std::string &message)
 
 StudyRunner::StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, fem::Scripts scripts,
                          const std::filesystem::path &kept)
-    : variants_(study, scripts), frames_(!kept.empty()),
+    : variables_(study.variables), variants_(study, scripts), frames_(!kept.empty()),
       outputs_((variants_.check_ranges(levels), study), variants_.at(variants_.middle()),
                variants_.parameters_at(variants_.middle())),
       kept_(kept)
@@ -50,7 +51,8 @@ void StudyRunner::leave_out_unread(Scene &scene) const
   run.energy                = outputs_.reads("energy");
 }
 
-Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
+Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
+                              const std::string &sensitivities)
 {
   Scene scene = variants_.at(levels);
   if (kept_.empty())
@@ -59,7 +61,7 @@ Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<b
   Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
   if (frame)
     session.use_frame(*frame);
-  return session.run();
+  return session.run(sensitivities);
 }
 
 void StudyRunner::keep(int number, const Result &result) const
@@ -69,7 +71,8 @@ void StudyRunner::keep(int number, const Result &result) const
   write_results(folder, result);
 }
 
-RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
+RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
+                        Eigen::MatrixXd *derivatives)
 {
   RunRow row;
   row.run                     = number;
@@ -78,7 +81,7 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
   std::optional<Result> result;
   try
   {
-    result = result_of(levels, stop);
+    result = result_of(levels, stop, derivatives ? differentiated_keys(variables_) : "");
   }
   catch (const std::exception &error) // of this run; the others go on
   {
@@ -96,6 +99,8 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
   }
   try
   {
+    if (derivatives)
+      *derivatives = output_derivatives(outputs_, *result, variants_, variables_, levels);
     for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
     {
       row.values.push_back(value.value);

@@ -41,20 +41,26 @@ public:
    * @return a row that is `failed` where the scene refuses the levels or the computation fails
    * @throws std::invalid_argument where the first run has no such output; of a later one the row has failed
    */
-  RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop);
+  RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
+  {
+    return run(number, levels, stop, nullptr);
+  }
+  /// @param derivatives  become those of the outputs by the levels [outputs x variables]; empty where there are none
+  RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop, Eigen::MatrixXd *derivatives);
 
   const SceneVariants &variants() const { return variants_; }
 
 private:
-  Result result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop);
+  Result result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
   void   leave_out_unread(Scene &scene) const;
   void   keep(int number, const Result &result) const;
 
-  SceneVariants         variants_;
-  FrameShelf            frames_;
-  OutputFormulas        outputs_;
-  std::filesystem::path kept_;
-  bool                  any_done_ = false; ///< outputs could be read
+  std::vector<VariableRequest> variables_;
+  SceneVariants                variants_;
+  FrameShelf                   frames_;
+  OutputFormulas               outputs_;
+  std::filesystem::path        kept_;
+  bool                         any_done_ = false; ///< outputs could be read
 };
 
 /// Folder of a run's own results, from that of the study: "run_12".
