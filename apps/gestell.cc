@@ -72,10 +72,20 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
 {
   if (input == CommandInput::none)
     return;
-  const bool cad = input == CommandInput::cad;
-  command.add_option(cad ? "CAD" : "SCENE", options.input, cad ? "STEP, BREP, .geo or .msh file" : "scene file (TOML)")
+  const bool cad = input == CommandInput::cad, study = input == CommandInput::study;
+  command
+      .add_option(cad     ? "CAD"
+                  : study ? "STUDY"
+                          : "SCENE",
+                  options.input,
+                  cad     ? "STEP, BREP, .geo or .msh file"
+                  : study ? "study file (TOML)"
+                          : "scene file (TOML)")
       ->required(input != CommandInput::scene_or_none);
-  command.add_option("--jobs", options.jobs, "threads of the linear algebra that makes a frame (default 1)")
+  command
+      .add_option("--jobs", options.jobs,
+                  study ? "processes that make runs side by side (default 1)"
+                        : "threads of the linear algebra that makes a frame (default 1)")
       ->check(above_zero());
   command.add_flag("--quiet", options.quiet, "no progress on standard error");
   command.add_flag_callback(
@@ -83,8 +93,13 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
       "run scripts of gmsh (.geo) as they are, which may run programs and write files");
   if (cad)
     return;
-  command.add_option("-o,--output", options.folder, "folder for results (default results/<scene name>)");
-  command.add_option("--set", options.overrides, "override an entry of the scene: key.path=value")
+  command.add_option("-o,--output", options.folder,
+                     study ? "folder for results (default results/<study name>)"
+                           : "folder for results (default results/<scene name>)");
+  command
+      .add_option("--set", options.overrides,
+                  study ? "override an entry of the study or of its scene: key.path=value"
+                        : "override an entry of the scene: key.path=value")
       ->allow_extra_args(false);
 }
 
@@ -171,6 +186,8 @@ int run_program(int argc, char **argv)
 int main(int argc, char **argv)
 {
   const bool speaks = coupling::launch().rank == 0; // of all that mpirun started
+  if (argc > 1 && std::string(argv[1]) == "study")  // ranks make shares of it, each by itself
+    leave_team();
   try
   {
     MpiRun ranks;

@@ -25,7 +25,7 @@ struct CommonOptions
   std::string              input;  ///< scene, or CAD file of `gestell mesh`
   std::string              folder; ///< -o; empty: results/<scene name>
   std::vector<std::string> overrides;
-  int                      jobs    = 1;
+  int                      jobs    = 1; ///< threads; of a study processes
   bool                     quiet   = false;
   fem::Scripts             scripts = fem::Scripts::harmless; ///< of gmsh, that scenes name
 };
@@ -61,7 +61,8 @@ enum class CommandInput
   none,
   scene,
   scene_or_none,
-  cad
+  cad,
+  study
 };
 
 /// A command of the program: `gestell NAME INPUT`.

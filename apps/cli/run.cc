@@ -4,6 +4,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/tables/sensitivity_table.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 
@@ -38,6 +39,7 @@ struct BudgetOptions
 {
   bool        budget = false;
   std::string outputs;
+  std::string sensitivities;
 };
 
 int run_scene(const CommonOptions &options, const BudgetOptions &asked)
@@ -50,7 +52,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
-  Result result = session.run();
+  Result result = session.run(asked.sensitivities);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
     result.budget = error_budget(session.scene(), outputs, answer_of(result, outputs), &interruption());
   prepare_folder(folder);
@@ -60,6 +62,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   print_answer(*result.run);
   if (result.budget)
     std::cout << budget_text(*result.budget);
+  if (result.sensitivities && result.sensitivities->failure.empty())
+    std::cout << sensitivities_text(*result.sensitivities);
   if (!result.model.damping.empty())
     std::cout << "damping of the frame: " << result.model.damping << '\n';
   for (const auto *warnings : {&result.warnings, &result.run->warnings})
@@ -72,6 +76,12 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
               << folder.string() << '\n';
     return exit_failed;
   }
+  if (result.sensitivities && !result.sensitivities->failure.empty())
+  {
+    std::cerr << "gestell: the run has no sensitivities: " << result.sensitivities->failure
+              << "\n  the run itself is in " << folder.string() << '\n';
+    return exit_failed;
+  }
   return result.run->interrupted ? exit_interrupted : exit_done;
 }
 
@@ -80,19 +90,23 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
 Command run_command()
 {
   const auto asked = std::make_shared<BudgetOptions>();
-  return {"run",
-          "simulate a scene in time",
-          {"gestell run apps/scenes/press.toml -o results/press"},
-          CommandInput::scene,
-          {{"--budget", &asked->budget,
-            "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
-           {"--outputs",
-            &asked->outputs,
-            "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)",
-            {},
-            {},
-            "--budget"}},
-          [asked](const CommonOptions &options) { return run_scene(options, *asked); }};
+  return {
+      "run",
+      "simulate a scene in time",
+      {"gestell run apps/scenes/press.toml -o results/press"},
+      CommandInput::scene,
+      {{"--budget", &asked->budget,
+        "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
+       {"--outputs",
+        &asked->outputs,
+        "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)",
+        {},
+        {},
+        "--budget"},
+       {"--sensitivities", &asked->sensitivities,
+        "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
+        "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}},
+      [asked](const CommonOptions &options) { return run_scene(options, *asked); }};
 }
 
 } // namespace gestell::apps

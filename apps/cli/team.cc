@@ -2,8 +2,12 @@
 
 #include "coupling/plugin/frame_service_loader.h"
 
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <string>
+#include <unistd.h>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -38,6 +42,38 @@ void MpiRun::serve()
   {
     team_->abort(error.what());
   }
+}
+
+namespace
+{
+
+coupling::Launch left;
+
+/// Variables of the environment that begin so.
+std::vector<std::string> variables_of(const std::vector<std::string> &beginnings)
+{
+  std::vector<std::string> names;
+  for (char **entry = environ; *entry; ++entry)
+    for (const std::string &beginning : beginnings)
+      if (std::string(*entry).rfind(beginning, 0) == 0)
+        names.push_back(std::string(*entry).substr(0, std::string(*entry).find('=')));
+  return names;
+}
+
+} // namespace
+
+void leave_team()
+{
+  left = coupling::launch();
+  if (left.size == 1)
+    return;
+  for (const std::string &name : variables_of({"OMPI_", "PMIX_", "PMI_", "SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}))
+    unsetenv(name.c_str());
+}
+
+coupling::Launch team_left()
+{
+  return left;
 }
 
 } // namespace gestell::apps

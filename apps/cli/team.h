@@ -29,4 +29,9 @@ private:
   coupling::TeamService *team_;
 };
 
+/// Makes this process one that no launcher started, for ranks that share nothing but files; before any MpiRun.
+void leave_team();
+/// What it was among those that the launcher started; alone if it did not leave any.
+coupling::Launch team_left();
+
 } // namespace gestell::apps

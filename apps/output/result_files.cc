@@ -7,6 +7,7 @@
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/section_table.h"
+#include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
 
 namespace gestell::apps
@@ -74,6 +75,11 @@ std::string orders(const Result &result)
   return result.orders ? orders_csv(*result.orders) : "";
 }
 
+std::string sensitivities(const Result &result)
+{
+  return result.sensitivities && result.sensitivities->failure.empty() ? sensitivities_csv(*result.sensitivities) : "";
+}
+
 std::string models(const Result &result)
 {
   return result.size ? size_csv(*result.size) : "";
@@ -106,6 +112,8 @@ const std::vector<ResultFile> &result_files()
       {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
       {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
       {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
+      {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
+       sensitivities},
       {"size.csv", "models that `size` tried, with their cost and errors", models},
       {"sized.toml", "the one that it chose, as a scene"},
       {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},

@@ -1,6 +1,6 @@
 #include "apps/reference/help_text.h"
 
-#include "apps/reference/declared_tables.h"
+#include "apps/reference/study_tables.h"
 #include "fem/values/nearest_name.h"
 
 #include <regex>
@@ -54,8 +54,8 @@ std::string table_text(const DeclaredTable &table)
 
 std::string list_of_tables()
 {
-  std::string text = "Tables of a scene; gestell help TABLE lists their keys.\n\n";
-  for (const DeclaredTable &table : declared_tables())
+  std::string text = "Tables of a scene, and of a study; gestell help TABLE lists their keys.\n\n";
+  for (const DeclaredTable &table : told_tables())
     text += padded(table.path) + plain(table.does) + "\n";
   return text;
 }
@@ -64,7 +64,7 @@ std::string list_of_tables()
 std::string types_of(const std::string &family)
 {
   std::string text;
-  for (const DeclaredTable &table : declared_tables())
+  for (const DeclaredTable &table : told_tables())
     if (table.path.rfind(family + ".", 0) == 0)
       text += padded(table.path) + plain(table.does) + "\n";
   return text;
@@ -78,7 +78,7 @@ std::string last_part(const std::string &path)
 std::string keys_called(const std::string &topic)
 {
   std::string text;
-  for (const DeclaredTable &table : declared_tables())
+  for (const DeclaredTable &table : told_tables())
     for (const Key &key : table.keys)
       if (topic == key.name || topic == table.path + "." + key.name)
         text += table.path + "\n" + key_text(key);
@@ -91,7 +91,7 @@ std::string help_text(const std::string &topic)
 {
   if (topic.empty())
     return list_of_tables();
-  for (const DeclaredTable &table : declared_tables())
+  for (const DeclaredTable &table : told_tables())
     if (topic == table.path)
     {
       const std::string types = types_of(topic);
@@ -99,13 +99,13 @@ std::string help_text(const std::string &topic)
     }
   if (const std::string types = types_of(topic); !types.empty())
     return types;
-  for (const DeclaredTable &table : declared_tables())
+  for (const DeclaredTable &table : told_tables())
     if (topic == last_part(table.path))
       return table_text(table);
   if (const std::string text = keys_called(topic); !text.empty())
     return text;
   std::set<std::string> names;
-  for (const DeclaredTable &table : declared_tables())
+  for (const DeclaredTable &table : told_tables())
   {
     names.insert(table.path);
     names.insert(last_part(table.path));

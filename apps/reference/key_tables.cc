@@ -4,6 +4,7 @@
 #include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
 #include "apps/reference/json_schema.h"
+#include "apps/reference/study_tables.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -96,7 +97,7 @@ std::string key_tables(const std::string &topic)
       text += section(table);
   if (!text.empty())
     return text;
-  for (const DeclaredTable &table : declared_tables())
+  for (const DeclaredTable &table : told_tables())
     if (table.path == topic)
       return rows(table.keys);
   throw std::invalid_argument("there is no table '" + topic + "' whose keys could be listed");
@@ -137,7 +138,7 @@ std::string renewed(const std::string &document)
 void renew_reference(const std::string &docs)
 {
   const std::filesystem::path        folder = docs;
-  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md"};
+  std::vector<std::filesystem::path> documents{folder / "scene.md", folder / "results.md", folder / "study.md"};
   for (const auto &entry : std::filesystem::directory_iterator(folder / "scene"))
     documents.push_back(entry.path());
   for (const auto &document : documents)

@@ -1,6 +1,7 @@
 #include "apps/session/session.h"
 
 #include "apps/scene/build/damping_text.h"
+#include "apps/scene/file/scene_file.h"
 #include "apps/scene/scene.h"
 #include "apps/session/backbone.h"
 #include "apps/session/basin_answer.h"
@@ -12,6 +13,7 @@
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
+#include "apps/session/sensitivity/sensitivity_answer.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
 #include "coupling/simulation/simulation.h"
@@ -158,6 +160,12 @@ Session::Session(const std::string &path, const std::vector<std::string> &overri
 {
 }
 
+Session::Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch)
+    : path_(scene.file), overrides_(overrides), scripts_(scene.frame.geometry.scripts), scene_(std::move(scene)),
+      watch_(watch)
+{
+}
+
 void Session::check()
 {
   if (!checked_)
@@ -245,10 +253,13 @@ Result Session::frequency_response(const FrfOptions &options)
   return finished(std::move(result));
 }
 
-Result Session::run()
+Result Session::run(const std::string &sensitivities)
 {
   check_run();
-  PreparedMachine &prepared = machine();
+  const bool             differentiated = !sensitivities.empty();
+  const SceneNode        root           = differentiated ? read_scene_file(path_, overrides_) : SceneNode();
+  std::vector<VariedKey> keys           = differentiated ? varied_keys(root, sensitivities) : std::vector<VariedKey>();
+  PreparedMachine       &prepared       = machine();
   require_stress(scene_, prepared.machine.model().reduced_frame());
   const auto signals = with_normal_forces(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
   progress()("start", -1.);
@@ -258,7 +269,17 @@ Result Session::run()
   Result result   = begin_result(scene_, "run", prepared);
   result.settings = settings_text(scene_.run.options);
   result.asked    = {path_, overrides_, scene_.run.options};
-  result.run      = failure.empty() ? simulated(initial, signals) : not_started(scene_.run.options, failure);
+  SceneTwins           twins;
+  coupling::Trajectory trajectory;
+  if (differentiated)
+    twins = scene_twins(root, path_, scripts_, scene_, prepared, keys);
+  result.run = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
+                               : not_started(scene_.run.options, failure);
+  if (differentiated && result.run->failure.empty() && !result.run->interrupted)
+  {
+    progress()("sensitivities", -1.);
+    result.sensitivities = sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, result);
+  }
   progress()("results", -1.);
   result.orders = order_tracking(scene_, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
@@ -360,7 +381,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
 }
 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,
-                                       const std::vector<coupling::Signal> &signals)
+                                       const std::vector<coupling::Signal> &signals, coupling::Trajectory *trajectory)
 {
   const coupling::RunOptions &run = scene_.run.options;
   const auto                  now = progress();
@@ -368,7 +389,7 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
   const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
   try
   {
-    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption);
+    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory);
   }
   catch (const std::invalid_argument &error)
   {

@@ -46,6 +46,8 @@ public:
   /// @param overrides  "key.path=value"
   explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
+  /// A scene that was read before, from the file with these overrides.
+  Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch);
 
   const Scene &scene() const { return scene_; }
 
@@ -66,7 +68,8 @@ public:
   /// Frequency responses of the machine linearised at an operating point.
   Result frequency_response(const FrfOptions &options);
   /// The scene simulated in time, with modes, stresses and warnings.
-  Result run();
+  /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); empty: none
+  Result run(const std::string &sensitivities = "");
 
   /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
   Result periodic(const PeriodicRequest &request = {});
@@ -78,7 +81,8 @@ public:
   coupling::Progress progress();
 
 private:
-  coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals);
+  coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
+                                coupling::Trajectory *trajectory);
   Result              periodic_here(const PeriodicRequest &request);
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);

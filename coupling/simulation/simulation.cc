@@ -315,6 +315,15 @@ public:
     fast_forces_->begin();
   }
 
+  /// Keeps the motion, from the begin on.
+  void keep(Trajectory &trajectory)
+  {
+    trajectory_ = &trajectory;
+    spacing_    = sampling(machine_, method_).shortest;
+    trajectory.begin(integrator_->instant(), machine_.events().save_history());
+    driver_.on_guard([&](int guard) { trajectory.guard(guard); });
+  }
+
   Run(const Run &)            = delete;
   Run &operator=(const Run &) = delete;
 
@@ -325,6 +334,8 @@ private:
   void look_at_step()
   {
     recorder_.step();
+    if (trajectory_)
+      trajectory_->step(*integrator_, spacing_);
     cylinders_->step();
     if (!options_.force_unstable)
       stiffness_->step(integrator_->local());
@@ -343,6 +354,8 @@ private:
   std::unique_ptr<StiffnessCheck>  stiffness_;
   std::unique_ptr<FastForces>      fast_forces_;
   std::unique_ptr<MomentaryModes>  momentary_;
+  Trajectory                      *trajectory_ = nullptr;
+  double                           spacing_    = 0.; ///< [s] of its nodes
 };
 
 /// A step that cannot be made ends the run, with its reason in the result.
@@ -394,7 +407,7 @@ void Run::finish(const InitialState &initial)
 
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
-                   const std::atomic<bool> *stop)
+                   const std::atomic<bool> *stop, Trajectory *trajectory)
 {
   const NoTinyNumbers while_it_runs;
   check_run(machine, options, signals.size());
@@ -421,6 +434,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     return result;
   }
   run.look_on(initial);
+  if (trajectory)
+    run.keep(*trajectory);
   run.integrate(progress, stop);
   run.finish(initial);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();

@@ -3,6 +3,7 @@
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/run_result.h"
+#include "coupling/simulation/trajectory.h"
 
 #include <atomic>
 #include <functional>
@@ -26,11 +27,11 @@ void try_start(Machine &machine, const InitialState &initial, const RunOptions &
 
 /// Integrates from `initial` to options.end.  A ConvergenceFailure is told in `failure`, with all that was computed up
 /// to then; of a machine that does not start, nothing.  `progress` is called now and then with the time reached; `stop`
-/// ends the run early.
+/// ends the run early; `trajectory` is given the motion.
 /// @throws std::invalid_argument as check_run() and StabilityGuard::check(), and if the method cannot treat the
 /// machine.
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress = {},
-                   const std::atomic<bool> *stop = nullptr);
+                   const std::atomic<bool> *stop = nullptr, Trajectory *trajectory = nullptr);
 
 } // namespace gestell::coupling

@@ -40,9 +40,10 @@ const std::vector<std::vector<std::string>> directions = {
      "coupling/reduction/shapes", "coupling/reduction/estimates", "coupling/reduction/methods", "coupling/reduction",
      "coupling/plugin/frame"},
     {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/machine", "coupling/equilibrium",
-     "coupling/modes", "coupling/simulation"},
+     "coupling/modes", "coupling/simulation", "coupling/sensitivity"},
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/elements", "apps/scene/build"},
     {"apps/scene", "apps/session", "apps/cli"},
+    {"apps/study/values", "apps/study/designs", "apps/study/surface", "apps/study/optimum", "apps/study/report"},
     {"apps/output/text", "apps/output/pictures", "apps/output/charts", "apps/output/report"},
 };
 

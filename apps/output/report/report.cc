@@ -9,6 +9,7 @@
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
 #include "apps/output/report/periodic_report.h"
+#include "apps/output/report/sensitivity_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -316,6 +317,7 @@ std::string contents(const std::string &body)
   for (const auto &[id, name] : {std::pair("periodic", "Periodic motions"),
                                  {"peaks", "Answer"},
                                  {"budget", "Error budget"},
+                                 {"sensitivities", "Sensitivities"},
                                  {"forces", "Forces"},
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
@@ -344,8 +346,8 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) +
-      budget_section(result, report.charts) + stress_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, report) + budget_section(result, report.charts) +
+      sensitivity_section(result, report.charts) + stress_section(result, report.charts) +
       chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +

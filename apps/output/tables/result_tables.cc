@@ -3,6 +3,7 @@
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/periodic_tables.h"
+#include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
@@ -349,6 +350,8 @@ std::string summary_json(const Result &result)
     json["budget"]       = budget_json(*result.budget);
     json["budget_cpu_s"] = budget_cost_json(*result.budget);
   }
+  if (result.sensitivities)
+    json["sensitivities"] = sensitivities_json(*result.sensitivities);
   if (result.size)
     json["size"] = size_json(*result.size);
   if (result.stress)

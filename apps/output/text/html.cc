@@ -54,7 +54,9 @@ void HtmlTable::add(const std::vector<Cell> &row)
   for (std::size_t i = 0; i < row.size(); ++i)
   {
     const std::string kind = std::string(is_number_[i] ? "n" : "") + (row[i].stands_out ? " peak" : "");
-    rows_ += (kind.empty() ? "<td>" : "<td class=\"" + kind + "\">") + escape_xml(row[i].text) + "</td>";
+    const std::string text = escape_xml(row[i].text);
+    rows_ += (kind.empty() ? "<td>" : "<td class=\"" + kind + "\">") +
+             (row[i].link.empty() ? text : "<a href=\"" + escape_xml(row[i].link) + "\">" + text + "</a>") + "</td>";
   }
   rows_ += "</tr>\n";
 }

@@ -33,6 +33,7 @@ public:
 
     std::string text;
     bool        stands_out = false;
+    std::string link{}; ///< relative to the page; empty: none
   };
 
   /// @param titles  of the columns, in HTML; "#f [Hz]": of one with numbers

@@ -5,6 +5,7 @@
 #include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
 #include "apps/output/values/scenery.h"
+#include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/excitation_orders.h"
@@ -88,6 +89,7 @@ struct Result
   std::optional<AlongResult>                  along;            ///< of `modes --along`
   std::optional<FrequencyResponse>            frf;              ///< of `frf`
   std::optional<ErrorBudget>                  budget;           ///< of a run that was asked for it
+  std::optional<SensitivityResult>            sensitivities;    ///< of a run that was asked for them
   std::optional<SizeResult>                   size;             ///< of `size`, whose chosen model ran
   std::optional<OrderTracking>                orders;           ///< of a run with a rotor that turns
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture

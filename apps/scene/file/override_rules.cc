@@ -49,6 +49,16 @@ void make_way(SceneNode &older, const SceneNode &newer)
     take_away(older, {"step", "order"});
 }
 
+void make_way_for_start(SceneNode &older, const SceneNode &newer)
+{
+  if (older.type != SceneNode::Type::table || newer.type != SceneNode::Type::table || !newer.find("rule"))
+    return;
+  if (newer.find("angles") || newer.find("speeds") || newer.find("driver"))
+    take_away(older, {"q", "v"});
+  else if (newer.find("q") || newer.find("v"))
+    take_away(older, {"angles", "speeds", "driver"});
+}
+
 void make_way_for_frame(SceneNode &older_scene, const SceneNode &newer_frame)
 {
   SceneNode *frame = older_scene.find("frame");

@@ -18,4 +18,8 @@ void make_way(SceneNode &older, const SceneNode &newer);
  */
 void make_way_for_frame(SceneNode &older_scene, const SceneNode &newer_frame);
 
+/// The same of [start]: a steady start by angles, speeds and a driver takes the place of given coordinates, and the
+/// other way round.
+void make_way_for_start(SceneNode &older, const SceneNode &newer);
+
 } // namespace gestell::apps

@@ -59,6 +59,8 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
   remove(base, "name"); // a scene that extends another is not that other one
   if (SceneNode *run = base.find("run"), *newer = own.find("run"); run && newer)
     make_way(*run, *newer);
+  if (SceneNode *start = base.find("start"), *newer = own.find("start"); start && newer)
+    make_way_for_start(*start, *newer);
   if (const SceneNode *newer = own.find("frame"))
     make_way_for_frame(base, *newer);
   merge(base, own);

@@ -14,35 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-/// Segments of  frame.surface."crown bearing left".faces .
-std::vector<std::string> segments(const std::string &path, const Place &place)
-{
-  std::vector<std::string> result;
-  std::size_t              i = 0;
-  do
-  {
-    const char  quote = i < path.size() ? path[i] : '\0';
-    std::size_t end;
-    if (quote == '"' || quote == '\'')
-    {
-      end = path.find(quote, i + 1);
-      if (end == std::string::npos)
-        place.fail("the key lacks a closing quote");
-      result.push_back(path.substr(i + 1, end - i - 1));
-      ++end;
-    }
-    else
-    {
-      end = std::min(path.find('.', i), path.size());
-      result.push_back(path.substr(i, end - i));
-    }
-    if (result.back().empty() || (end < path.size() && path[end] != '.'))
-      place.fail("is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
-    i = end + 1;
-  } while (i <= path.size());
-  return result;
-}
-
 SceneNode override_value(const std::string &text, const Place &place)
 {
   const auto folder = std::filesystem::current_path().string();
@@ -74,17 +45,58 @@ std::size_t equals_sign(const std::string &text)
 
 } // namespace
 
-void apply_override(SceneNode &root, const std::string &text)
+std::vector<std::string> key_segments(const std::string &path, const Place &place)
+{
+  std::vector<std::string> result;
+  std::size_t              i = 0;
+  do
+  {
+    const char  quote = i < path.size() ? path[i] : '\0';
+    std::size_t end;
+    if (quote == '"' || quote == '\'')
+    {
+      end = path.find(quote, i + 1);
+      if (end == std::string::npos)
+        place.fail("the key lacks a closing quote");
+      result.push_back(path.substr(i + 1, end - i - 1));
+      ++end;
+    }
+    else
+    {
+      end = std::min(path.find('.', i), path.size());
+      result.push_back(path.substr(i, end - i));
+    }
+    if (result.back().empty() || (end < path.size() && path[end] != '.'))
+      place.fail("is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
+    i = end + 1;
+  } while (i <= path.size());
+  return result;
+}
+
+std::pair<std::string, SceneNode> parsed_override(const std::string &text)
 {
   const Place place{"--set " + text, 0};
   const auto  equals = equals_sign(text);
   if (equals == std::string::npos)
     place.fail("needs the form key.path=value, for example --set run.step=\"5 us\"");
-  const auto path = segments(trimmed(text.substr(0, equals)), place);
+  const std::string key = trimmed(text.substr(0, equals));
+  if (key_segments(key, place).front() == "extends")
+    place.fail("what a scene extends cannot be overridden");
+  return {key, override_value(trimmed(text.substr(equals + 1)), place)};
+}
+
+void apply_override(SceneNode &root, const std::string &text)
+{
+  const auto [key, value] = parsed_override(text);
+  apply_override(root, key, value);
+}
+
+void apply_override(SceneNode &root, const std::string &key, const SceneNode &value)
+{
+  const Place &place = value.place;
+  const auto   path  = key_segments(key, place);
   if (path.front() == "extends")
     place.fail("what a scene extends cannot be overridden");
-
-  const SceneNode value = override_value(trimmed(text.substr(equals + 1)), place);
   if (SceneNode *run = root.find("run"); run && path.size() == 2 && path.front() == "run")
   {
     SceneNode newer;

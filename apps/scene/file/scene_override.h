@@ -3,11 +3,19 @@
 #include "apps/scene/file/scene_node.h"
 
 #include <string>
+#include <vector>
 
 namespace gestell::apps
 {
 
 /// Sets one entry: "key.path=value", as explained at read_scene_file().
 void apply_override(SceneNode &root, const std::string &text);
+/// The key and the value of "key.path=value".
+std::pair<std::string, SceneNode> parsed_override(const std::string &text);
+/// apply_override() of a value that was read elsewhere; messages name its place.
+void apply_override(SceneNode &root, const std::string &key, const SceneNode &value);
+
+/// Segments of  frame.surface."crown bearing left".faces .
+std::vector<std::string> key_segments(const std::string &key, const Place &place);
 
 } // namespace gestell::apps

@@ -113,7 +113,7 @@ std::string content(const std::string &file)
 
 std::vector<std::string> documents()
 {
-  std::vector<std::string> files{"docs/scene.md", "docs/results.md"};
+  std::vector<std::string> files{"docs/scene.md", "docs/results.md", "docs/study.md"};
   for (const auto &entry : std::filesystem::directory_iterator(std::string(GESTELL_SOURCE_DIR) + "/docs/scene"))
     files.push_back("docs/scene/" + entry.path().filename().string());
   return files;

@@ -78,6 +78,11 @@ const std::vector<Key> &frame_keys()
       key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`")
           .above_zero()
           .by_default("of the file"),
+      key::map("dimensions", kind::length, {},
+               "of a script (`.geo`): lengths and numbers in place of those that it assigns, `{ web_plate = \"70 mm\" "
+               "}` for its "
+               "first line `web_plate = ...;`. A [study](../study.md) may vary them")
+          .by_default("those of the script"),
       key::map(
           "mesh", kind::length, mesh_keys(),
           "`{ size = \"60 mm\", \"crown bearing *\" = \"30 mm\" }`: size of elements, and at surfaces by patterns of "

@@ -1,5 +1,6 @@
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/read_damping.h"
+#include "apps/scene/read/frame/read_dimensions.h"
 #include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/names.h"
 #include "apps/scene/read/read_material.h"
@@ -320,6 +321,7 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw frame.error("cad", "a file ending in '" + ending + "' cannot be read; valid: " + listed(endings));
   specification.unit      = frame.value_or("unit", 0.);
+  specification.cad       = with_dimensions(frame, specification.cad, specification.unit);
   specification.material  = read_material(frame, scene);
   specification.materials = read_solid_materials(frame, scene);
   if (const auto table = frame.optional_table("damping"))

@@ -1,0 +1,120 @@
+#include "apps/cli/command.h"
+#include "apps/cli/interruption.h"
+#include "apps/cli/progress.h"
+#include "apps/cli/team.h"
+#include "apps/output/result_folder.h"
+#include "apps/study/results/findings_text.h"
+#include "apps/study/results/study_analysis.h"
+#include "apps/study/results/study_files.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <iostream>
+#include <memory>
+
+namespace gestell::apps
+{
+namespace
+{
+
+struct StudyCommand
+{
+  bool        resume = false;
+  std::string share;
+};
+
+std::filesystem::path study_folder(const CommonOptions &options, const StudyFile &study)
+{
+  return options.folder.empty() ? std::filesystem::path("results") / study.name : std::filesystem::path(options.folder);
+}
+
+void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCall &call)
+{
+  std::cout << study.name << ": " << count_text(std::size_t(answer.n_made), "run") << " made";
+  if (answer.n_failed() > 0)
+    std::cout << ", " << answer.n_failed() << " failed";
+  if (!answer.complete())
+    std::cout << ", "
+              << std::count_if(answer.table.runs.begin(), answer.table.runs.end(),
+                               [](const StudyRun &run) { return run.status == RunStatus::waiting; })
+              << " to be made";
+  const bool merged = call.share.is_whole() || call.waits_for_shares;
+  std::cout << "\nrows: " << (call.folder / (merged ? "runs.csv" : StudyFolder::name_of(call.share))).string() << '\n';
+
+  constexpr int most_told = 3;
+  int           told      = 0;
+  for (std::size_t i = 0; i < answer.table.runs.size() && told < most_told; ++i)
+    if (answer.table.runs[i].status == RunStatus::failed && ++told)
+      std::cerr << "gestell: warning: run " << i + 1 << " failed: " << answer.table.runs[i].message << '\n';
+  if (answer.n_failed() > most_told)
+    std::cerr << "gestell: warning: " << answer.n_failed() - most_told << " further runs failed; see runs.csv\n";
+}
+
+/// Ranks of mpirun make a share each; the first merges them.
+void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
+{
+  if (ranks.size == 1)
+    return;
+  if (!call.share.is_whole())
+    throw std::invalid_argument("--share: ranks of mpirun share the runs among them; leave one of both out");
+  call.share            = {ranks.rank + 1, ranks.size};
+  call.waits_for_shares = ranks.rank == 0;
+}
+
+int study_scene(const CommonOptions &options, const StudyCommand &asked)
+{
+  setenv("OPENBLAS_NUM_THREADS", "1", 1); // processes, not threads, do the work
+  const StudyFile       study    = read_study(options.input, options.overrides);
+  const StudyPoints     points   = read_design(study);
+  const AnalysisRequest analysis = read_analysis(study, points.design.n_runs());
+  check_analysis(analysis, study, points);
+  StudyCall call;
+  call.folder = study_folder(options, study);
+  call.jobs   = options.jobs;
+  call.stop   = &interruption();
+  call.begin  = asked.resume ? StudyFolder::Begin::resumed : StudyFolder::Begin::anew;
+  if (!asked.share.empty())
+    call.share = share_of(asked.share);
+  const bool speaks = team_left().rank == 0;
+  share_among_ranks(team_left(), call);
+  require_writable(call.folder);
+  StudyRunner  runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
+  ProgressLine progress(options.quiet || !speaks);
+  call.progress            = [&](int done, int n) { progress.show("runs", double(done) / n); };
+  const StudyAnswer answer = make_study(study, points, runner, call);
+  progress.done();
+  if (!speaks)
+    return answer.interrupted ? exit_interrupted : exit_done;
+  print_rows(answer, study, call);
+  if (answer.interrupted)
+    return exit_interrupted;
+  if (!answer.complete())
+    return exit_done; // a share
+  if (answer.table.n_done() == 0)
+  {
+    std::cerr << "gestell: the computation failed: no run of the study ended well\n";
+    return exit_failed;
+  }
+  const StudyFindings findings = StudyAnalysis(study, analysis, runner, call.folder, interruption()).of(answer);
+  write_findings(call.folder, study, runner.variants(), findings);
+  std::cout << findings_text(findings) << "report: " << (call.folder / "report.html").string() << '\n';
+  return interruption() ? exit_interrupted : exit_done;
+}
+
+} // namespace
+
+Command study_command()
+{
+  const auto asked = std::make_shared<StudyCommand>();
+  return {"study",
+          "sweep, design of experiments or optimisation over a scene",
+          {"gestell study apps/studies/press_24.toml --jobs 2"},
+          CommandInput::study,
+          {{"--resume", &asked->resume, "go on with the study whose rows the folder holds"},
+           {"--share", &asked->share, "make this part of the runs alone, such as 3/10; a call without it merges them"}},
+          [asked](const CommonOptions &options) { return study_scene(options, *asked); }};
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,119 @@
+#include "apps/output/tables/sensitivity_table.h"
+
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double      no_change = 1e-9; ///< [%] that is rounding
+constexpr std::size_t most_told = 3;    ///< keys of an output in a terminal
+
+std::string in_quotes(const std::string &name)
+{
+  if (name.find_first_of(",\"") == std::string::npos)
+    return name;
+  std::string quoted = "\"";
+  for (const char c : name)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string number(double x)
+{
+  return std::isfinite(x) ? exact_text(x) : "";
+}
+
+} // namespace
+
+std::string derivative_unit(const SensitivityOutput &output, const SensitivityKey &key)
+{
+  if (key.unit.empty())
+    return output.unit;
+  const std::string above = output.unit.empty() ? "1" : output.unit;
+  return above + "/(" + key.unit + ')';
+}
+
+std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const SensitivityOutput &output)
+{
+  std::vector<Eigen::Index> order;
+  const auto change = [&](Eigen::Index k) { return std::abs(output.percent(result.keys[std::size_t(k)], k)); };
+  for (Eigen::Index k = 0; k < Eigen::Index(result.keys.size()); ++k)
+    if (const double size = change(k); std::isfinite(size) && size > no_change)
+      order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return change(a) > change(b); });
+  return order;
+}
+
+std::string sensitivities_csv(const SensitivityResult &result)
+{
+  std::string csv = "output,key,derivative,unit,change by 1 %\n";
+  for (const SensitivityOutput &output : result.outputs)
+    for (Eigen::Index k = 0; k < output.derivative.size(); ++k)
+    {
+      const SensitivityKey &key = result.keys[std::size_t(k)];
+      csv += in_quotes(output.output) + ',' + in_quotes(key.key) + ',' + number(output.derivative[k]) + ',' +
+             in_quotes(derivative_unit(output, key)) + ',' + number(output.percent(key, k)) + '\n';
+    }
+  return csv;
+}
+
+Json sensitivities_json(const SensitivityResult &result)
+{
+  Json json = {{"keys", Json::array()}, {"outputs", Json::object()}};
+  for (const SensitivityKey &key : result.keys)
+    json["keys"].push_back({{"key", key.key}, {"value", key.value}, {"unit", key.unit}});
+  for (const SensitivityOutput &output : result.outputs)
+  {
+    Json &one = json["outputs"][output.output];
+    one       = {{"value", output.value}, {"unit", output.unit}, {"derivatives", Json::array()}};
+    if (!output.note.empty())
+      one["note"] = output.note;
+    for (Eigen::Index k = 0; k < output.derivative.size(); ++k)
+    {
+      const SensitivityKey &key = result.keys[std::size_t(k)];
+      one["derivatives"].push_back({{"key", key.key},
+                                    {"derivative", output.derivative[k]},
+                                    {"unit", derivative_unit(output, key)},
+                                    {"change_by_1_percent", output.percent(key, k)}});
+    }
+  }
+  if (!result.failure.empty())
+    json["failure"] = result.failure;
+  json["steps"] = result.steps;
+  json["cpu_s"] = {{"run", result.run_cpu_s}, {"sensitivities", result.cpu_s}};
+  return json;
+}
+
+std::string sensitivities_text(const SensitivityResult &result)
+{
+  std::ostringstream text;
+  text << "1 % more changes\n";
+  for (const SensitivityOutput &output : result.outputs)
+  {
+    const std::string &name = output.output;
+    const bool         peak =
+        name.size() > 4 && (name.substr(name.size() - 4) == ".max" || name.substr(name.size() - 4) == ".min");
+    const auto keys = by_influence(result, output);
+    if (!peak || keys.empty())
+      continue;
+    text << "  " << std::left << std::setw(14) << name;
+    for (std::size_t i = 0; i < std::min(most_told, keys.size()); ++i)
+    {
+      const SensitivityKey &key    = result.keys[std::size_t(keys[i])];
+      const double          change = output.percent(key, keys[i]);
+      text << (i > 0 ? ", " : "") << key.key << ": " << (change > 0. ? "+" : "") << short_text(change, 3) << " %";
+    }
+    text << '\n';
+  }
+  return text.str();
+}
+
+} // namespace gestell::apps

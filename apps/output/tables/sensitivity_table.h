@@ -1,0 +1,27 @@
+#pragma once
+
+#include "apps/output/text/json.h"
+#include "apps/output/values/sensitivity_result.h"
+
+#include <string>
+
+namespace gestell::apps
+{
+
+/// `output, key, derivative, unit, change by 1 %`: a row for each output and key; the last column is the relative
+/// change of the output in percent, empty where it is zero; derivatives that do not exist are empty.
+std::string sensitivities_csv(const SensitivityResult &result);
+
+/// Of summary.json: `keys` with `key`, `value`, `unit`; `outputs` by name with `value`, `unit`, `note`, `derivatives`.
+Json sensitivities_json(const SensitivityResult &result);
+
+/// For a terminal: what moves each largest and smallest value most.
+std::string sensitivities_text(const SensitivityResult &result);
+
+/// "N/(kg/s^2)"
+std::string derivative_unit(const SensitivityOutput &output, const SensitivityKey &key);
+
+/// Keys of an output, that with the largest change by 1 % first; those without any are left out.
+std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const SensitivityOutput &output);
+
+} // namespace gestell::apps

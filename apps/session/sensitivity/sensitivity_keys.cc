@@ -1,0 +1,189 @@
+#include "apps/session/sensitivity/sensitivity_keys.h"
+
+#include "apps/scene/file/parameters.h"
+#include "apps/scene/language/parse_quantity.h"
+#include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
+#include "fem/values/trimmed.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+
+namespace
+{
+constexpr double share = 1e-6; ///< of a value, by which it is varied: rounding and curvature of laws are 1e-9 then
+
+[[noreturn]] void refuse(const std::string &key, const std::string &what)
+{
+  throw std::invalid_argument("--sensitivities " + key + ": " + what);
+}
+
+/// Parts of a text between separators that stand outside quotes; the quotes of a whole part are taken off.
+std::vector<std::string> split_outside_quotes(const std::string &text, char separator)
+{
+  std::vector<std::string> parts(1);
+  char                     quote = '\0';
+  for (const char c : text)
+  {
+    if (!quote && c == separator)
+    {
+      parts.emplace_back();
+      continue;
+    }
+    if (c == quote)
+      quote = '\0';
+    else if (!quote && (c == '"' || c == '\''))
+      quote = c;
+    parts.back() += c;
+  }
+  return parts;
+}
+
+std::string without_quotes(const std::string &text)
+{
+  const bool quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+std::vector<std::string> names_in(const SceneNode &table)
+{
+  std::vector<std::string> names;
+  for (const auto &entry : table.entries)
+    names.push_back(entry.first);
+  return names;
+}
+
+/// Tables on which no motion depends.
+void refuse_settings(const std::string &key, const std::string &table)
+{
+  static const std::map<std::string, std::string> settings = {{"name", "the name of the scene"},
+                                                              {"description", "the description of the scene"},
+                                                              {"modes", "which modes are listed, and where"},
+                                                              {"output", "what is written"},
+                                                              {"reduction", "how the frame is reduced"}};
+  if (const auto found = settings.find(table); found != settings.end())
+    refuse(key, "this entry says " + found->second +
+                    "; a run has no derivative by it. Name a parameter "
+                    "(parameters.NAME) or a number of a body, an element, a load or a joint");
+  if (table == "run" && key != "run.end")
+    refuse(key, "this entry says how the run is integrated; a run has no derivative by it. Name a parameter "
+                "(parameters.NAME) or a number of a body, an element, a load or a joint");
+}
+
+const SceneNode &node_of(const SceneNode &root, const std::string &key)
+{
+  const SceneNode *node = &root;
+  std::string      path;
+  for (const std::string &part : split_outside_quotes(key, '.'))
+  {
+    const std::string name = without_quotes(part);
+    const SceneNode  *next = node->type == SceneNode::Type::table ? node->find(name) : nullptr;
+    if (!next)
+      refuse(key, node->place.text() + ": " + (path.empty() ? "the scene" : path) + " has no entry \"" + name + "\"" +
+                      suggestion(name, names_in(*node)));
+    path += (path.empty() ? "" : ".") + name;
+    node = next;
+  }
+  return *node;
+}
+
+Quantity value_of(const std::string &key, const SceneNode &node, const Parameters &parameters)
+{
+  const bool number = node.type == SceneNode::Type::integer || node.type == SceneNode::Type::real;
+  if (!number && node.type != SceneNode::Type::text)
+    refuse(key, node.place.text() + " is " + type_name(node.type) + "; name an entry that is one number");
+  try
+  {
+    return parameters.evaluate(node);
+  }
+  catch (const std::invalid_argument &)
+  {
+    refuse(key, node.place.text() + ": " + described(node) +
+                    " is no number, and nothing changes by little with it; name "
+                    "an entry that is one, as \"40 mm\"");
+  }
+}
+
+VariedKey varied(const std::string &key, const SceneNode &root, const Parameters &parameters)
+{
+  refuse_settings(key, without_quotes(split_outside_quotes(key, '.').front()));
+  const SceneNode &node     = node_of(root, key);
+  const Quantity   quantity = value_of(key, node, parameters);
+  if (quantity.value == 0.)
+    refuse(key,
+           node.place.text() + " is 0, of which nobody knows what is little; give it a small value, or leave it out");
+  VariedKey found;
+  found.told.key   = key;
+  found.told.value = quantity.value;
+  if (quantity.checked && quantity.dimension != Dimension{})
+    found.told.unit = describe(quantity.dimension);
+  found.text = node.text;
+  if (node.type != SceneNode::Type::text && found.text.empty())
+    append_exact(found.text, node.number);
+  found.step = share * std::abs(quantity.value);
+  return found;
+}
+
+/// A number with its unit, no expression of other parameters.
+bool stands_alone(const SceneNode &node)
+{
+  if (node.type != SceneNode::Type::text)
+    return node.type == SceneNode::Type::integer || node.type == SceneNode::Type::real;
+  try
+  {
+    parse_quantity(node.text, [](const std::string &) { return std::optional<Quantity>(); });
+    return true;
+  }
+  catch (const std::invalid_argument &)
+  {
+    return false;
+  }
+}
+
+std::vector<std::string> all_keys(const SceneNode &root, const Parameters &parameters)
+{
+  std::vector<std::string> keys;
+  const SceneNode         *table = root.find("parameters");
+  for (std::size_t i = 0; table && i < table->entries.size(); ++i)
+    if (const auto &[name, node] = table->entries[i]; stands_alone(node) && parameters.find(name)->value != 0.)
+      keys.push_back("parameters." + name);
+  if (keys.empty())
+    refuse("all", "the scene has no [parameters]; name entries such as element.NAME.stiffness");
+  return keys;
+}
+
+} // namespace
+
+std::string VariedKey::overridden(double sign) const
+{
+  // A whole number of a file that stands for a real one is written as a text.
+  return told.key + "=\"(" + text + ")*(1 " + (sign * told.value > 0. ? "+" : "-") + " 1e-6)\"";
+}
+
+std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list)
+{
+  const Parameters         parameters(root.find("parameters"));
+  std::vector<std::string> keys;
+  if (trimmed(list) == "all")
+    keys = all_keys(root, parameters);
+  else
+    for (const std::string &part : split_outside_quotes(list, ','))
+      keys.push_back(trimmed(part));
+  std::vector<VariedKey> found;
+  for (const std::string &key : keys)
+  {
+    if (key.empty())
+      refuse("\"" + list + "\"", "needs keys with commas between them, such as parameters.c_P,parameters.s_cl, or all");
+    if (std::any_of(found.begin(), found.end(), [&](const VariedKey &other) { return other.told.key == key; }))
+      refuse(key, "is named twice");
+    found.push_back(varied(key, root, parameters));
+  }
+  return found;
+}
+
+} // namespace gestell::apps

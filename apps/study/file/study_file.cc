@@ -1,0 +1,129 @@
+#include "apps/study/file/study_file.h"
+
+#include "apps/scene/file/scene_file.h"
+#include "apps/scene/file/scene_table.h"
+#include "apps/scene/language/parse_quantity.h"
+#include "apps/scene/language/tokens.h"
+#include "apps/study/file/read_variable.h"
+#include "apps/study/file/study_keys.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Type = SceneNode::Type;
+
+/// Overrides whose key begins with a table that only studies have.
+bool is_of_study(const std::string &override_text)
+{
+  const std::string                     table = override_text.substr(0, override_text.find_first_of(".= "));
+  static const std::vector<std::string> tables{"variables", "outputs", "design", "surface",
+                                               "optimise",  "scene",   "keep"};
+  return std::find(tables.begin(), tables.end(), table) != tables.end();
+}
+
+/// A name that heads a column and stands in formulas.
+void check_name(const std::string &name, const SceneTable &table, std::vector<std::string> &names)
+{
+  static const std::vector<std::string> columns{"run", "status", "cpu_s"};
+  if (!is_identifier(name) || is_reserved_name(name))
+    throw table.error("'" + name +
+                      "' is no name for a column: it consists of letters, digits and underscores, begins "
+                      "with no digit and is no function of formulas; choose another name");
+  if (std::find(columns.begin(), columns.end(), name) != columns.end())
+    throw table.error("'" + name + "' is a column of runs.csv already; choose another name");
+  if (std::find(names.begin(), names.end(), name) != names.end())
+    throw table.error("'" + name + "' is the name of a variable and of an output; choose another one for one of them");
+  names.push_back(name);
+}
+
+void read_scene_table(const SceneTable &root, const SceneNode &node, StudyFile &study)
+{
+  if (!root.has("scene"))
+    throw root.error("needs a table [scene] with 'file', the scene that is varied");
+  const SceneTable table = root.table("scene").declared(study_scene_keys());
+  study.scene            = table.file("file");
+  study.scene_place      = table.place("file");
+  if (!table.has("set"))
+    return;
+  const SceneNode &set = *node.find("scene")->find("set");
+  if (set.type != Type::table)
+    throw table.error("set", "needs a table of entries, { \"run.step\" = \"5 us\" }, got " + described(set));
+  study.settings = set.entries;
+}
+
+void read_variables(const SceneTable &root, const SceneNode &node, StudyFile &study, std::vector<std::string> &names)
+{
+  const auto tables = root.tables("variables");
+  if (tables.empty())
+    throw root.error("needs variables, such as [variables.c_P] with from = \"720 kN/mm\" and to = \"1080 kN/mm\"");
+  for (const SceneTable &table : tables)
+  {
+    check_name(table.name(), table, names);
+    study.variables.push_back(read_variable(*node.find("variables")->find(table.name()), table));
+  }
+  std::map<std::string, std::string> takers;
+  for (const VariableRequest &request : study.variables)
+    for (const std::string &key : request.keys)
+      if (const auto [taker, is_new] = takers.emplace(key, request.variable.name); !is_new)
+        throw std::invalid_argument(request.place + ": '" + key + "' takes the value of variable " + taker->second +
+                                    " already; leave it out in one of them");
+}
+
+void read_outputs(const SceneTable &root, const SceneNode &node, StudyFile &study, std::vector<std::string> &names)
+{
+  if (!root.has("outputs"))
+    throw root.error("needs a table [outputs], such as F = \"signals.F.max\"");
+  const SceneTable table = root.table("outputs");
+  for (const std::string &name : table.keys())
+  {
+    check_name(name, table, names);
+    study.outputs.push_back({name, table.text(name), node.find("outputs")->find(name)->place});
+  }
+  if (study.outputs.empty())
+    throw table.error("needs an output, such as F = \"signals.F.max\"");
+}
+
+} // namespace
+
+std::vector<StudyVariable> StudyFile::values() const
+{
+  std::vector<StudyVariable> values;
+  for (const VariableRequest &request : variables)
+    values.push_back(request.variable);
+  return values;
+}
+
+StudyFile read_study(const std::string &path, const std::vector<std::string> &overrides)
+{
+  std::vector<std::string> own;
+  StudyFile                study;
+  for (const std::string &text : overrides)
+    (is_of_study(text) ? own : study.overrides).push_back(text);
+  study.root = read_scene_file(path, own);
+  study.path = path;
+  const Parameters none;
+  const SceneTable table = SceneTable(study.root, none, "").declared(study_keys());
+  table.has("extends");
+  for (const char *read_later : {"design", "surface", "optimise", "choose"})
+    table.has(read_later);
+  study.name        = table.text("name", std::filesystem::path(path).stem().string());
+  study.description = table.text("description", "");
+  study.keep        = table.truth("keep");
+  if (study.name.find('/') != std::string::npos || study.name == "." || study.name == "..")
+    throw table.error("name", "must not contain '/': it names the folder of the results");
+  std::vector<std::string> names;
+  read_scene_table(table, study.root, study);
+  read_variables(table, study.root, study, names);
+  read_outputs(table, study.root, study, names);
+  table.finish();
+  return study;
+}
+
+} // namespace gestell::apps

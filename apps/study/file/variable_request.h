@@ -1,0 +1,34 @@
+#pragma once
+
+#include "apps/scene/file/scene_node.h"
+#include "apps/study/values/study_variable.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// An entry of the scene that a study varies, as its file tells it.
+struct VariableRequest
+{
+  StudyVariable            variable;
+  std::vector<std::string> keys{};    ///< all that take its value, variable.key the first
+  std::vector<SceneNode>   choices{}; ///< of a variable with choices: what the words stand for
+  std::string              place{};
+
+  /// As a value of the scene is written: 900 kN/mm, linear, true.
+  std::string text(double level) const { return variable.text(level); }
+  /// The level of a value written in the study: "900 kN/mm", 900, "linear".
+  /// @throws std::invalid_argument with the place of the value
+  double level(const SceneNode &value) const;
+};
+
+/// Takes the unit of a value for that of the variable, if it has none yet.
+/// @throws std::invalid_argument with the place of the value for what is no number, and for another unit
+double in_unit(const SceneNode &value, StudyVariable &variable, const std::string &key);
+
+/// A number, with a unit behind it or not.
+bool starts_with_number(const SceneNode &value);
+
+} // namespace gestell::apps

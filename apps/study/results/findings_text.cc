@@ -1,0 +1,76 @@
+#include "apps/study/results/findings_text.h"
+
+#include "apps/study/report/choice_section.h"
+
+#include "fem/values/number_text.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::string with_unit(double value, const std::string &unit)
+{
+  const DisplayUnit shown = display_unit(unit, std::abs(value));
+  return short_text(value * shown.factor, 5) + (shown.unit.empty() ? "" : ' ' + shown.unit);
+}
+
+void tell_surfaces(const StudyFindings &findings, std::ostream &text)
+{
+  for (const ResponseSurface &surface : findings.surfaces)
+  {
+    const FitQuality &fit = surface.quality;
+    text << "surface of " << surface.output.name << ": R2 " << short_text(fit.r2, 5) << ", adjusted "
+         << short_text(fit.adjusted_r2, 5) << ", predicted " << short_text(fit.predicted_r2, 5) << ", standard error "
+         << with_unit(fit.standard_error, surface.output.unit) << '\n';
+  }
+}
+
+void tell_optimum(const StudyFindings &findings, std::ostream &text)
+{
+  const StudyOptimum &optimum = *findings.optimum;
+  const StudyTable   &table   = findings.table;
+  text << "optimum" << (optimum.found.feasible ? "" : ", which breaks a limit") << " on "
+       << (optimum.source == "surface" ? "the surface" : count_text(std::size_t(optimum.found.evaluations), "run"))
+       << ":\n";
+  for (std::size_t i = 0; i < table.variables.size(); ++i)
+    text << "  " << table.variables[i].name << " = "
+         << short_text(table.variables[i].physical(optimum.found.coded[Eigen::Index(i)]), 6)
+         << (table.variables[i].unit.empty() ? "" : ' ' + table.variables[i].unit) << '\n';
+  for (std::size_t i = 0; i < table.outputs.size(); ++i)
+  {
+    const auto at = Eigen::Index(i);
+    text << "  " << std::left << std::setw(12) << table.outputs[i].name << ' '
+         << with_unit(optimum.found.values[at], table.outputs[i].unit);
+    if (optimum.verified)
+      text << ", by a run " << with_unit((*optimum.verified)[at], table.outputs[i].unit);
+    if (optimum.nominal)
+      text << "; in the middle of all ranges " << with_unit((*optimum.nominal)[at], table.outputs[i].unit);
+    text << '\n';
+  }
+}
+
+} // namespace
+
+std::string findings_text(const StudyFindings &findings)
+{
+  std::ostringstream text;
+  tell_surfaces(findings, text);
+  if (findings.choice)
+    text << choice_text(findings) << '\n';
+  if (findings.optimum)
+    tell_optimum(findings, text);
+  if (!findings.front.empty())
+    text << "front of the goals: " << findings.front.size() << " points in front.csv\n";
+  for (const RobustResult &result : findings.robust)
+    for (const RobustFigures &figures : result.figures)
+      text << "scatter: " << figures.output.name << " " << with_unit(figures.mean, figures.output.unit)
+           << ", standard deviation " << with_unit(figures.deviation, figures.output.unit) << '\n';
+  return text.str();
+}
+
+} // namespace gestell::apps

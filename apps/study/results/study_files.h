@@ -1,0 +1,17 @@
+#pragma once
+
+#include "apps/study/report/study_findings.h"
+#include "apps/study/runs/study_runner.h"
+
+#include <filesystem>
+
+namespace gestell::apps
+{
+
+/// Writes what was found beside the rows: tables, pictures, report.html and optimum.toml; what an earlier call found
+/// and this one did not is removed.
+/// @throws std::runtime_error if a file cannot be written to its end
+void write_findings(const std::filesystem::path &folder, const StudyFile &study, const SceneVariants &variants,
+                    const StudyFindings &findings);
+
+} // namespace gestell::apps

@@ -1,0 +1,87 @@
+#include "apps/study/runs/frame_shelf.h"
+
+#include "apps/scene/build/build_machine.h"
+#include "apps/session/prepared_machine.h"
+#include "coupling/frame/frame_cache.h"
+#include "coupling/frame/frame_recipe.h"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t most_kept = 3;
+
+/// Held for as long as it lives; where the file cannot be made nobody waits.
+class FileLock
+{
+public:
+  explicit FileLock(const std::string &path)
+  {
+    std::error_code none;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
+    file_ = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (file_ >= 0)
+      flock(file_, LOCK_EX);
+  }
+  ~FileLock()
+  {
+    if (file_ >= 0)
+      close(file_);
+  }
+  FileLock(const FileLock &) = delete;
+
+private:
+  int file_;
+};
+
+/// What a machine needs of its frame, without what is only drawn unless that is wanted.
+std::shared_ptr<const coupling::ReducedFrame> shared(coupling::ReducedFrame frame, bool drawn)
+{
+  if (!drawn)
+  {
+    frame.points       = {};
+    frame.triangles    = {};
+    frame.displacement = {};
+    frame.stress       = {};
+  }
+  return std::make_shared<const coupling::ReducedFrame>(std::move(frame));
+}
+
+} // namespace
+
+std::shared_ptr<const coupling::ReducedFrame> FrameShelf::frame(const Scene &scene, const coupling::Progress &progress)
+{
+  const FramePath path = frame_path(scene);
+  if (scene.reduction.superposition || (path != FramePath::reduce && path != FramePath::from_file))
+    return nullptr;
+  const bool        drawn = drawn_ || scene.stress.given;
+  const bool        made  = path == FramePath::reduce;
+  const std::string key   = made ? coupling::content_key(frame_origin(scene).recipe) : scene.frame.reduced_file;
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept &kept) { return kept.first == key; });
+  if (found != kept_.end())
+  {
+    kept_.splice(kept_.begin(), kept_, found);
+    return kept_.front().second;
+  }
+  if (!made)
+    kept_.emplace_front(key, shared(coupling::read_reduced_frame(scene.frame.reduced_file), drawn));
+  else
+  {
+    const FileLock alone(coupling::cache_file(key) + ".lock");
+    bool           from_cache = false;
+    kept_.emplace_front(key, shared(reduced_frame(scene, progress, from_cache), drawn));
+    n_reduced_ += !from_cache;
+  }
+  if (kept_.size() > most_kept)
+    kept_.pop_back();
+  return kept_.front().second;
+}
+
+} // namespace gestell::apps

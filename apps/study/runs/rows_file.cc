@@ -1,0 +1,173 @@
+#include "apps/study/runs/rows_file.h"
+
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr auto failed_word = "failed: ";
+
+/// In quotes where it must be; on one line.
+std::string cell(const std::string &text)
+{
+  if (text.find_first_of(",\"\n\r") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
+  return quoted + '"';
+}
+
+std::vector<std::string> cells_of(const std::string &line)
+{
+  std::vector<std::string> cells(1);
+  bool                     quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      cells.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += line[i];
+  return cells;
+}
+
+double number_of(const std::string &text)
+{
+  char        *end   = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  if (*end != '\0')
+    throw std::invalid_argument("'" + text + "' is no number");
+  return value;
+}
+
+std::string number_cell(double value)
+{
+  return std::isfinite(value) ? exact_text(value) : "";
+}
+
+} // namespace
+
+std::string RowsText::head() const
+{
+  std::string line = "run,status";
+  for (const VariableRequest &request : variables_)
+    line += ',' + request.variable.name;
+  for (const OutputRequest &output : outputs_)
+    line += ',' + output.name;
+  return line + ",cpu_s\n";
+}
+
+std::string RowsText::line(const RunRow &row, const Eigen::VectorXd &levels) const
+{
+  std::string line = std::to_string(row.run) + ',';
+  line += row.status == RunStatus::done ? "done" : cell(failed_word + row.message);
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+    line += ',' + (variables_[i].variable.words.empty() ? number_cell(levels[Eigen::Index(i)])
+                                                        : cell(variables_[i].text(levels[Eigen::Index(i)])));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    line += ',' + (row.values.empty() ? "" : number_cell(row.values[i]));
+  return line + ',' + rounded(row.cpu_s) + '\n';
+}
+
+RunRow RowsText::row(const std::string &line) const
+{
+  const std::vector<std::string> cells    = cells_of(line);
+  const std::size_t              expected = 3 + variables_.size() + outputs_.size();
+  if (cells.size() != expected)
+    throw std::invalid_argument("has " + std::to_string(cells.size()) + " cells in place of " +
+                                std::to_string(expected));
+  RunRow row;
+  row.run    = int(number_of(cells[0]));
+  row.status = cells[1] == "done" ? RunStatus::done : RunStatus::failed;
+  if (row.status == RunStatus::failed)
+    row.message = cells[1].substr(std::min(cells[1].size(), std::string(failed_word).size()));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    row.values.push_back(number_of(cells[2 + variables_.size() + i]));
+  row.cpu_s = number_of(cells.back());
+  return row;
+}
+
+std::vector<RunRow> read_rows(const std::filesystem::path &file, const RowsText &text)
+{
+  std::ifstream       in(file);
+  std::vector<RunRow> rows;
+  std::string         line;
+  for (int number = 1; std::getline(in, line); ++number)
+  {
+    if (in.eof()) // its end was not written
+      break;
+    const std::string place = file.string() + ":" + std::to_string(number) + ": ";
+    if (number == 1 && line + '\n' != text.head())
+      throw std::invalid_argument(place + "has other columns than this study: " + line +
+                                  "; give each study a folder of its own with -o");
+    try
+    {
+      if (number > 1)
+        rows.push_back(text.row(line));
+    }
+    catch (const std::invalid_argument &error)
+    {
+      throw std::invalid_argument(place + error.what() + "; remove the line, and its run is made again");
+    }
+  }
+  return rows;
+}
+
+RowsFile::RowsFile(const std::filesystem::path &file, const RowsText &text) : path_(file)
+{
+  file_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+  if (file_ < 0)
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+  if (flock(file_, LOCK_EX | LOCK_NB) != 0)
+  {
+    close(file_);
+    throw std::invalid_argument(file.string() + ": another gestell study is writing it; give each study a folder of "
+                                                "its own with -o, or wait until that one has ended");
+  }
+  std::ifstream in(file);
+  std::string   line;
+  off_t         whole = 0;
+  while (std::getline(in, line) && !in.eof())
+    whole += off_t(line.size()) + 1;
+  if (ftruncate(file_, whole) != 0 || lseek(file_, 0, SEEK_END) < 0)
+    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+  if (whole == 0)
+    append(text.head());
+}
+
+RowsFile::~RowsFile()
+{
+  close(file_);
+}
+
+void RowsFile::append(const std::string &line)
+{
+  for (std::size_t done = 0; done < line.size();)
+  {
+    const ssize_t n = write(file_, line.data() + done, line.size() - done);
+    if (n < 0 && errno != EINTR)
+      throw std::runtime_error(path_.string() + ": cannot be written: " + std::strerror(errno));
+    done += std::size_t(std::max<ssize_t>(n, 0));
+  }
+}
+
+} // namespace gestell::apps

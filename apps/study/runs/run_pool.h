@@ -1,0 +1,32 @@
+#pragma once
+
+#include "apps/study/runs/rows_file.h"
+
+#include <functional>
+
+namespace gestell::apps
+{
+
+/// A run that is to be made.
+struct RunOrder
+{
+  int             number = 0; ///< from 1
+  Eigen::VectorXd levels{};
+};
+
+/// Takes a row as its run ends, in any order.
+using TakeRow = std::function<void(const RunRow &row)>;
+
+/**
+ * Makes runs side by side, by so many processes; one makes them in this process.
+ *
+ * Each process takes the next run that nobody has.  One that ends by a signal costs the row of its run, which is marked
+ * as failed, and another takes its place.
+ *
+ * @param stop  ends all, what has not ended yet has no row
+ * @throws std::invalid_argument as StudyRunner::run()
+ */
+void make_runs(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, int jobs,
+               const std::atomic<bool> &stop, const TakeRow &take);
+
+} // namespace gestell::apps

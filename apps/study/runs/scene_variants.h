@@ -1,0 +1,51 @@
+#pragma once
+
+#include "apps/scene/file/parameters.h"
+#include "apps/scene/scene.h"
+#include "apps/study/file/study_file.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// The scene of a study at any values of its variables; its files are read once.
+class SceneVariants
+{
+public:
+  /// @throws std::invalid_argument for a key that the scene does not have, with the nearest one
+  SceneVariants(const StudyFile &study, fem::Scripts scripts);
+
+  /// @param levels  one a variable, in its unit; words by their number
+  /// @throws std::invalid_argument where the scene does not accept them
+  Scene at(const Eigen::VectorXd &levels) const;
+  /// Parameters of that scene, for formulas.
+  Parameters parameters_at(const Eigen::VectorXd &levels) const;
+  /// "key=value" of what the study changes in the scene file: its settings, the command line's, and the levels.
+  std::vector<std::string> overrides_at(const Eigen::VectorXd &levels) const;
+  /// The same, each key once, its values as TOML writes them.
+  std::vector<std::pair<std::string, std::string>> changes_at(const Eigen::VectorXd &levels) const;
+  const std::string                               &scene_file() const { return study_.scene; }
+  /// The scene with the settings of the study, before any variable.
+  const SceneNode &root() const { return root_; }
+
+  /// Tries the ends of each variable, and the smallest and largest of its levels, the others in their middles.
+  /// @param levels  of all runs [runs x variables]
+  /// @throws std::invalid_argument with the place of the variable, its value, and what the scene says against it
+  void check_ranges(const Eigen::MatrixXd &levels) const;
+
+  Eigen::VectorXd middle() const; ///< of all ranges; of words the first
+
+private:
+  SceneNode node_at(const Eigen::VectorXd &levels) const;
+  void      check_key(const VariableRequest &request, const std::string &key) const;
+
+  StudyFile    study_;
+  fem::Scripts scripts_;
+  SceneNode    root_;
+};
+
+} // namespace gestell::apps

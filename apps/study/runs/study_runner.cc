@@ -1,0 +1,130 @@
+#include "apps/study/runs/study_runner.h"
+
+#include "apps/output/result_folder.h"
+#include "apps/session/session.h"
+#include "apps/study/runs/run_derivatives.h"
+
+#include <algorithm>
+#include <ctime>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// [s] of the processor that this process took so far.
+double cpu_of_process()
+{
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+RunRow failed(RunRow row, const std::string &message)
+{
+  row.status  = RunStatus::failed;
+  row.message = message;
+  return row;
+}
+
+} // namespace
+
+StudyRunner::StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, fem::Scripts scripts,
+                         const std::filesystem::path &kept)
+    : variables_(study.variables), variants_(study, scripts), frames_(!kept.empty()),
+      outputs_((variants_.check_ranges(levels), study), variants_.at(variants_.middle()),
+               variants_.parameters_at(variants_.middle())),
+      kept_(kept)
+{
+}
+
+void StudyRunner::leave_out_unread(Scene &scene) const
+{
+  const auto &read = outputs_.signals();
+  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(),
+                                     [&](const SignalRequest &signal)
+                                     { return std::find(read.begin(), read.end(), signal.name) == read.end(); }),
+                      scene.signals.end());
+  coupling::RunOptions &run = scene.run.options;
+  run.picture_step          = 0.;
+  run.output_step           = run.end - run.begin;
+  run.energy                = outputs_.reads("energy");
+}
+
+Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
+                              const std::string &sensitivities)
+{
+  Scene scene = variants_.at(levels);
+  if (kept_.empty())
+    leave_out_unread(scene);
+  const auto frame = frames_.frame(scene, {});
+  Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
+  if (frame)
+    session.use_frame(*frame);
+  return session.run(sensitivities);
+}
+
+void StudyRunner::keep(int number, const Result &result) const
+{
+  const std::filesystem::path folder = kept_ / run_folder(number);
+  prepare_folder(folder);
+  write_results(folder, result);
+}
+
+RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
+                        Eigen::MatrixXd *derivatives)
+{
+  RunRow row;
+  row.run                     = number;
+  const double          begin = cpu_of_process();
+  const auto            spent = [&] { return cpu_of_process() - begin; };
+  std::optional<Result> result;
+  try
+  {
+    result = result_of(levels, stop, derivatives ? differentiated_keys(variables_) : "");
+  }
+  catch (const std::exception &error) // of this run; the others go on
+  {
+    row.cpu_s = spent();
+    return stop && *stop ? row : failed(row, error.what());
+  }
+  if (!kept_.empty())
+    keep(number, *result);
+  if (result->run->interrupted)
+    return row;
+  if (!result->run->failure.empty())
+  {
+    row.cpu_s = spent();
+    return failed(row, result->run->failure);
+  }
+  try
+  {
+    if (derivatives)
+      *derivatives = output_derivatives(outputs_, *result, variants_, variables_, levels);
+    for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
+    {
+      row.values.push_back(value.value);
+      row.units.push_back(value.unit);
+    }
+  }
+  catch (const std::invalid_argument &error)
+  {
+    if (!any_done_)
+      throw;
+    row.values.clear();
+    row.units.clear();
+    row.cpu_s = spent();
+    return failed(row, error.what());
+  }
+  any_done_  = true;
+  row.status = RunStatus::done;
+  row.cpu_s  = spent();
+  return row;
+}
+
+std::string run_folder(int number)
+{
+  return "run_" + std::to_string(number);
+}
+
+} // namespace gestell::apps

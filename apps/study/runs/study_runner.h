@@ -1,0 +1,69 @@
+#pragma once
+
+#include "apps/study/runs/frame_shelf.h"
+#include "apps/study/runs/output_formulas.h"
+#include "apps/study/runs/scene_variants.h"
+
+#include <atomic>
+#include <filesystem>
+
+namespace gestell::apps
+{
+
+/// What one run of a study gave.
+struct RunRow
+{
+  int                      run    = 0; ///< from 1
+  RunStatus                status = RunStatus::waiting;
+  std::string              message{}; ///< why it failed
+  std::vector<double>      values{};  ///< one an output, nan of none
+  std::vector<std::string> units{};   ///< of the values; empty of a failed run
+  double                   cpu_s = 0.;
+};
+
+/**
+ * Runs of one scene at chosen values of its variables.  What they have in common is made once: the files are read, the
+ * frames reduced and kept.
+ */
+class StudyRunner
+{
+public:
+  /// Checks all that can be known without a run.
+  /// @param levels  of all runs [runs x variables]
+  /// @param kept  folder for results of runs; empty: none are kept
+  /// @throws std::invalid_argument with the place in the study
+  StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, fem::Scripts scripts,
+              const std::filesystem::path &kept);
+
+  /**
+   * @param levels  values of the variables
+   * @param stop    ends the run, whose row then is `waiting`; may be null
+   * @return a row that is `failed` where the scene refuses the levels or the computation fails
+   * @throws std::invalid_argument where the first run has no such output; of a later one the row has failed
+   */
+  RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
+  {
+    return run(number, levels, stop, nullptr);
+  }
+  /// @param derivatives  become those of the outputs by the levels [outputs x variables]; empty where there are none
+  RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop, Eigen::MatrixXd *derivatives);
+
+  const SceneVariants &variants() const { return variants_; }
+
+private:
+  Result result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
+  void   leave_out_unread(Scene &scene) const;
+  void   keep(int number, const Result &result) const;
+
+  std::vector<VariableRequest> variables_;
+  SceneVariants                variants_;
+  FrameShelf                   frames_;
+  OutputFormulas               outputs_;
+  std::filesystem::path        kept_;
+  bool                         any_done_ = false; ///< outputs could be read
+};
+
+/// Folder of a run's own results, from that of the study: "run_12".
+std::string run_folder(int number);
+
+} // namespace gestell::apps

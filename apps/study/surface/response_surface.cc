@@ -1,0 +1,221 @@
+#include "apps/study/surface/response_surface.h"
+
+#include "apps/study/surface/least_squares.h"
+#include "fem/values/number_text.h"
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double not_a_number    = std::numeric_limits<double>::quiet_NaN();
+constexpr double same_level      = 1e-9;  ///< coded levels nearer than this are the same
+constexpr double full_leverage   = 1e-10; ///< 1 - h_ii below it is rounding
+constexpr double exact_repeating = 1e-24; ///< of the sum of squares: repeated runs that differ by rounding alone
+
+double quotient_or_nan(double a, double b)
+{
+  return b > 0. ? a / b : not_a_number;
+}
+
+Eigen::VectorXd terms_at(const ResponseSurface &surface, const Eigen::VectorXd &xi)
+{
+  Eigen::VectorXd t(static_cast<Eigen::Index>(surface.terms.size()));
+  for (Eigen::Index j = 0; j < t.size(); ++j)
+    t(j) = surface.terms[j].value(xi);
+  return t;
+}
+
+/// Runs at the same point, by its levels in steps of `same_level`.
+std::map<std::vector<long long>, std::vector<Eigen::Index>> runs_by_point(const Eigen::MatrixXd &coded)
+{
+  std::map<std::vector<long long>, std::vector<Eigen::Index>> points;
+  for (Eigen::Index run = 0; run < coded.rows(); ++run)
+  {
+    std::vector<long long> point;
+    for (Eigen::Index j = 0; j < coded.cols(); ++j)
+      point.push_back(std::llround(coded(run, j) / same_level));
+    points[point].push_back(run);
+  }
+  return points;
+}
+
+void add_pure_error(const Eigen::MatrixXd &coded, const Eigen::VectorXd &y, FitQuality &quality)
+{
+  for (const auto &[point, runs] : runs_by_point(coded))
+  {
+    const Eigen::VectorXd repeated = y(runs);
+    quality.pure_error += (repeated.array() - repeated.mean()).square().sum();
+    quality.pure_error_dof += static_cast<int>(runs.size()) - 1;
+  }
+  if (quality.pure_error <= exact_repeating * y.squaredNorm())
+    quality.pure_error = 0.;
+}
+
+void judge_lack_of_fit(double sse, FitQuality &quality)
+{
+  quality.lack_of_fit         = std::max(0., sse - quality.pure_error);
+  quality.lack_of_fit_dof     = quality.n_runs - quality.n_coefficients - quality.pure_error_dof;
+  quality.lack_of_fit_F       = not_a_number;
+  quality.lack_of_fit_p_value = not_a_number;
+  if (quality.pure_error_dof < 1 || quality.lack_of_fit_dof < 1)
+    return;
+  quality.lack_of_fit_F =
+      (quality.lack_of_fit / quality.lack_of_fit_dof) / (quality.pure_error / quality.pure_error_dof);
+  if (std::isinf(quality.lack_of_fit_F))
+    quality.lack_of_fit_p_value = 0.;
+  else if (!std::isnan(quality.lack_of_fit_F))
+    quality.lack_of_fit_p_value = boost::math::cdf(boost::math::complement(
+        boost::math::fisher_f(quality.lack_of_fit_dof, quality.pure_error_dof), quality.lack_of_fit_F));
+}
+
+/// What the surface of all other runs says at each run: y_i - e_i / (1 - h_ii).
+Eigen::VectorXd leave_one_out(const Eigen::VectorXd &y, const Eigen::VectorXd &fitted, const Eigen::VectorXd &leverage)
+{
+  Eigen::VectorXd left_out(y.size());
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+    left_out(i) = 1. - leverage(i) > full_leverage ? y(i) - (y(i) - fitted(i)) / (1. - leverage(i)) : not_a_number;
+  return left_out;
+}
+
+void judge_fit(const Eigen::MatrixXd &coded, ResponseSurface &surface)
+{
+  const Eigen::VectorXd &y = surface.computed;
+  FitQuality            &q = surface.quality;
+  q.n_runs                 = static_cast<int>(y.size());
+  q.n_coefficients         = static_cast<int>(surface.terms.size());
+  const int    dof         = q.n_runs - q.n_coefficients;
+  const double sst = (y.array() - y.mean()).square().sum(), sse = (y - surface.fitted).squaredNorm();
+  q.press          = (y - surface.left_out).squaredNorm();
+  q.r2             = 1. - quotient_or_nan(sse, sst);
+  q.predicted_r2   = 1. - quotient_or_nan(q.press, sst);
+  q.standard_error = dof > 0 ? std::sqrt(sse / dof) : not_a_number;
+  q.adjusted_r2    = dof > 0 ? 1. - quotient_or_nan(sse / dof, sst / (q.n_runs - 1)) : not_a_number;
+  add_pure_error(coded, y, q);
+  judge_lack_of_fit(sse, q);
+}
+
+void judge_coefficients(ResponseSurface &surface)
+{
+  const int    dof = surface.quality.n_runs - surface.quality.n_coefficients;
+  const double t =
+      dof > 0 ? boost::math::quantile(boost::math::students_t(dof), 0.5 + 0.5 * surface.level) : not_a_number;
+  surface.standard_errors = surface.quality.standard_error * surface.inverse_normal.diagonal().cwiseSqrt();
+  surface.confidence      = t * surface.standard_errors;
+}
+
+void check_fit(const Eigen::MatrixXd &coded, const Eigen::VectorXd &y, const StudyOutput &output,
+               const std::vector<std::string> &variables, double level)
+{
+  if (coded.rows() != y.size() || coded.cols() != static_cast<Eigen::Index>(variables.size()))
+    throw std::invalid_argument("study: surface of " + output.name + ": points and values differ in size");
+  if (!coded.allFinite() || !y.allFinite())
+    throw std::invalid_argument("study: surface of " + output.name + ": a run has no finite value");
+  if (!(level > 0. && level < 1.))
+    throw std::invalid_argument("study: surface: confidence is " + short_text(level) +
+                                "; it must lie between 0 and 1, such as 0.95");
+}
+
+std::vector<std::string> names_of(const std::vector<StudyVariable> &variables)
+{
+  std::vector<std::string> names;
+  for (const auto &variable : variables)
+    names.push_back(variable.name);
+  return names;
+}
+
+ResponseSurface fit_by(const LeastSquares &squares, const ResponseSurface &model, const Eigen::MatrixXd &coded,
+                       const Eigen::MatrixXd &X)
+{
+  ResponseSurface surface = model;
+  surface.coefficients    = squares.solve(surface.computed);
+  surface.fitted          = X * surface.coefficients;
+  surface.leverage        = squares.leverage();
+  surface.inverse_normal  = squares.inverse_normal();
+  surface.left_out        = leave_one_out(surface.computed, surface.fitted, surface.leverage);
+  judge_fit(coded, surface);
+  judge_coefficients(surface);
+  return surface;
+}
+
+std::vector<std::string> names_of_terms(const ResponseSurface &model)
+{
+  std::vector<std::string> names;
+  for (const auto &term : model.terms)
+    names.push_back(term_name(term, model.variables));
+  return names;
+}
+
+ResponseSurface unfitted(const StudyOutput &output, const std::vector<std::string> &variables,
+                         const SurfaceOptions &options, const Eigen::VectorXd &y)
+{
+  ResponseSurface model;
+  model.output    = output;
+  model.variables = variables;
+  model.order     = options.order;
+  model.level     = options.level;
+  model.terms     = surface_terms(static_cast<int>(variables.size()), options.order);
+  model.computed  = y;
+  return model;
+}
+
+} // namespace
+
+double ResponseSurface::value(const Eigen::VectorXd &xi) const
+{
+  return terms_at(*this, xi).dot(coefficients);
+}
+
+Eigen::VectorXd ResponseSurface::gradient(const Eigen::VectorXd &xi) const
+{
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(xi.size());
+  for (std::size_t j = 0; j < terms.size(); ++j)
+    terms[j].add_gradient(xi, coefficients(static_cast<Eigen::Index>(j)), sum);
+  return sum;
+}
+
+double ResponseSurface::standard_error(const Eigen::VectorXd &xi) const
+{
+  const Eigen::VectorXd t = terms_at(*this, xi);
+  return quality.standard_error * std::sqrt(t.dot(inverse_normal * t));
+}
+
+ResponseSurface fit_surface(const Eigen::MatrixXd &coded, const Eigen::VectorXd &y, const StudyOutput &output,
+                            const std::vector<std::string> &variables, const SurfaceOptions &options)
+{
+  check_fit(coded, y, output, variables, options.level);
+  const ResponseSurface model = unfitted(output, variables, options, y);
+  const Eigen::MatrixXd X     = model_matrix(coded, model.terms);
+  return fit_by(LeastSquares(X, names_of_terms(model)), model, coded, X);
+}
+
+std::vector<ResponseSurface> fit_surfaces(const StudyTable &table, const SurfaceOptions &options)
+try
+{
+  const StudyTable             usable    = table.usable();
+  const Eigen::MatrixXd        coded     = usable.coded();
+  const auto                   variables = names_of(table.variables);
+  std::vector<ResponseSurface> surfaces;
+  for (std::size_t i = 0; i < usable.outputs.size(); ++i)
+    surfaces.push_back(
+        fit_surface(coded, usable.values.col(static_cast<Eigen::Index>(i)), usable.outputs[i], variables, options));
+  return surfaces;
+}
+catch (const std::invalid_argument &error)
+{
+  const int missing = table.n_runs() - static_cast<int>(table.usable_runs().size());
+  if (missing == 0)
+    throw;
+  throw std::invalid_argument(std::string(error.what()) + " (" + std::to_string(missing) + " of " +
+                              count_text(table.n_runs(), "run") + " failed or wait)");
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "coupling/sensitivity/parameter_twins.h"
+#include "coupling/simulation/run_result.h"
+#include "coupling/simulation/trajectory.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// A number that a run tells, with its derivatives by the parameters [K]; nan: it has none, and `note` tells why.
+struct OutputDerivatives
+{
+  std::string     output; ///< "F_P.max", "F_P.t_max", "F_P.final", "events.3.t"
+  std::string     unit;
+  double          value = 0.;
+  Eigen::VectorXd derivative; ///< [unit / unit of the parameter]
+  std::string     note{};     ///< of an event: "sheet tool_contact"; or why there is no derivative
+};
+
+struct RunSensitivities
+{
+  std::vector<OutputDerivatives> outputs;
+  std::vector<std::string>       warnings;
+  long                           steps  = 0; ///< of the variational equations
+  double                         wall_s = 0.;
+};
+
+/// What to differentiate.
+struct SensitivityProblem
+{
+  Machine                           &machine; ///< of the run; its history is changed
+  const std::vector<Signal>         &signals;
+  const RunOptions                  &options;
+  const RunResult                   &run;
+  const Trajectory                  &trajectory;
+  const std::vector<ParameterTwins> &twins;
+};
+
+/**
+ * Derivatives of what a run tells by parameters: largest and smallest value of every signal and their instants, values
+ * at the end, times of events.
+ *
+ * At an event, the zero of a guard g located at t_e,
+ *
+ *     dt_e = -(g_x + grad g . s)/g',     s'_behind = s'_before + (q''_before - q''_behind) dt_e,
+ *
+ * and histories of elements change with the time and the motion at which each takes its transition: those of the two
+ * machines of a parameter are carried along, at x -+ step.  A largest value at t* has the partial derivative at t*, its
+ * instant -(dy/dx)'/y''; one at an event has dy/dx + y' dt_e.
+ *
+ * @throws std::invalid_argument where the machines of a parameter are of another structure, where events were gone
+ * over, velocities jump, or the machine has what the equations do not carry; ConvergenceFailure
+ *
+ * Source: docs/sensitivities.md (7) to (11).
+ */
+RunSensitivities run_sensitivities(const SensitivityProblem &problem);
+
+} // namespace gestell::coupling

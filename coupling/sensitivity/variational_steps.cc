@@ -1,0 +1,249 @@
+#include "coupling/sensitivity/variational_steps.h"
+
+#include "coupling/integration/system/convergence_failure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double gamma         = 0.25;
+constexpr double at_shares[5]  = {1. / 4., 3. / 4., 11. / 20., 1. / 2., 1.};
+constexpr double weights[5][4] = {{0., 0., 0., 0.},
+                                  {1. / 2., 0., 0., 0.},
+                                  {17. / 50., -1. / 25., 0., 0.},
+                                  {371. / 1360., -137. / 2720., 15. / 544., 0.},
+                                  {25. / 24., -49. / 48., 125. / 16., -85. / 12.}};
+/// Weights of the method less those of the embedded one.
+constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96., 125. / 16. - 225. / 32., 0., 1. / 4.};
+constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
+constexpr double weak           = 1e-3;     ///< coordinates that move less, in the norm of the mass, count as that
+constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
+constexpr int    most_halvings  = 30;
+constexpr int    looks          = 7; ///< at a piece, for what acts on it
+} // namespace
+
+void PieceReader::begin(const SmoothPiece &piece)
+{
+  piece_ = &piece;
+  here_  = 0;
+  known_ = {{{piece.nodes.size(), {}}, {piece.nodes.size(), {}}}};
+}
+
+const VectorXd &PieceReader::acceleration(std::size_t node)
+{
+  auto &kept = known_[node % 2];
+  if (kept.first != node)
+  {
+    const MotionNode &at = piece_->nodes[node];
+    node_.t              = at.t;
+    node_.q              = at.q;
+    node_.v              = at.v;
+    if (node_.local.u.size() == 0)
+      node_.local.resize(equation_.machine());
+    equation_.complete(node_);
+    kept = {node, node_.a};
+  }
+  return kept.second;
+}
+
+double PieceReader::spacing() const
+{
+  return here_ + 1 < piece_->nodes.size() ? piece_->nodes[here_ + 1].t - piece_->nodes[here_].t : 0.;
+}
+
+void PieceReader::read(double close, MotionState &state)
+{
+  const auto  &nodes = piece_->nodes;
+  const double t     = state.t;
+  while (here_ + 2 < nodes.size() && t >= nodes[here_ + 1].t)
+    ++here_;
+  while (here_ > 0 && t < nodes[here_].t)
+    --here_;
+  const MotionNode &a = nodes[here_], &b = nodes[std::min(here_ + 1, nodes.size() - 1)];
+  const double      h = b.t - a.t;
+  for (const MotionNode *node : {&a, &b})
+    if (std::abs(t - node->t) <= same_instant * h || h == 0.)
+    {
+      state.q = node->q;
+      state.v = node->v;
+      return;
+    }
+  const double x = (t - a.t) / h, y = 1. - x;
+  const bool   near = h <= close;
+  if (near || !equation_.lags().empty())
+  {
+    state.q = (1. + 2. * x) * y * y * a.q + x * x * (1. + 2. * y) * b.q + h * x * y * (y * a.v - x * b.v);
+    state.v = 6. * x * y / h * (b.q - a.q) + y * (1. - 3. * x) * a.v + x * (3. * x - 2.) * b.v;
+  }
+  if (near)
+    return;
+  VectorXd q_cubic, v_cubic; // of lags, that have no accelerations
+  if (!equation_.lags().empty())
+  {
+    q_cubic = state.q;
+    v_cubic = state.v;
+  }
+  const VectorXd &a_a = acceleration(here_), &a_b = acceleration(here_ + 1);
+  const double    x2 = x * x, x3 = x2 * x, x4 = x3 * x, x5 = x4 * x;
+  const double    rise = 10. * x3 - 15. * x4 + 6. * x5, rise_rate = 30. * x2 - 60. * x3 + 30. * x4;
+  state.q = a.q + rise * (b.q - a.q) +
+            h * ((x - 6. * x3 + 8. * x4 - 3. * x5) * a.v + (-4. * x3 + 7. * x4 - 3. * x5) * b.v) +
+            h * h * (0.5 * (x2 - 3. * x3 + 3. * x4 - x5) * a_a + 0.5 * (x3 - 2. * x4 + x5) * a_b);
+  state.v = rise_rate / h * (b.q - a.q) + (1. - 18. * x2 + 32. * x3 - 15. * x4) * a.v +
+            (-12. * x2 + 28. * x3 - 15. * x4) * b.v +
+            h * (0.5 * (2. * x - 9. * x2 + 12. * x3 - 5. * x4) * a_a + 0.5 * (3. * x2 - 8. * x3 + 5. * x4) * a_b);
+  for (const int i : equation_.lags())
+  {
+    state.q[i] = q_cubic[i];
+    state.v[i] = v_cubic[i];
+  }
+}
+
+VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, double tolerance)
+    : equation_(equation), reader_(equation), step_(first), tolerance_(tolerance)
+{
+  size_q_.setZero(equation.machine().size(), equation.n_parameters());
+  size_v_ = size_q_;
+  for (MotionState *state : {&state_, &stage_state_})
+    state->local.resize(equation.machine());
+  root_mass_ = equation.mass_diagonal().cwiseSqrt();
+}
+
+/// Some of its instants.
+void VariationalSteps::look_along(const SmoothPiece &piece)
+{
+  std::vector<MotionState> passed;
+  const std::size_t        last = piece.nodes.size() - 1;
+  for (int i = 0; i <= looks; ++i)
+  {
+    const MotionNode &node = piece.nodes[last * std::size_t(i) / looks];
+    MotionState       at   = state_;
+    at.t                   = node.t;
+    at.q                   = node.q;
+    at.v                   = node.v;
+    equation_.complete(at);
+    passed.push_back(std::move(at));
+  }
+  equation_.begin_piece(passed);
+}
+
+void VariationalSteps::expect(const MatrixXd &s, const MatrixXd &s_rate)
+{
+  size_q_ = s;
+  size_v_ = s_rate;
+}
+
+void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, const MatrixXd &s,
+                             const MatrixXd &s_rate)
+{
+  reader_.begin(piece);
+  state_.t            = piece.nodes.front().t;
+  state_.q            = piece.nodes.front().q;
+  state_.v            = piece.nodes.front().v;
+  state_.local.lambda = lambda;
+  equation_.complete(state_);
+  look_along(piece);
+  equation_.linearise(state_, at_);
+  columns_.q = s;
+  columns_.v = s_rate;
+  equation_.solve(at_, 0., columns_);
+  note_sizes();
+}
+
+void VariationalSteps::note_sizes()
+{
+  size_q_ = size_q_.cwiseMax(columns_.q.cwiseAbs());
+  size_v_ = size_v_.cwiseMax(columns_.v.cwiseAbs());
+}
+
+void VariationalSteps::advance_to(double t)
+{
+  int halvings = 0;
+  while (state_.t < t - 1e-13 * std::max(std::abs(t), step_))
+  {
+    const double from   = state_.t;
+    const double left   = t - from;
+    const bool   last   = left <= 1.0001 * step_;
+    const double length = last ? left : step_;
+    const bool   made   = try_step(last ? t : from + length);
+    const double err    = error(length);
+    if (!made || (!(err <= 1.) && length > reader_.spacing()))
+    {
+      if (++halvings > most_halvings)
+        throw ConvergenceFailure("the derivatives of the motion cannot be carried beyond t = " + std::to_string(from) +
+                                 " s: their steps became too short");
+      while (step_ >= length)
+        step_ *= 0.5;
+      continue;
+    }
+    halvings = 0;
+    std::swap(state_, stage_state_);
+    std::swap(at_, stage_at_);
+    std::swap(columns_, stage_);
+    ++n_steps_;
+    note_sizes();
+    if (!last && err < growth)
+      step_ *= 2.;
+  }
+}
+
+bool VariationalSteps::try_step(double to)
+{
+  const double from = state_.t, H = to - from, c = gamma * H;
+  stage_state_.local.lambda = state_.local.lambda;
+  stage_state_.local.p      = state_.local.p;
+  for (int i = 0; i < n_stages; ++i)
+  {
+    stage_state_.t = i == n_stages - 1 ? to : from + at_shares[i] * H;
+    reader_.read(0.25 * H, stage_state_);
+    equation_.complete(stage_state_);
+    equation_.linearise(stage_state_, stage_at_);
+    stage_.q = columns_.q;
+    stage_.v = columns_.v;
+    for (int j = 0; j < i; ++j)
+    {
+      stage_.q += H * weights[i][j] * v_[j];
+      stage_.v += H * weights[i][j] * a_[j];
+    }
+    equation_.solve(stage_at_, c, stage_);
+    v_[i] = stage_.v;
+    a_[i] = stage_.a;
+  }
+  return stage_.a.allFinite();
+}
+
+/// Largest error of the step against the tolerance, each coordinate by its own size.
+double VariationalSteps::error(double length) const
+{
+  e_q_ = length * (differences[0] * v_[0] + differences[1] * v_[1] + differences[2] * v_[2] + differences[4] * v_[4]);
+  e_v_ = length * (differences[0] * a_[0] + differences[1] * a_[1] + differences[2] * a_[2] + differences[4] * a_[4]);
+  double largest = 0.;
+  for (const auto &[e, before, now] : {std::tuple(&e_q_, &size_q_, &stage_.q), std::tuple(&e_v_, &size_v_, &stage_.v)})
+    for (Index k = 0; k < e->cols(); ++k)
+    {
+      double floor = 0.;
+      for (Index i = 0; i < e->rows(); ++i)
+        floor = std::max(floor, weak * root_mass_[i] * std::max((*before)(i, k), std::abs((*now)(i, k))));
+      for (Index i = 0; i < e->rows(); ++i)
+      {
+        if (e == &e_v_ && root_mass_[i] == 0.) // rates of lags follow their law at once
+          continue;
+        const double own   = std::max((*before)(i, k), std::abs((*now)(i, k)));
+        const double scale = root_mass_[i] > 0. ? std::max(own, floor / root_mass_[i]) : own;
+        if (scale > 0.)
+          largest = std::max(largest, std::abs((*e)(i, k)) / scale);
+      }
+    }
+  return largest / tolerance_;
+}
+
+} // namespace gestell::coupling

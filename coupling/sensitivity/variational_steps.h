@@ -1,0 +1,85 @@
+#pragma once
+
+#include "coupling/sensitivity/variational_equation.h"
+#include "coupling/simulation/trajectory.h"
+
+#include <array>
+
+namespace gestell::coupling
+{
+
+/// Where the motion of a piece is between its nodes: by the quintic through q, q', q'' of the two next to it, or the
+/// cubic through q, q' where nodes are close.
+class PieceReader
+{
+public:
+  explicit PieceReader(VariationalEquation &equation) : equation_(equation) {}
+
+  void begin(const SmoothPiece &piece);
+  /// q, q' at state.t.
+  /// @param close  [s] nodes that are no farther apart lie close
+  void read(double close, MotionState &state);
+  /// [s] of the nodes about where it was read last: what is shorter the run did not resolve.
+  double spacing() const;
+
+private:
+  const Eigen::VectorXd &acceleration(std::size_t node);
+
+  VariationalEquation                                   &equation_;
+  const SmoothPiece                                     *piece_ = nullptr;
+  std::size_t                                            here_  = 0;
+  std::array<std::pair<std::size_t, Eigen::VectorXd>, 2> known_; ///< accelerations of nodes
+  MotionState                                            node_;
+};
+
+/**
+ * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
+ * stages and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the
+ * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are not
+ * divided: what seems to move faster is its own error.
+ *
+ * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6).
+ */
+class VariationalSteps
+{
+public:
+  /// @param first      [s] the first step that is tried
+  /// @param tolerance  of a step, of the largest derivatives so far or those expected
+  VariationalSteps(VariationalEquation &equation, double first, double tolerance);
+
+  /// Derivatives count from these sizes on, however small they have been so far.  @param s, s_rate  [n x K]
+  void expect(const Eigen::MatrixXd &s, const Eigen::MatrixXd &s_rate);
+
+  /// At the begin of a piece.  @param s, s_rate  [n x K]
+  void begin(const SmoothPiece &piece, const Eigen::VectorXd &lambda, const Eigen::MatrixXd &s,
+             const Eigen::MatrixXd &s_rate);
+  void advance_to(double t);
+
+  const MotionState   &state() const { return state_; }
+  const Linearised    &linearised() const { return at_; }
+  const MotionColumns &columns() const { return columns_; }
+  double               step() const { return step_; } ///< [s] short against what moves
+  long                 steps() const { return n_steps_; }
+
+private:
+  static constexpr int n_stages = 5;
+
+  bool   try_step(double to);
+  void   look_along(const SmoothPiece &piece);
+  double error(double length) const;
+  void   note_sizes();
+
+  VariationalEquation                  &equation_;
+  PieceReader                           reader_;
+  double                                step_, tolerance_;
+  long                                  n_steps_ = 0;
+  MotionState                           state_, stage_state_;
+  Linearised                            at_, stage_at_;
+  MotionColumns                         columns_, stage_;
+  std::array<Eigen::MatrixXd, n_stages> v_, a_;           ///< s', s'' of the stages
+  Eigen::MatrixXd                       size_q_, size_v_; ///< largest |s|, |s'| so far
+  mutable Eigen::MatrixXd               e_q_, e_v_;
+  Eigen::VectorXd                       root_mass_;
+};
+
+} // namespace gestell::coupling

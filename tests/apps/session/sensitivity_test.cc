@@ -1,0 +1,198 @@
+// Derivatives of runs by entries of their scenes: names, units, what is refused, and quotients of converged runs.
+
+#include "apps/session/sensitivity/output_gradients.h"
+#include "apps/session/session.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::SensitivityOutput;
+using apps::SensitivityResult;
+using apps::Session;
+
+/// A mass flies to a stop and back, m = 3 kg, omega = 40 /s in the stop.
+const char *const flight = R"(
+name = 'flight'
+[parameters]
+m     = '3 kg'
+c     = '4.8 kN/m'
+gap   = '200 mm'
+v_0   = '0.8 m/s'
+idle  = '1 m'
+twice = '2*gap'
+none  = 0
+[body.mass]
+type = 'slider'
+axis = [1, 0, 0]
+mass = 'm'
+[element.stop]
+type      = 'stop'
+from      = 'mass'
+to        = 'ground'
+direction = [1, 0, 0]
+side      = 'above'
+gap       = 'gap'
+stiffness = 'c'
+[start]
+rule = 'given'
+q    = { mass = 0 }
+v    = { mass = 'v_0' }
+[run]
+method    = 'bdf'
+tolerance = 1e-10
+end       = '0.5 s'
+[output.signals]
+q = 'mass.displacement'
+F = 'stop.force'
+)";
+
+class OfFlight : public ::testing::Test
+{
+protected:
+  SensitivityResult found(const std::string &keys, std::vector<std::string> *warnings = nullptr) const
+  {
+    apps::Result result = Session(path_).run(keys);
+    if (warnings)
+      *warnings = result.warnings;
+    return *result.sensitivities;
+  }
+
+  test::SceneFolder folder_;
+  std::string       path_ = folder_.write("flight.toml", test::quoted(flight));
+};
+
+const SensitivityOutput &output(const SensitivityResult &found, const std::string &name)
+{
+  for (const SensitivityOutput &one : found.outputs)
+    if (one.output == name)
+      return one;
+  throw std::out_of_range(name);
+}
+
+TEST_F(OfFlight, AllMeansTheNumbersAmongTheParametersThatAreNotZero)
+{
+  std::vector<std::string> warnings, keys;
+  for (const auto &key : found("all", &warnings).keys)
+    keys.push_back(key.key);
+  EXPECT_THAT(keys, ::testing::ElementsAre("parameters.m", "parameters.c", "parameters.gap", "parameters.v_0",
+                                           "parameters.idle"));
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("parameters.idle has no influence")));
+}
+
+TEST_F(OfFlight, DerivativesComeInSiUnits)
+{
+  const SensitivityResult by_gap = found("parameters.gap");
+  EXPECT_EQ(by_gap.keys[0].unit, "m");
+  EXPECT_DOUBLE_EQ(by_gap.keys[0].value, 0.2);
+  EXPECT_NEAR(output(by_gap, "events.1.t").derivative[0], 1. / 0.8, 1e-7);
+  EXPECT_NEAR(output(by_gap, "events.1.t").percent(by_gap.keys[0], 0), 1., 1e-7);
+}
+
+TEST_F(OfFlight, ANumberOfAnElementIsAsGoodAsAParameter)
+{
+  const SensitivityResult both = found("parameters.c,element.stop.stiffness");
+  EXPECT_NEAR(output(both, "q.max").derivative[0], output(both, "q.max").derivative[1], 1e-12);
+}
+
+TEST_F(OfFlight, GradientsAreThoseOfTheOutputsNamed)
+{
+  const apps::OutputGradients at =
+      apps::output_gradients(path_, {"parameters.v_0=1 m/s"}, {"parameters.v_0", "parameters.c"}, {"q.max", "q.final"});
+  EXPECT_NEAR(at.values[0], 0.2 + 1. / 40., 1e-8);
+  EXPECT_NEAR(at.gradients(0, 0), 1. / 40., 1e-8);
+  EXPECT_NEAR(at.gradients(0, 1), -1. / 40. / 9600., 1e-11);
+  expect_refusal([&] { apps::output_gradients(path_, {}, {"parameters.c"}, {"q.maxx"}); }, "did you mean 'q.max'");
+}
+
+TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
+{
+  const auto refused = [&](const std::string &keys, const std::string &words)
+  { expect_refusal([&] { Session(path_).run(keys); }, words); };
+  refused("parameters.gapp", "has no entry \"gapp\"; did you mean 'gap'");
+  refused("element.stop.stiffnes", "did you mean 'stiffness'");
+  refused("element.stop.side", "\"above\" is no number");
+  refused("body.mass.axis", "is an array");
+  refused("parameters.none", "is 0");
+  refused("run.tolerance", "how the run is integrated");
+  refused("name", "the name of the scene");
+  refused("parameters.m,parameters.m", "named twice");
+  refused("parameters.m,", "with commas between them");
+}
+
+TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)
+{
+  // Thrown up against gravity, the mass turns at the stop.
+  const std::string grazing =
+      test::with(test::with(test::quoted(flight), "name = 'flight'", "name = 'flight'\ngravity = [-1.6, 0, 0]"),
+                 "end       = '0.5 s'", "end = '1 s'");
+  const std::string       path = folder_.write("grazing.toml", grazing);
+  const SensitivityResult result =
+      *Session(path, {"parameters.v_0=0.8000000000001 m/s"}).run("parameters.c").sensitivities;
+  if (result.failure.empty()) // the stop was not met, and nothing depends on it
+    EXPECT_NEAR(output(result, "q.final").derivative[0], 0., 1e-12);
+  else
+    EXPECT_THAT(result.failure, ::testing::HasSubstr("touches its switching point"));
+}
+
+/// Derivative of an output by a parameter: quotient of four runs, error of order 4 in the share h of its value.
+double quotient(const std::string &path, std::vector<std::string> overrides, const std::string &key,
+                const std::string &text, double value, const std::string &name, double h)
+{
+  const auto at = [&](double share)
+  {
+    overrides.push_back(key + "=(" + text + ")*" + std::to_string(1. + share));
+    const apps::Result run = Session(path, overrides).run();
+    overrides.pop_back();
+    if (name.compare(0, 7, "events.") == 0)
+      return run.run->events.at(std::stoul(name.substr(7)) - 1).t;
+    for (const auto &signal : run.run->signals)
+      if (name == signal.name + ".min" || name == signal.name + ".max" || name == signal.name + ".final")
+        return name.back() == 'n' ? signal.min : name.back() == 'x' ? signal.max : signal.final;
+    throw std::out_of_range(name);
+  };
+  return (8. * (at(h) - at(-h)) - (at(2. * h) - at(-2. * h))) / (12. * h * value);
+}
+
+TEST(Sensitivities, OfTheCraneAreQuotientsOfConvergedRuns)
+{
+  // Joints, the limiter's switch on a joint's force, the braking profile.  Of the quotient by runs of order 4 some 1e-6
+  // is rounding and the fourth power of the step.
+  const std::string              path      = GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal.toml";
+  const std::vector<std::string> overrides = {"run.order=4", "run.step=1 ms", "run.end=3.4 s"};
+  const auto                     result = *Session(path, overrides).run("parameters.rope,parameters.r_K").sensitivities;
+  for (const std::string name : {"events.1.t", "Q4.max", "F_h.min", "q3.min"})
+  {
+    const SensitivityOutput &own     = output(result, name);
+    const double             of_rope = quotient(path, overrides, "parameters.rope", "1.35 m", 1.35, name, 1e-3),
+                 of_head             = quotient(path, overrides, "parameters.r_K", "2.8 m", 2.8, name, 1e-4);
+    EXPECT_NEAR(own.derivative[0], of_rope, 1e-5 * std::abs(own.value) / 1.35) << name;
+    EXPECT_NEAR(own.derivative[1], of_head, 1e-5 * std::abs(of_head)) << name;
+  }
+}
+
+TEST(Sensitivities, OfThePressAreQuotientsOfConvergedRuns)
+{
+  // 13 events up to the smallest force.
+  const std::string              path      = GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml";
+  const std::vector<std::string> overrides = {"run.order=4", "run.step=20 us", "run.end=0.25 s"};
+  const auto                     result = *Session(path, overrides).run("parameters.c_P,parameters.s_cl").sensitivities;
+  for (const std::string name : {"events.13.t", "events.14.t", "F_P.min", "x2.final"})
+  {
+    const SensitivityOutput &own    = output(result, name);
+    const double             of_rod = quotient(path, overrides, "parameters.c_P", "900 kN/mm", 9e8, name, 1e-3),
+                 of_play            = quotient(path, overrides, "parameters.s_cl", "0.4 mm", 4e-4, name, 1e-3);
+    EXPECT_NEAR(own.derivative[0], of_rod, 1e-5 * std::abs(own.value) / 9e8) << name;
+    EXPECT_NEAR(own.derivative[1], of_play, 1e-5 * std::abs(own.value) / 4e-4) << name;
+  }
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,104 @@
+#include "apps/study/file/read_analysis.h"
+#include "apps/study/file/read_design.h"
+#include "tests/support/program.h"
+#include "tests/support/refusal.h"
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace apps;
+
+const std::string the_scene  = "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml'\n";
+const std::string variables  = "[variables.c_P]\nfrom = '720 kN/mm'\nto = '1080 kN/mm'\n"
+                               "[variables.s_cl]\nlevels = ['0.6 mm', '0.2 mm', '0.4 mm']\n";
+const std::string outputs    = "[outputs]\nF = 'signals.F_P.max'\nG = '2*F'\n";
+const std::string everything = the_scene + variables + outputs;
+
+/// A study file that vanishes with the test.
+struct Written
+{
+  explicit Written(const std::string &text) : path((folder / "study.toml").string())
+  {
+    folder.file("study.toml", text);
+  }
+
+  StudyFile       study(const std::vector<std::string> &set = {}) const { return read_study(path, set); }
+  StudyPoints     points() const { return read_design(study()); }
+  AnalysisRequest analysis(int n_runs) const { return read_analysis(study(), n_runs); }
+
+  Folder      folder{"study_file"};
+  std::string path;
+};
+
+TEST(StudyFile, VariablesAreEntriesOfTheSceneInTheirOwnUnit)
+{
+  const StudyFile study = Written(everything).study();
+  ASSERT_EQ(study.variables.size(), 2u);
+  EXPECT_EQ(study.variables[0].variable.key, "parameters.c_P");
+  EXPECT_EQ(study.variables[0].text(900.), "900 kN/mm");
+  EXPECT_EQ(study.variables[1].variable.levels, (std::vector<double>{0.2, 0.4, 0.6}));
+}
+
+TEST(StudyFile, OverridesOfItsTablesChangeTheStudyOthersTheScene)
+{
+  const StudyFile study = Written(everything).study({"variables.c_P.to=\"1000 kN/mm\"", "run.step=\"5 us\""});
+  EXPECT_EQ(study.overrides, (std::vector<std::string>{"run.step=\"5 us\""}));
+  expect_refusal([] { Written(everything).study({"variables.c_P.to=\"700 kN/mm\""}); },
+                 "needs a value above 'from' = 720");
+}
+
+TEST(StudyFile, AListIsTakenAsItIsWrittenAndRepeatedForLevels)
+{
+  const auto points =
+      Written(everything + "[design]\ntype = 'list'\ncolumns = ['c_P']\nrows = [['800 kN/mm'], [811.1]]\n").points();
+  ASSERT_EQ(points.levels.rows(), 6);
+  EXPECT_EQ(points.levels(3, 0), 811.1);
+  EXPECT_EQ(points.levels(3, 1), 0.2);
+}
+
+TEST(StudyFile, WordsStandForThemselves)
+{
+  const Written written(the_scene + "[variables.law]\nkey = 'run.method'\nlevels = ['bdf', 'newmark']\n" + outputs +
+                        "[design]\ntype = 'full factorial'\n");
+  EXPECT_EQ(written.study().variables[0].text(written.points().levels(1, 0)), "newmark");
+}
+
+TEST(StudyFile, WhatIsWrongIsToldWithItsPlace)
+{
+  const auto says = [](const std::string &text, const std::string &words)
+  {
+    expect_refusal(
+        [&]
+        {
+          const Written     written(text);
+          const StudyPoints points = written.points();
+          written.analysis(points.design.n_runs());
+        },
+        words);
+  };
+  says(everything + "[desing]\ntype = 'Sobol'\n", "study.toml:11: unknown key 'desing'; did you mean 'design'?");
+  says(everything, "needs a table [design]");
+  says(everything + "[design]\ntype = 'sobol'\nruns = 4\n", "did you mean 'Sobol'?");
+  says(everything + "[design]\ntype = 'Sobol'\nruns = 4\nalpha = 1.4\n",
+       "study.toml:14: design.alpha: is a key of 'central composite', but the type is 'Sobol'");
+  says(everything + "[design]\ntype = 'list'\ncolumns = ['c_P']\nrows = [['800 kN/m']]\n",
+       "is in kN/m, other values in kN/mm");
+  says(everything + "[design]\ntype = 'list'\ncolumns = ['c_p']\nrows = [[800]]\n",
+       "there is no variable 'c_p'; did you mean 'c_P'?");
+  says(the_scene + outputs, "needs variables");
+  says(the_scene + variables, "needs a table [outputs]");
+  says(everything + "run = '1'\n", "'run' is a column of runs.csv already");
+  says(everything + "[variables.c2]\nkey = 'parameters.c_P'\nfrom = 1\nto = 2\n",
+       "takes the value of variable c_P already");
+  says(everything + "[design]\ntype = 'Sobol'\nruns = 5\n[surface]\n", "has 6 coefficients, but the design has 5 runs");
+  says(everything + "[design]\ntype = 'Sobol'\nruns = 9\n[optimise.goals.H]\n", "there is no output 'H'");
+  says(everything + "[design]\ntype = 'Sobol'\nruns = 9\n[optimise]\ngoals = { F = {} }\nrobust = {}\n",
+       "no variable scatters");
+  says(everything + "[design]\ntype = 'Sobol'\nruns = 9\n[optimise]\ngoals = { F = {} }\npareto = 9\n",
+       "a front needs two goals");
+}
+
+} // namespace
+} // namespace gestell::tests

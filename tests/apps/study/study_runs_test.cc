@@ -1,0 +1,163 @@
+#include "apps/session/session.h"
+#include "apps/study/runs/study_answer.h"
+#include "tests/support/program.h"
+#include "tests/support/reference_table.h"
+#include "tests/support/refusal.h"
+
+#include <sstream>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace apps;
+
+const std::string shipped_studies = GESTELL_SOURCE_DIR "/apps/studies/";
+const std::string press           = GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml";
+
+/// All runs of a study file.
+StudyAnswer answered(const std::string &file, const Folder &folder, const std::vector<std::string> &set = {},
+                     int jobs = 1, const StudyShare &share = {})
+{
+  static const std::atomic<bool> never{false};
+  const StudyFile                study  = read_study(file, set);
+  const StudyPoints              points = read_design(study);
+  StudyRunner                    runner(study, points.levels, fem::Scripts::harmless, {});
+  StudyCall                      call;
+  call.folder = folder.results();
+  call.jobs   = jobs;
+  call.share  = share;
+  call.stop   = &never;
+  return make_study(study, points, runner, call);
+}
+
+/// Numbers of a column.
+Eigen::VectorXd column(const StudyAnswer &answer, const std::string &output)
+{
+  return answer.table.values.col(answer.table.output_index(output));
+}
+
+/// Two variables and a signal of the press, by few large steps.
+const std::string small_study = "[scene]\nfile = '" + press +
+                                "'\nset = { 'run.step' = '50 us', 'run.end' = '50 ms' }\n"
+                                "[variables.c_P]\nfrom = '720 kN/mm'\nto = '1080 kN/mm'\n"
+                                "[variables.s_cl]\nfrom = '0.2 mm'\nto = '0.6 mm'\n"
+                                "[outputs]\nF = 'signals.F_P.max'\nrise = 'F/c_P'\nf2 = 'modes.2'\n"
+                                "tool = 'events.sheet.tool_contact.first'\ntools = 'events.sheet.tool_contact.count'\n"
+                                "frame = 'model.frame_mass'\n"
+                                "[design]\ntype = 'full factorial'\nlevels = 3\n";
+
+std::string small(const Folder &folder, const std::string &more = "")
+{
+  folder.file("small.toml", small_study + more);
+  return (folder / "small.toml").string();
+}
+
+/// runs.csv without the times that runs took.
+std::string rows_of(const Folder &folder)
+{
+  std::istringstream text(read(folder.results() / "runs.csv"));
+  std::string        rows;
+  for (std::string line; std::getline(text, line);)
+    rows += line.substr(0, line.rfind(',')) + '\n';
+  return rows;
+}
+
+// The reference is good to 1e-9; the tolerance of a run leaves 1e-6.
+TEST(StudyRuns, OfThePressMeetTheReferenceOf24Experiments)
+{
+  const Folder      folder("press_24");
+  const StudyAnswer answer    = answered(shipped_studies + "press_24.toml", folder);
+  const auto        reference = read_reference("../press/doe.csv");
+  ASSERT_EQ(answer.table.n_done(), 24);
+  for (int run = 0; run < 24; ++run)
+  {
+    EXPECT_NEAR(column(answer, "F_P_max")[run] / reference[run].number("F_P_max_N"), 1., 1e-6) << run;
+    EXPECT_NEAR(column(answer, "F_P_min")[run] / reference[run].number("F_P_min_N"), 1., 1e-6) << run;
+    EXPECT_NEAR(column(answer, "weight")[run], reference[run].number("mass_kg"), 1e-9) << run;
+  }
+}
+
+TEST(StudyRuns, AreTheRunsOfTheSceneWithTheseValues)
+{
+  const Folder      folder("study_one_run");
+  const StudyAnswer answer = answered(small(folder), folder);
+  Session session(press, {"run.step=50 us", "run.end=50 ms", "parameters.c_P=1080 kN/mm", "parameters.s_cl=0.2 mm"});
+  const Result result = session.run();
+  EXPECT_EQ(column(answer, "F")[6], result.run->signals.front().max);
+  EXPECT_EQ(column(answer, "f2")[6], result.coupled_modes[1].frequency_hz);
+  EXPECT_EQ(column(answer, "frame")[6], 22500.);
+}
+
+TEST(StudyRuns, HaveFormulasWithUnitsAndNothingWhereAnEventDidNotOccur)
+{
+  const Folder      folder("study_formulas");
+  const StudyAnswer answer = answered(small(folder), folder);
+  EXPECT_NEAR(column(answer, "rise")[0], column(answer, "F")[0] / 720e6, 1e-18);
+  EXPECT_EQ(answer.table.outputs[std::size_t(answer.table.output_index("rise"))].unit, "m");
+  EXPECT_TRUE(std::isnan(column(answer, "tool")[0])); // the sheet is met after 0.19 s
+  EXPECT_EQ(column(answer, "tools")[0], 0.);
+}
+
+TEST(StudyRuns, AreTheSameSideBySideInSharesAndInOneProcess)
+{
+  const Folder one("study_one"), two("study_two"), three("study_three");
+  answered(small(one), one);
+  answered(small(two), two, {}, 2);
+  answered(small(three), three, {}, 1, {1, 2});
+  EXPECT_FALSE(answered(small(three), three, {}, 1, {2, 2}).interrupted);
+  const StudyAnswer merged = answered(small(three), three);
+  EXPECT_EQ(merged.n_made, 0);
+  EXPECT_EQ(rows_of(two), rows_of(one));
+  std::string whole = rows_of(three);
+  EXPECT_EQ(whole.substr(0, whole.find('\n')), rows_of(one).substr(0, rows_of(one).find('\n')));
+  EXPECT_EQ(merged.table.n_done(), 9);
+}
+
+TEST(StudyRuns, ThatFailAreToldAndTheOthersGoOn)
+{
+  const Folder      folder("study_failed");
+  const StudyAnswer answer = answered(small(folder), folder, {"outputs.root=\"sqrt(0.5 mm - s_cl)\""});
+  EXPECT_EQ(answer.table.n_done(), 6);
+  EXPECT_EQ(answer.n_failed(), 3);
+  EXPECT_EQ(answer.table.runs[2].status, RunStatus::failed);
+  EXPECT_THAT(rows_of(folder), ::testing::HasSubstr("takes the root of a negative number"));
+}
+
+TEST(StudyRuns, OfAnotherStudyOrOfOneThatWasChangedAreNotGoneOnWith)
+{
+  const Folder folder("study_changed");
+  answered(small(folder), folder, {}, 1, {1, 2});
+  const auto with = [&](const std::string &set) { return [&, set] { answered(small(folder), folder, {set}); }; };
+  expect_refusal(with("design.levels=2"), "design.levels was 3, is 2");
+  expect_refusal(with("run.step=20 us"), "scene.run.step was \"50 us\", is \"20 us\"");
+  expect_refusal(with("scene.set={ 'run.end' = '50 ms' }"), "scene.run.step was \"50 us\", is \"10 us\"");
+  EXPECT_EQ(answered(small(folder), folder, {"surface.order=\"linear\""}).n_made, 4); // made of the same rows
+  folder.file("other.toml", small_study);
+  expect_refusal([&] { answered((folder / "other.toml").string(), folder); },
+                 "holds rows of the study 'small', this one is 'other'");
+}
+
+TEST(StudyRuns, AreRefusedBeforeTheFirstWhereTheSceneCannotDoThem)
+{
+  const Folder folder("study_refused");
+  const auto   with = [&](const std::string &set) { return [&, set] { answered(small(folder), folder, {set}); }; };
+  expect_refusal(with("variables.c_P.key=\"parameters.cP\""),
+                 "has no parameter 'cP' in parameters; did you mean 'c_P'?");
+  expect_refusal(with("variables.c_P.key=\"element.rot.stiffness\""),
+                 "has no entry 'rot' in element; did you mean 'rod'?");
+  expect_refusal(with("variables.c_P.key=\"element.rod\""), "is a table of the scene");
+  expect_refusal(with("variables.s_cl.from=\"-0.1 mm\""),
+                 "small.toml:7: variables.s_cl: -0.1 mm of variable s_cl the scene does not accept");
+  expect_refusal(with("outputs.F=\"signals.FP.max\""), "names no signal of the scene");
+  expect_refusal(with("outputs.F=\"modes.6\""), "needs the number of a mode from 1 to 5"); // by the first run
+  expect_refusal(with("outputs.F=\"events.sheat.count\""), "did you mean 'sheet'?");
+  expect_refusal(with("outputs.F=\"stress.max\""), "give it [output.stress]");
+  expect_refusal(with("outputs.F=\"2*Q\""), "there is no 'Q' (character 3)");
+  expect_refusal(with("outputs.F=\"signals.F_P.max + 1 kg\""), "\"signals.F_P.max + 1 kg\" adds kg to N");
+  expect_refusal(with("outputs.F=\"rise\""), "depends on itself");
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,68 @@
+// Derivatives of natural frequencies by eigenvectors.
+
+#include "coupling/sensitivity/frequency_sensitivities.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace gestell::coupling;
+using Eigen::VectorXd;
+
+/// ground - c_1 - m_1 - c_2 - m_2, x = (m_1, m_2, c_1, c_2)
+Machine two_masses(const VectorXd &x)
+{
+  MachineModel model;
+  model.add_slider("a", {1., 0., 0.}, x[0], "ground");
+  model.add_slider("b", {1., 0., 0.}, x[1], "ground");
+  const int a = model.coordinate("a"), b = model.coordinate("b");
+  model.add_linear("first", {{a, 1.}}, {x[2], 0., 0., 0.}, "N");
+  model.add_linear("second", {{b, 1.}, {a, -1.}}, {x[3], 0., 0., 0.}, "N");
+  return Machine(std::move(model));
+}
+
+/// omega^4 m_1 m_2 - omega^2 (m_1 c_2 + m_2 (c_1 + c_2)) + c_1 c_2 = 0
+double frequency(const VectorXd &x, double sign)
+{
+  const double a = x[0] * x[1], b = x[0] * x[3] + x[1] * (x[2] + x[3]), c = x[2] * x[3];
+  return std::sqrt((b + sign * std::sqrt(b * b - 4. * a * c)) / (2. * a)) / (2. * M_PI);
+}
+
+TEST(FrequencySensitivities, OfTwoMassesAreThoseOfTheClosedFormula)
+{
+  const VectorXd                 x = (VectorXd(4) << 3., 1.5, 4000., 900.).finished();
+  const std::vector<std::string> open;
+  const VectorXd                 rest    = VectorXd::Zero(2);
+  const Machine                  machine = two_masses(x);
+  const auto                     modes   = linearised_modes(machine, rest, {}, 2);
+  std::vector<Machine>           sides;
+  sides.reserve(8);
+  std::vector<FrequencyTwins> twins;
+  for (int k = 0; k < 4; ++k)
+  {
+    const double step  = 1e-6 * x[k];
+    VectorXd     below = x, above = x;
+    below[k] -= step;
+    above[k] += step;
+    sides.push_back(two_masses(below));
+    sides.push_back(two_masses(above));
+    twins.push_back({{&sides[2 * k], rest, &open}, {&sides[2 * k + 1], rest, &open}, step});
+  }
+  const Eigen::MatrixXd found = frequency_sensitivities({&machine, rest, &open}, modes, twins);
+  for (int k = 0; k < 4; ++k)
+    for (const int mode : {0, 1})
+    {
+      const double way   = 1e-4 * x[k]; // the quotient of the closed formula errs by 1e-8
+      VectorXd     below = x, above = x;
+      below[k] -= way;
+      above[k] += way;
+      const double sign  = mode == 0 ? -1. : 1.;
+      const double slope = (frequency(above, sign) - frequency(below, sign)) / (2. * way);
+      EXPECT_NEAR(found(mode, k), slope, 1e-6 * frequency(x, sign) / x[k]) << mode << ' ' << k;
+    }
+}
+
+} // namespace

@@ -1,0 +1,62 @@
+// The method that carries derivatives along a motion: its order.
+
+#include "coupling/sensitivity/variational_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace gestell::coupling;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double mass = 2., stiffness = 98., omega = 7., q_0 = 0.01, T = 1.;
+
+Machine oscillator(double c)
+{
+  MachineModel model;
+  model.add_slider("x", {1., 0., 0.}, mass, "ground");
+  model.add_linear("spring", {{model.coordinate("x"), 1.}}, {c, 0., 0., 0.}, "N");
+  return Machine(std::move(model));
+}
+
+/// q_0 cos(omega t), by nodes so close that what lies between them is known to 1e-10.
+SmoothPiece exact_motion()
+{
+  SmoothPiece   piece;
+  constexpr int n = 800;
+  for (int i = 0; i <= n; ++i)
+  {
+    const double t = T * i / n;
+    piece.nodes.push_back({t, VectorXd::Constant(1, q_0 * std::cos(omega * t)),
+                           VectorXd::Constant(1, -q_0 * omega * std::sin(omega * t))});
+  }
+  return piece;
+}
+
+/// Of dq/dc at T, by n equal steps.
+double end_error(int n)
+{
+  Machine machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
+          above                     = oscillator(stiffness * (1. + 1e-6));
+  std::vector<ParameterTwins> twins = {{"c", "N/m", stiffness, 1e-6 * stiffness, {&below}, {&above}}};
+  VariationalEquation         equation(machine, twins);
+  VariationalSteps            steps(equation, T / n, 1e300);
+  const SmoothPiece           piece = exact_motion();
+  steps.begin(piece, VectorXd(), MatrixXd::Zero(1, 1), MatrixXd::Zero(1, 1));
+  for (int i = 1; i <= n; ++i)
+    steps.advance_to(T * i / n);
+  EXPECT_EQ(steps.steps(), n);
+  return std::abs(steps.columns().q(0, 0) + q_0 * std::sin(omega * T) * T * omega / (2. * stiffness));
+}
+
+TEST(VariationalSteps, HaveOrderFour)
+{
+  EXPECT_NEAR(std::log2(end_error(20) / end_error(40)), 4., 0.3);
+  EXPECT_NEAR(std::log2(end_error(40) / end_error(80)), 4., 0.15);
+}
+
+} // namespace
