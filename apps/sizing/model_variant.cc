@@ -1,7 +1,9 @@
 #include "apps/sizing/model_variant.h"
 
 #include "apps/session/prepared_machine.h"
+#include "coupling/frame/frame_cache.h"
 #include "coupling/modes/modes.h"
+#include "coupling/plugin/mesh_service.h"
 #include "coupling/reduction/reductions.h"
 #include "coupling/simulation/simulation.h"
 
@@ -139,17 +141,52 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
   return other;
 }
 
+namespace
+{
+
+/// On the frame in elements of degree three, which is kept in the cache as others are.
+PreparedMachine prepare_raised(Scene &scene)
+{
+  fem::FrameSpecification &frame = scene.frame.geometry;
+  frame.stress                   = false;
+  coupling::FrameOrigin origin   = frame_origin(scene);
+  origin.recipe.push_back({"degree", "3"});
+  std::string note;
+  auto        raised = coupling::find_in_cache(coupling::content_key(origin.recipe), note);
+  if (!raised)
+  {
+    raised = coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {});
+    coupling::keep_in_cache(*raised, origin);
+  }
+  return prepare_machine_on(scene, *raised);
+}
+
+/// No others, which may read what a model does not tell.
+void keep_signals_of(const std::vector<OutputName> &outputs, Scene &scene)
+{
+  const auto unread = [&](const SignalRequest &signal)
+  {
+    return std::none_of(outputs.begin(), outputs.end(),
+                        [&](const OutputName &output) { return output.signal == signal.name; });
+  };
+  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(), unread), scene.signals.end());
+}
+
+} // namespace
+
 ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
                       const std::atomic<bool> *stop)
 {
-  Scene       other = varied(scene, variant);
+  Scene other = varied(scene, variant);
+  if (variant.raised)
+    keep_signals_of(outputs, other);
   ModelAnswer answer;
   answer.values.resize(outputs.size());
   answer.sizes.resize(outputs.size());
   answer.units.resize(outputs.size());
   answer.decided_s.assign(outputs.size(), other.run.options.begin);
   const double    begin    = cpu_now();
-  PreparedMachine prepared = prepare_machine(other);
+  PreparedMachine prepared = variant.raised ? prepare_raised(other) : prepare_machine(other);
   keep_stable_step(prepared, other.run);
   answer.prepare_cpu = cpu_now() - begin;
   answer.from_cache  = prepared.from_cache;
@@ -221,6 +258,11 @@ bool meshes_of_parts_are_made(const Scene &scene)
   return scene.frame.source == FrameSource::parts &&
          std::all_of(parts.begin(), parts.end(),
                      [](const coupling::FramePart &part) { return is_meshed(part.geometry.cad); });
+}
+
+bool mesh_can_change(const Scene &scene)
+{
+  return mesh_is_made(scene) || meshes_of_parts_are_made(scene);
 }
 
 bool modes_are_chosen(const Scene &scene)

@@ -19,9 +19,9 @@ namespace
 
 constexpr double ratio_of_meshes = 1.5;
 constexpr int    coarsest_mesh = -2, finest_mesh = 4; ///< powers of the ratio below the scene's size
-constexpr int    mode_numbers[] = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
+constexpr int    mode_numbers[] = {0, 2, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
 constexpr int    n_mode_numbers = int(std::size(mode_numbers));
-constexpr int    first_time = 1, n_tolerances = 7, n_steps = 10;
+constexpr int    first_modes = 2, first_time = 1, n_tolerances = 7, n_steps = 10;
 constexpr double smallest_tolerance = 1e-8;
 constexpr int    most_rungs         = 40;
 constexpr int    thin_after         = 2;   ///< rungs
@@ -337,7 +337,8 @@ void Climb::try_all(const Place &place, SizeResult &result)
 SizedModel Climb::run()
 {
   Place place;
-  place.time = by_exact_ ? first_time : 2;
+  place.modes = modes_are_chosen(scene_) ? first_modes : 0;
+  place.time  = by_exact_ ? first_time : 2;
   SizedModel model;
   Place      best = place;
   while (true)
