@@ -27,7 +27,26 @@ struct SizeCommand
   bool        exhaustive = false;
 };
 
-SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked)
+/// Whether the scene takes the model's keys beside its own.
+bool readable(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
+              const std::filesystem::path &folder)
+{
+  prepare_folder(folder);
+  const std::filesystem::path file = folder / "sized.toml";
+  write_file(file, sized_scene(scene, overrides, model, folder));
+  try
+  {
+    read_scene(file.string(), {});
+    return true;
+  }
+  catch (const std::exception &)
+  {
+    return false;
+  }
+}
+
+SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked,
+                   const std::function<bool(const ModelVariant &)> &readable)
 {
   SizeOptions options;
   options.tolerance  = asked.tolerance;
@@ -35,6 +54,7 @@ SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, c
   options.max_memory = 1e9 * asked.max_memory_gb;
   options.stop       = &interruption();
   options.exhaustive = asked.exhaustive;
+  options.readable   = readable;
   options.on_rung    = [](const SizeRung &rung) { std::cout << rung_text(rung) << std::endl; };
   std::cout << "    cells [m]  coordinates  modes  method                CPU [s]  error/allowed, most by\n";
   return size_search(scene, outputs, options);
@@ -46,14 +66,13 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
     throw std::invalid_argument("--tolerance is missing: the relative error that each output may have, such as 0.01");
   Session session(options.input, options.overrides, options.scripts);
   session.check_run();
-  const Scene &scene = session.scene();
-  if (scene.frame.source == FrameSource::parts)
-    throw std::invalid_argument(scene.frame.place + ": size looks for one mesh, but this frame consists of parts with "
-                                                    "meshes of their own; `gestell run --budget` tells their errors");
+  const Scene                &scene   = session.scene();
   const auto                  outputs = budget_outputs(scene, asked.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
   require_writable(folder);
-  const SizedModel model = climbed(scene, outputs, asked);
+  const SizedModel model =
+      climbed(scene, outputs, asked,
+              [&](const ModelVariant &other) { return readable(scene, options.overrides, other, folder); });
 
   prepare_folder(folder);
   const std::filesystem::path file = folder / "sized.toml";

@@ -13,11 +13,15 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double coarser    = 1.5; ///< size of the cells of the second mesh
-constexpr double mesh_order = 1.5; ///< in their size
-constexpr double hardly     = 1.1; ///< ratio of sizes below which two meshes are alike
-constexpr int    more_modes = 8;   ///< at least
-constexpr double no_part    = 0.;
+constexpr double coarser    = 1.5;  ///< size of the cells of the second mesh
+constexpr double mesh_order = 1.5;  ///< in their size
+constexpr double hardly     = 1.1;  ///< ratio of sizes below which two meshes are alike
+constexpr int    more_modes = 8;    ///< at least
+constexpr double left_over  = 1.25; ///< of what degree three corrects, docs/theory/mesh_error.md (4b)
+constexpr int    most_raised =
+    60000; ///< coordinates of a mesh that is compared with degree three, which has three times as many
+constexpr int    coarsest_raised = 3; ///< powers of the ratio of sizes
+constexpr double no_part         = 0.;
 
 using Differs = std::optional<std::string>; ///< the event in which two models differ; none: in none
 
@@ -44,6 +48,7 @@ Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
 struct SecondModel
 {
   std::optional<ModelAnswer> answer;
+  std::optional<ModelAnswer> first;         ///< that it differs from; none: the scene's own
   double                     factor = 1.;   ///< from the difference of two values to the error of the first
   std::string                reason;        ///< what the second model is; without one why
   bool                       exact = false; ///< there is nothing to err
@@ -71,6 +76,8 @@ private:
   /// Of the scene's frame with another integration; what fails is a reason.
   SecondModel finer_in_time();
   SecondModel finer_in_modes();
+  SecondModel other_in_mesh();
+  SecondModel raised_in_mesh();
   SecondModel coarser_in_mesh();
   template <typename Make>
   SecondModel tried(const Make &make) const;
@@ -156,8 +163,11 @@ SecondModel BudgetMaker::finer_in_modes()
   return tried(
       [&]
       {
-        const int m   = std::min(most, std::max(2 * run_.modes, run_.modes + more_modes));
-        second.answer = answer({1., m, method_});
+        const int    m = std::min(most, std::max(2 * run_.modes, run_.modes + more_modes));
+        ModelVariant more{1., m, method_};
+        if (!modes_are_chosen(scene_)) // of statics alone
+          more.reduction = "craig-bampton";
+        second.answer = answer(more);
         second.reason = "against " + std::to_string(m) + " modes";
         return second;
       });
@@ -172,7 +182,7 @@ SecondModel BudgetMaker::coarser_in_mesh()
     second.reason = scene_.frame.source == FrameSource::none ? "there is no frame" : "the matrices are the frame";
     return second;
   }
-  if (!mesh_is_made(scene_) && !meshes_of_parts_are_made(scene_))
+  if (!mesh_can_change(scene_))
   {
     second.reason = "the mesh comes from a file and cannot be made coarser";
     return second;
@@ -194,9 +204,52 @@ SecondModel BudgetMaker::coarser_in_mesh()
       });
 }
 
-BudgetPart BudgetMaker::part_of(std::size_t output, const ModelAnswer &first, const SecondModel &second,
+/// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one.
+SecondModel BudgetMaker::raised_in_mesh()
+{
+  ModelAnswer first = reference_;
+  double      size  = 1.;
+  for (int k = 0; k <= coarsest_raised; ++k, size *= coarser)
+  {
+    if (k > 0 && !mesh_can_change(scene_))
+      break;
+    if (k > 0)
+      first = answer({size, run_.modes, method_});
+    if (first.n_frame > most_raised)
+      continue;
+    ModelVariant variant{size, run_.modes, method_};
+    variant.raised = true;
+    SecondModel second;
+    second.answer = answer(variant);
+    second.factor = left_over / std::pow(std::cbrt(double(run_.n_frame) / first.n_frame), mesh_order);
+    second.reason = "against elements of degree three" +
+                    (k > 0 ? " in cells of " + short_text(size, 3) + " times the size" : std::string());
+    second.first = std::move(first);
+    return second;
+  }
+  return {};
+}
+
+SecondModel BudgetMaker::other_in_mesh()
+{
+  if (scene_.frame.source == FrameSource::geometry && !run_.whole && !scene_.reduction.superposition)
+    try
+    {
+      if (SecondModel second = raised_in_mesh(); second.answer)
+        return second;
+    }
+    catch (const std::exception &) // such as an output that degree three does not tell
+    {
+      if (stop_ && *stop_)
+        throw;
+    }
+  return coarser_in_mesh();
+}
+
+BudgetPart BudgetMaker::part_of(std::size_t output, const ModelAnswer &given, const SecondModel &second,
                                 BudgetEntry &entry) const
 {
+  const ModelAnswer &first = second.first ? *second.first : given;
   if (second.exact)
     return {no_part, second.reason};
   if (!second.answer)
@@ -213,7 +266,7 @@ BudgetPart BudgetMaker::part_of(std::size_t output, const ModelAnswer &first, co
 ErrorBudget BudgetMaker::make()
 {
   ErrorBudget       budget;
-  const SecondModel time = finer_in_time(), modes = finer_in_modes(), mesh = coarser_in_mesh();
+  const SecondModel time = finer_in_time(), modes = finer_in_modes(), mesh = other_in_mesh();
   budget.run_cpu_s = run_.cpu();
   for (const auto &[model, cpu] : {std::pair(&time, &budget.time_cpu_s), std::pair(&modes, &budget.reduction_cpu_s),
                                    std::pair(&mesh, &budget.mesh_cpu_s)})

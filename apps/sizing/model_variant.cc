@@ -1,13 +1,17 @@
 #include "apps/sizing/model_variant.h"
 
 #include "apps/session/prepared_machine.h"
+#include "coupling/frame/frame_cache.h"
 #include "coupling/modes/modes.h"
+#include "coupling/plugin/mesh_service.h"
 #include "coupling/reduction/reductions.h"
 #include "coupling/simulation/simulation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <map>
+#include <mutex>
 
 namespace gestell::apps
 {
@@ -139,20 +143,70 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
   return other;
 }
 
+namespace
+{
+
+/// On the frame in elements of degree three, which is kept in the cache as others are.
+PreparedMachine prepare_raised(Scene &scene)
+{
+  fem::FrameSpecification &frame = scene.frame.geometry;
+  frame.stress                   = false;
+  coupling::FrameOrigin origin   = frame_origin(scene);
+  origin.recipe.push_back({"degree", "3"});
+  std::string note;
+  auto        raised     = coupling::find_in_cache(coupling::content_key(origin.recipe), note);
+  const bool  from_cache = raised.has_value();
+  if (!raised)
+  {
+    raised = coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {});
+    coupling::keep_in_cache(*raised, origin);
+  }
+  PreparedMachine prepared = prepare_machine_on(scene, *raised);
+  prepared.from_cache      = from_cache;
+  return prepared;
+}
+
+/// [s] A frame that was made before in this process has cost what it did, though it now comes from the cache.
+double preparation(const Scene &scene, const ModelVariant &variant, const PreparedMachine &prepared, double taken)
+{
+  static std::map<std::string, double> made;
+  static std::mutex                    one;
+  if (frame_path(scene) != FramePath::reduce)
+    return taken;
+  const std::lock_guard<std::mutex> alone(one);
+  double &cpu = made[coupling::content_key(frame_origin(scene).recipe) + (variant.raised ? "raised" : "")];
+  return cpu  = prepared.from_cache ? std::max(cpu, taken) : taken;
+}
+
+/// No others, which may read what a model does not tell.
+void keep_signals_of(const std::vector<OutputName> &outputs, Scene &scene)
+{
+  const auto unread = [&](const SignalRequest &signal)
+  {
+    return std::none_of(outputs.begin(), outputs.end(),
+                        [&](const OutputName &output) { return output.signal == signal.name; });
+  };
+  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(), unread), scene.signals.end());
+}
+
+} // namespace
+
 ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
                       const std::atomic<bool> *stop)
 {
-  Scene       other = varied(scene, variant);
+  Scene other = varied(scene, variant);
+  if (variant.raised)
+    keep_signals_of(outputs, other);
   ModelAnswer answer;
   answer.values.resize(outputs.size());
   answer.sizes.resize(outputs.size());
   answer.units.resize(outputs.size());
   answer.decided_s.assign(outputs.size(), other.run.options.begin);
   const double    begin    = cpu_now();
-  PreparedMachine prepared = prepare_machine(other);
+  PreparedMachine prepared = variant.raised ? prepare_raised(other) : prepare_machine(other);
   keep_stable_step(prepared, other.run);
-  answer.prepare_cpu = cpu_now() - begin;
   answer.from_cache  = prepared.from_cache;
+  answer.prepare_cpu = preparation(other, variant, prepared, cpu_now() - begin);
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     answer.n_frame    = frame->n_full;
@@ -221,6 +275,11 @@ bool meshes_of_parts_are_made(const Scene &scene)
   return scene.frame.source == FrameSource::parts &&
          std::all_of(parts.begin(), parts.end(),
                      [](const coupling::FramePart &part) { return is_meshed(part.geometry.cad); });
+}
+
+bool mesh_can_change(const Scene &scene)
+{
+  return mesh_is_made(scene) || meshes_of_parts_are_made(scene);
 }
 
 bool modes_are_chosen(const Scene &scene)

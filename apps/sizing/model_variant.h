@@ -15,11 +15,12 @@ namespace gestell::apps
 /// How a model differs from that of the scene.
 struct ModelVariant
 {
-  double                                 mesh  = 1.;    ///< size of the cells, of that in the scene
-  int                                    modes = -1;    ///< that the frame keeps; below zero: as the scene says
-  std::optional<coupling::MethodOptions> method;        ///< of integration; none: that of the scene
-  std::string                            reduction{};   ///< a name of coupling::Reductions; empty: that of the scene
-  bool                                   swept = false; ///< plates are, whatever the scene says
+  double                                 mesh  = 1.;     ///< size of the cells, of that in the scene
+  int                                    modes = -1;     ///< that the frame keeps; below zero: as the scene says
+  std::optional<coupling::MethodOptions> method;         ///< of integration; none: that of the scene
+  std::string                            reduction{};    ///< a name of coupling::Reductions; empty: that of the scene
+  bool                                   swept  = false; ///< plates are, whatever the scene says
+  bool                                   raised = false; ///< the elements of its mesh have degree three
 };
 
 /// What a model answers, and what it costs.
@@ -64,6 +65,8 @@ coupling::MethodOptions finer_method(const coupling::MethodOptions &given);
 bool mesh_is_made(const Scene &scene);
 /// The same of a frame of parts: of all of them.
 bool meshes_of_parts_are_made(const Scene &scene);
+/// Either of them.
+bool mesh_can_change(const Scene &scene);
 /// Whether the frame of the scene is reduced, so that its number of modes can be chosen.
 bool modes_are_chosen(const Scene &scene);
 

@@ -38,7 +38,7 @@ public:
     untouched_branches();
     rigid_springs();
     rigid_frame();
-    rigid_interfaces();
+    kinds_of_interfaces();
     fast_loads();
     return std::move(found_);
   }
@@ -68,7 +68,7 @@ private:
   void untouched_branches();
   void rigid_springs();
   void rigid_frame();
-  void rigid_interfaces();
+  void kinds_of_interfaces();
   void fast_loads();
 
   const QuestionedModel   &model_;
@@ -184,18 +184,27 @@ void Questions::rigid_frame()
   may_be_left_out("elasticity of the frame", rigid);
 }
 
-void Questions::rigid_interfaces()
+/// Both kinds of every interface: a wall softer than its rigid surface, and one whose elasticity does nothing.
+void Questions::kinds_of_interfaces()
 {
   const auto &interfaces = model_.scene.frame.geometry.interfaces;
+  if (model_.scene.frame.source != FrameSource::geometry)
+    return;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
   {
-    if (model_.scene.frame.source != FrameSource::geometry || interfaces[i].coupling != fem::InterfaceCoupling::rigid)
+    const bool rigid = interfaces[i].coupling == fem::InterfaceCoupling::rigid;
+    if (!rigid && interfaces[i].coupling != fem::InterfaceCoupling::average)
       continue;
-    Scene averaged                                 = model_.scene;
-    averaged.frame.geometry.interfaces[i].coupling = fem::InterfaceCoupling::average;
-    if (const auto changed = change(averaged); changed && changed->share > model_.tolerance)
+    Scene other = model_.scene;
+    other.frame.geometry.interfaces[i].coupling =
+        rigid ? fem::InterfaceCoupling::average : fem::InterfaceCoupling::rigid;
+    const auto changed = change(other);
+    if (rigid && changed && changed->share > model_.tolerance)
       found_.missing.push_back("the wall of interface \"" + interfaces[i].name +
                                "\": it is held rigid, and coupling = \"average\" " + changed->text());
+    if (!rigid && changed && changed->share <= half * model_.tolerance)
+      found_.left_out.push_back("elasticity of the wall of interface \"" + interfaces[i].name +
+                                "\": coupling = \"rigid\" " + changed->text());
   }
 }
 

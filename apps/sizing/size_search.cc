@@ -2,6 +2,7 @@
 
 #include "apps/sizing/omissions.h"
 #include "coupling/integration/system/convergence_failure.h"
+#include "coupling/reduction/reductions.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -19,12 +20,13 @@ namespace
 
 constexpr double ratio_of_meshes = 1.5;
 constexpr int    coarsest_mesh = -2, finest_mesh = 4; ///< powers of the ratio below the scene's size
-constexpr int    mode_numbers[] = {4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
+constexpr int    mode_numbers[] = {0, 2, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
 constexpr int    n_mode_numbers = int(std::size(mode_numbers));
-constexpr int    first_time = 1, n_tolerances = 7, n_steps = 10;
+constexpr int    first_modes = 2, first_time = 1, n_tolerances = 7, n_steps = 10;
 constexpr double smallest_tolerance = 1e-8;
 constexpr int    most_rungs         = 40;
 constexpr int    thin_after         = 2;   ///< rungs
+constexpr double worth_it           = 0.9; ///< of the CPU time, below which another reduction is taken
 constexpr double far_too_stiff      = 16.; ///< times what is allowed: four meshes more would not do
 
 constexpr auto thin_walls = "walls are thin";
@@ -34,10 +36,11 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 /// Numbers of the rungs of the three ladders.
 struct Place
 {
-  int  mesh = 0, modes = 0, time = 0;
-  bool operator<(const Place &other) const
+  int         mesh = 0, modes = 0, time = 0;
+  std::string reduction{}; ///< empty: the scene's
+  bool        operator<(const Place &other) const
   {
-    return std::tie(mesh, modes, time) < std::tie(other.mesh, other.modes, other.time);
+    return std::tie(mesh, modes, time, reduction) < std::tie(other.mesh, other.modes, other.time, other.reduction);
   }
 };
 
@@ -88,23 +91,23 @@ private:
   bool          fits(const Place &place) { return look(place).total <= 1.; }
   bool          finer(Place &place);
   void          coarsen(Place &place);
+  void          try_reductions(Place &place);
   void          prove(const Place &place, SizedModel &model);
   void          question(const Place &place, SizeResult &result);
   void          try_all(const Place &place, SizeResult &result);
-  SizeRung      rung_of(const Place &place, const Scene &scene, const ModelAnswer &answer);
+  SizeRung      rung_of(const Scene &scene, const ModelAnswer &answer) const;
   double        scale_of(std::size_t output, const ModelAnswer &answer) const;
 
-  const Scene                          &scene_;
-  const std::vector<OutputName>        &outputs_;
-  const SizeOptions                    &options_;
-  bool                                  by_exact_, until_thin_;
-  std::map<Place, Shares>               known_;
-  std::map<Place, std::size_t>          rung_of_;
-  std::map<Place, ModelAnswer>          answers_;
-  std::map<std::pair<int, int>, double> prepare_cpu_; ///< by the rungs of mesh and modes [s]
-  SizeResult                            result_;
-  ModelAnswer                           finer_; ///< of the proof
-  int                                   most_modes_ = n_mode_numbers - 1;
+  const Scene                   &scene_;
+  const std::vector<OutputName> &outputs_;
+  const SizeOptions             &options_;
+  bool                           by_exact_, until_thin_;
+  std::map<Place, Shares>        known_;
+  std::map<Place, std::size_t>   rung_of_;
+  std::map<Place, ModelAnswer>   answers_;
+  SizeResult                     result_;
+  ModelAnswer                    finer_; ///< of the proof
+  int                            most_modes_ = n_mode_numbers - 1;
 };
 
 /// Whether `exact` treats the machine, with the scene's keys beside it.
@@ -115,11 +118,10 @@ bool Climb::takes_exact() const
     return false;
   try
   {
-    Scene short_run = varied(scene_, {1., -1, finest_method(scene_)});
+    const double coarse    = mesh_can_change(scene_) ? std::pow(ratio_of_meshes, -coarsest_mesh) : 1.;
+    Scene        short_run = varied(scene_, {coarse, -1, finest_method(scene_)});
     short_run.run.options.end =
         short_run.run.options.begin + 1e-3 * (short_run.run.options.end - short_run.run.options.begin);
-    for (int k = coarsest_mesh; k < 0 && mesh_is_made(scene_); ++k)
-      short_run.frame.geometry.mesh.size *= ratio_of_meshes;
     answer_of(short_run, {}, outputs_, options_.stop);
     return true;
   }
@@ -141,7 +143,8 @@ int Climb::most_given() const
 ModelVariant Climb::variant_of(const Place &place) const
 {
   ModelVariant variant;
-  if (mesh_is_made(scene_))
+  variant.reduction = place.reduction;
+  if (mesh_can_change(scene_))
     variant.mesh = std::pow(ratio_of_meshes, -(place.mesh + coarsest_mesh));
   if (modes_are_chosen(scene_))
     variant.modes = std::min(mode_numbers[place.modes], most_given());
@@ -188,20 +191,21 @@ Shares Climb::shares_of(const ModelAnswer &answer, const SizeRung &rung) const
 }
 
 /// What the model is and costs.
-SizeRung Climb::rung_of(const Place &place, const Scene &scene, const ModelAnswer &answer)
+SizeRung Climb::rung_of(const Scene &scene, const ModelAnswer &answer) const
 {
   const auto &method = scene.run.options.method;
   SizeRung    rung;
-  rung.mesh_size   = mesh_is_made(scene) ? scene.frame.geometry.mesh.size : 0.;
+  rung.mesh_size   = mesh_is_made(scene)               ? scene.frame.geometry.mesh.size
+                     : meshes_of_parts_are_made(scene) ? scene.frame.parts.parts.front().geometry.mesh.size
+                                                       : 0.;
   rung.coordinates = answer.n_frame;
   rung.interface   = answer.interface;
   rung.modes       = modes_are_chosen(scene) ? answer.modes : -1;
+  rung.reduction   = modes_are_chosen(scene) ? scene.reduction.method : "";
   rung.method      = method.method;
   rung.step        = method.step;
   rung.tolerance   = method.tolerance;
-  double &prepared = prepare_cpu_[{place.mesh, place.modes}]; // a frame in the cache has cost what it did
-  prepared         = std::max(prepared, answer.prepare_cpu);
-  rung.cpu_s       = prepared + answer.run_cpu;
+  rung.cpu_s       = answer.cpu();
   return rung;
 }
 
@@ -212,7 +216,7 @@ const Shares &Climb::look(const Place &place)
   const Scene       scene  = varied(scene_, variant_of(place));
   const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
   const ErrorBudget budget = error_budget(scene, outputs_, answer, options_.stop);
-  SizeRung          rung   = rung_of(place, scene, answer);
+  SizeRung          rung   = rung_of(scene, answer);
   rung.entries             = budget.entries;
   const Shares shares      = shares_of(answer, rung);
   while (most_modes_ > 0 && answer.n_frame > 0 && mode_numbers[most_modes_] > answer.most_modes)
@@ -238,7 +242,7 @@ bool Climb::finer(Place &place)
     int Place::*rung;
     int         last;
   };
-  std::vector<Part> parts = {{shares.mesh, &Place::mesh, mesh_is_made(scene_) ? finest_mesh - coarsest_mesh : 0},
+  std::vector<Part> parts = {{shares.mesh, &Place::mesh, mesh_can_change(scene_) ? finest_mesh - coarsest_mesh : 0},
                              {shares.modes, &Place::modes, modes_are_chosen(scene_) ? most_modes_ : 0},
                              {shares.time, &Place::time, last_time()}};
   std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) { return a.share > b.share; });
@@ -263,6 +267,32 @@ void Climb::coarsen(Place &place)
         break;
       place = coarser;
     }
+}
+
+/// Another reduction with as many modes, where it takes less and fits.  One that does not apply is left.
+void Climb::try_reductions(Place &place)
+{
+  if (!modes_are_chosen(scene_) || scene_.frame.source == FrameSource::parts || !options_.readable)
+    return;
+  for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
+  {
+    Place other     = place;
+    other.reduction = entry.name;
+    if (!entry.takes("modes") || entry.name == scene_.reduction.method || !options_.readable(variant_of(other)))
+      continue;
+    try
+    {
+      const Scene  scene = varied(scene_, variant_of(other));
+      const double cpu   = rung_of(scene, answer_of(scene, {}, outputs_, options_.stop)).cpu_s;
+      if (cpu < worth_it * result_.ladder[rung_of_[place]].cpu_s && fits(other))
+        place = other;
+    }
+    catch (const std::exception &)
+    {
+      if (options_.stop && *options_.stop)
+        throw;
+    }
+  }
 }
 
 void Climb::prove(const Place &place, SizedModel &model)
@@ -307,37 +337,42 @@ void Climb::try_all(const Place &place, SizeResult &result)
 {
   if (finer_.values.empty())
     return;
-  const int last_mesh  = mesh_is_made(scene_) ? std::min(place.mesh + 1, finest_mesh - coarsest_mesh) : 0;
+  const int last_mesh  = mesh_can_change(scene_) ? std::min(place.mesh + 1, finest_mesh - coarsest_mesh) : 0;
   const int last_modes = modes_are_chosen(scene_) ? std::min(place.modes + 1, most_modes_) : 0;
   const int last       = std::min(place.time + 1, last_time());
-  for (int mesh = 0; mesh <= last_mesh; ++mesh)
-    for (int modes = 0; modes <= last_modes; ++modes)
-      for (int time = 0; time <= last; ++time)
-      {
-        const Place       here{mesh, modes, time};
-        const Scene       scene  = varied(scene_, variant_of(here));
-        const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
-        SizeRung          rung   = rung_of(here, scene, answer);
-        for (std::size_t i = 0; i < outputs_.size(); ++i)
-          if (const double share =
-                  std::abs(answer.values[i] - finer_.values[i]) / (options_.tolerance * scale_of(i, finer_));
-              share >= rung.share)
-          {
-            rung.share = share;
-            rung.worst = outputs_[i].text;
-          }
-        if (!(here < place) && !(place < here))
-          result.chosen_of_all = result.all.size();
-        result.all.push_back(rung);
-        if (options_.on_rung)
-          options_.on_rung(rung);
-      }
+  std::vector<std::string> reductions = {""};
+  if (!place.reduction.empty())
+    reductions.push_back(place.reduction);
+  for (const std::string &reduction : reductions)
+    for (int mesh = 0; mesh <= last_mesh; ++mesh)
+      for (int modes = 0; modes <= last_modes; ++modes)
+        for (int time = 0; time <= last; ++time)
+        {
+          const Place       here{mesh, modes, time, reduction};
+          const Scene       scene  = varied(scene_, variant_of(here));
+          const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
+          SizeRung          rung   = rung_of(scene, answer);
+          for (std::size_t i = 0; i < outputs_.size(); ++i)
+            if (const double share =
+                    std::abs(answer.values[i] - finer_.values[i]) / (options_.tolerance * scale_of(i, finer_));
+                share >= rung.share)
+            {
+              rung.share = share;
+              rung.worst = outputs_[i].text;
+            }
+          if (!(here < place) && !(place < here))
+            result.chosen_of_all = result.all.size();
+          result.all.push_back(rung);
+          if (options_.on_rung)
+            options_.on_rung(rung);
+        }
 }
 
 SizedModel Climb::run()
 {
   Place place;
-  place.time = by_exact_ ? first_time : 2;
+  place.modes = modes_are_chosen(scene_) ? first_modes : 0;
+  place.time  = by_exact_ ? first_time : 2;
   SizedModel model;
   Place      best = place;
   while (true)
@@ -355,6 +390,7 @@ SizedModel Climb::run()
     if (fits(place))
     {
       coarsen(place);
+      try_reductions(place);
       best        = place;
       result_.met = true;
       break;

@@ -15,7 +15,10 @@ struct SizeOptions
   double                                max_memory = 0.;    ///< [byte] of the program; 0: any
   bool                                  exhaustive = false; ///< every model up to a rung finer than the chosen one, too
   std::function<void(const SizeRung &)> on_rung    = {};    ///< after each model
-  const std::atomic<bool>              *stop       = nullptr;
+  /// Whether a model can be written as a scene, which may have keys that another reduction does not take; none: only
+  /// the scene's reduction is tried.
+  std::function<bool(const ModelVariant &)> readable = {};
+  const std::atomic<bool>                  *stop     = nullptr;
 };
 
 /// The model of a rung as a variant of the scene.
@@ -30,9 +33,11 @@ struct SizedModel
  * output:
  *
  *     mesh       cells of 9/4, 3/2, 1, 2/3, 4/9, ... of the scene's size
- *     reduction  4, 6, 8, 12, 16, 24, ... modes
+ *     reduction  0, 2, 4, 6, 8, 12, ... modes; none are the statics of the interface
  *     time       `exact` with a tolerance of 1e-3, 1e-4 ... 1e-9; where that does not treat the machine, or the scene
  *                gives its method parameters of its own, that method with 8, 4, 2, 1, 1/2, ... of its step or tolerance
+ *
+ * Then each other reduction is tried with as many modes, and taken if it fits in nine tenths of the CPU time.
  *
  * Where no mesh of tetrahedra will do, the climb begins again with plates swept, and counts if it gets there.
  *

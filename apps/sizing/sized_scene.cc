@@ -49,6 +49,21 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
     for (const auto &[surface, size] : sized.frame.geometry.mesh.surface_size)
       sizes.emplace_back("frame.mesh." + quoted(surface), number(size));
   }
+  std::vector<std::string> written; // a part that is the same as another has its mesh
+  for (const coupling::FramePart &part : sized.frame.parts.parts)
+    if (meshes_of_parts_are_made(scene) &&
+        std::find(written.begin(), written.end(), part.geometry.place) == written.end())
+    {
+      const std::string key = "frame.part." + quoted(part.name) + ".mesh.";
+      written.push_back(part.geometry.place);
+      sizes.emplace_back(key + "size", number(part.geometry.mesh.size));
+      for (const auto &[surface, size] : part.geometry.mesh.surface_size)
+        sizes.emplace_back(key + quoted(surface), number(size));
+    }
+  if (!written.empty())
+    sizes.emplace_back("frame.modes", quoted("all"));
+  if (!model.reduction.empty())
+    sizes.emplace_back("reduction.method", quoted(model.reduction));
   if (model.modes >= 0)
     sizes.emplace_back("reduction.modes", std::to_string(model.modes));
   const coupling::MethodOptions &method = sized.run.options.method;

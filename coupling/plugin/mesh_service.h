@@ -40,6 +40,11 @@ public:
   virtual Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
                              const Progress &progress) = 0;
 
+  /// The same frame in elements of degree three on the same mesh (fem::raised_matrices()), which judges that of degree
+  /// two; it tells no forces through cuts and on clamped supports.
+  virtual ReducedFrame reduce_raised(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                                     const Progress &progress) = 0;
+
   /// Refines the mesh until frequencies and compliances are within a tolerance, see converge_mesh().
   virtual MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
                                    const ConvergenceOptions &options, const Progress &progress) = 0;

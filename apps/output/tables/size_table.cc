@@ -34,6 +34,7 @@ Json size_json(const SizeResult &size)
                             {"coordinates", rung.coordinates},
                             {"interface", rung.interface},
                             {"modes", rung.modes >= 0 ? Json(rung.modes) : Json()},
+                            {"reduction", rung.reduction.empty() ? Json() : Json(rung.reduction)},
                             {"method", rung.method},
                             {"step", rung.step},
                             {"tolerance", rung.tolerance},
@@ -120,6 +121,8 @@ std::string size_text(const SizeResult &size)
   text << "chosen: model " << size.chosen + 1 << " of " << size.ladder.size() << ", every output "
        << (size.met ? "within " : "NOT within ") << short_text(100. * size.tolerance, 3) << " %"
        << (size.met ? "" : ": " + size.stopped) << '\n';
+  if (const SizeRung &rung = size.ladder[size.chosen]; rung.reduction != size.ladder.front().reduction)
+    text << "reduced by another method, which takes less: reduction.method = \"" << rung.reduction << "\"\n";
   if (size.swept)
     text << "plates are swept, as tetrahedra do not get there: frame.mesh.plates = \"swept\"\n";
   if (!size.proof.empty())

@@ -15,6 +15,7 @@ struct SizeRung
   int                      coordinates = 0;  ///< of the unreduced frame; 0: none
   int                      interface   = 0;
   int                      modes       = -1;          ///< -1: not chosen
+  std::string              reduction;                 ///< reduction.method; empty: none
   std::string              method;                    ///< run.method
   double                   step = 0., tolerance = 0.; ///< [s], of the step's control; 0: fixed
   double                   cpu_s = 0.;                ///< from CAD to the end of the run

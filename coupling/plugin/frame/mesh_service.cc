@@ -6,7 +6,7 @@
 #include "coupling/reduction/reduce_frame.h"
 #include "fem/assembly/attached_masses.h"
 #include "fem/mesh/mesher.h"
-#include "fem/recovery/discretisation.h"
+#include "fem/recovery/raised_matrices.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -86,6 +86,15 @@ public:
     auto [text, warns] = mesh_statement(reduced, discretisation.matrices, *discretisation.mesh_error, mesh);
     (warns ? reduced.frame.notes : reduced.frame.statements).push_back(std::move(text));
     return {std::move(discretisation.matrices), std::move(reduced.frame)};
+  }
+
+  ReducedFrame reduce_raised(const fem::FrameSpecification &frame, const ReductionOptions &options,
+                             const Progress &progress) override
+  {
+    use_one_blas_thread();
+    const fem::Mesh          mesh   = fem::make_mesh(frame, progress);
+    const fem::FrameMatrices raised = fem::raised_matrices(fem::discretise_with_mesh_error(mesh, frame), frame);
+    return reduce_frame(raised, options, progress);
   }
 
   MeshConvergence converge(const fem::FrameSpecification &frame, const ReductionOptions &reduction,
