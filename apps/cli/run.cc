@@ -4,6 +4,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/tables/stage_table.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 
@@ -58,6 +59,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   write_results(folder, result);
 
   print_answer(*result.run);
+  if (result.stages)
+    std::cout << stages_text(*result.stages);
   if (result.budget)
     std::cout << budget_text(*result.budget);
   if (!result.model.damping.empty())

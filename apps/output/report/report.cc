@@ -9,6 +9,7 @@
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
 #include "apps/output/report/periodic_report.h"
+#include "apps/output/report/stage_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -344,7 +345,7 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) +
+      periodic_section(result, report.charts) + answer_section(result, report) + stage_section(result) +
       budget_section(result, report.charts) + stress_section(result, report.charts) +
       chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
