@@ -5,6 +5,7 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/sensitivity_table.h"
+#include "apps/output/tables/stage_table.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 
@@ -60,6 +61,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   write_results(folder, result);
 
   print_answer(*result.run);
+  if (result.stages)
+    std::cout << stages_text(*result.stages);
   if (result.budget)
     std::cout << budget_text(*result.budget);
   if (result.sensitivities && result.sensitivities->failure.empty())

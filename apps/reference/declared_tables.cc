@@ -15,6 +15,7 @@
 #include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_part.h"
 #include "apps/scene/read/read_run.h"
+#include "apps/scene/read/read_stages.h"
 #include "apps/scene/read/read_stress.h"
 #include "apps/scene/read/read_switches.h"
 #include "apps/scene/read/relative_motion.h"
@@ -94,6 +95,8 @@ void add_rest(Tables &tables)
       watched_signal_keys());
   add("output.stress", "[output.stress]",
       "Stresses at the skin of a frame from `cad`; an empty table means the largest stress.", stress_keys());
+  add("output.stages", "[output.stages]", "Parts of the run between events, and what rings in the last one.",
+      stage_keys());
 }
 
 Tables make_tables()

@@ -242,6 +242,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   const SceneTable table = SceneTable(root, parameters, "").declared(scene_keys());
   table.has("parameters");
   table.has("extends"); // of the file itself, followed while reading it
+  table.has("without");
 
   Scene scene;
   scene.file        = path;

@@ -28,6 +28,8 @@ const std::vector<Key> &scene_keys()
       key::plain("description", Key::Form::text, "one line for the report").by_default("none"),
       key::vector("gravity", kind::acceleration, "acts on the frame and on all masses").by_default("[0, 0, 0]"),
       key::plain("extends", Key::Form::file, "scene whose entries hold where this one has none").by_default("none"),
+      key::plain("without", Key::Form::texts, "entries of it that are not taken over, `[\"joint.cylinder\"]`")
+          .by_default("none"),
       key::plain("parameters", Key::Form::map, "[parameters](scene/values.md#values) of expressions")
           .by_default("none"),
       one_of("material", "`[material.NAME]`"),

@@ -14,6 +14,7 @@
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
+#include "apps/session/stages/stage_answer.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
 #include "coupling/simulation/simulation.h"
@@ -282,6 +283,7 @@ Result Session::run(const std::string &sensitivities)
   }
   progress()("results", -1.);
   result.orders = order_tracking(scene_, *result.run);
+  result.stages = stage_answer(scene_, prepared, result.run->end_state, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));
   states_for_pictures(prepared, *result.run);

@@ -145,6 +145,7 @@ struct Switch
   std::string              after      = ""; ///< name of a switch; watches from its orders on. Empty: always
   bool                     repeat     = false;
   double                   hysteresis = 0.; ///< of `repeat`: how far the signal must have come back (either: gone away)
+  std::string              ends       = ""; ///< not empty: its orders end the run, which tells this statement
 };
 
 /// What the measures of an element are.

@@ -89,6 +89,7 @@ struct RunResult
   std::vector<double>          picture_times;
   std::vector<Eigen::VectorXd> picture_states; ///< q
   KeptStates                   states;         ///< those asked for
+  Eigen::VectorXd              end_state;      ///< q at the end
   std::vector<std::string>     warnings;
   double                       wall_s = 0.;
   std::string                  failure; ///< not empty: why it stopped early

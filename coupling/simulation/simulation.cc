@@ -309,6 +309,7 @@ public:
         {
           recorder_.jump(event.name);
           fast_forces_->jump();
+          note_end(event);
         });
     recorder_.begin();
     cylinders_->begin();
@@ -343,10 +344,17 @@ private:
     momentary_->step(integrator_->local());
   }
 
+  void note_end(const Event &event)
+  {
+    if (end_.empty())
+      end_ = end_by_switch(machine_, options_.begin, event);
+  }
+
   Machine                         &machine_;
   const RunOptions                &options_;
   const MethodOptions             &method_;
   RunResult                       &result_;
+  std::string                      end_; ///< statement of a switch that ends the run
   std::unique_ptr<TimeIntegrator>  integrator_;
   EventDriver                      driver_;
   Recorder                         recorder_;
@@ -369,6 +377,11 @@ void Run::integrate(const std::function<void(double)> &progress, const std::atom
     for (long k = 1; integrator_->time() < finish; ++k)
     {
       driver_.advance();
+      if (!end_.empty())
+      {
+        result_.failure = end_;
+        break;
+      }
       if (stop && stop->load(std::memory_order_relaxed))
       {
         result_.interrupted = true;
@@ -389,7 +402,8 @@ void Run::integrate(const std::function<void(double)> &progress, const std::atom
 void Run::finish(const InitialState &initial)
 {
   recorder_.finish();
-  result_.events = driver_.events();
+  result_.events    = driver_.events();
+  result_.end_state = integrator_->instant().q;
   add(switch_warnings(machine_, options_.begin, result_.events, result_.failure.empty() && !result_.interrupted),
       result_.warnings);
   take_work(integrator_->work(), driver_, options_, result_);

@@ -10,6 +10,7 @@
 #include "apps/output/report/order_report.h"
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/sensitivity_report.h"
+#include "apps/output/report/stage_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -346,8 +347,9 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) + budget_section(result, report.charts) +
-      sensitivity_section(result, report.charts) + stress_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, report) + stage_section(result) +
+      budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
+      stress_section(result, report.charts) +
       chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +

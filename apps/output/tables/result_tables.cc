@@ -5,6 +5,7 @@
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
+#include "apps/output/tables/stage_table.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
 
@@ -354,6 +355,12 @@ std::string summary_json(const Result &result)
     json["sensitivities"] = sensitivities_json(*result.sensitivities);
   if (result.size)
     json["size"] = size_json(*result.size);
+  if (result.stages)
+  {
+    json["stages"]   = stages_json(*result.stages);
+    json["lift_off"] = lift_off_json(*result.stages);
+    json["ringing"]  = ringing_json(result.stages->ringing);
+  }
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   json["signals"]  = signals_json(run.signals);

@@ -7,6 +7,7 @@
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
+#include "apps/output/values/stage_result.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/excitation_orders.h"
 #include "coupling/modes/modes.h"
@@ -84,6 +85,7 @@ struct Result
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
+  std::optional<StageResult>                  stages;           ///< of a run with stages or wheels that lift off
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`

@@ -3,6 +3,7 @@
 #include "apps/scene/file/override_rules.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
+#include "fem/values/nearest_name.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -37,6 +38,40 @@ void remove(SceneNode &table, const std::string &key)
   e.erase(std::remove_if(e.begin(), e.end(), [&](const auto &entry) { return entry.first == key; }), e.end());
 }
 
+/// Takes one entry "joint.cylinder" out of what is inherited.
+void leave_out(SceneNode &base, const SceneNode &path)
+{
+  const auto        refuse = [&](const std::string &why) { path.place.fail("without: '" + path.text + "': " + why); };
+  const std::size_t dot    = path.text.find('.');
+  if (path.type != Type::text || dot == std::string::npos)
+    refuse("needs the table and the name of one entry, such as \"joint.cylinder\"");
+  SceneNode        *table = base.find(path.text.substr(0, dot));
+  const std::string name  = path.text.substr(dot + 1);
+  if (!table || !table->find(name))
+  {
+    std::vector<std::string> valid;
+    for (const auto &[key, value] : base.entries)
+      for (const auto &[inner, unused] : value.entries)
+        valid.push_back(key + "." + inner);
+    refuse("the scene that is extended has no such entry" + suggestion(path.text, valid));
+  }
+  remove(*table, name);
+}
+
+/// Takes out what `own` does not want of its base.
+void leave_out_listed(SceneNode &base, SceneNode &own)
+{
+  const SceneNode *without = own.find("without");
+  if (!without)
+    return;
+  if (without->type != Type::array)
+    without->place.fail("without: needs a list of entries, such as [\"joint.cylinder\"], got " +
+                        type_name(without->type));
+  for (const SceneNode &path : without->elements)
+    leave_out(base, path);
+  remove(own, "without");
+}
+
 SceneNode read_with_base(const std::string &path, std::vector<std::string> files)
 {
   const auto identity = std::filesystem::weakly_canonical(path).string();
@@ -44,6 +79,8 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
   files.push_back(identity);
 
   const SceneNode *extends = own.find("extends");
+  if (const SceneNode *without = own.find("without"); without && !extends)
+    without->place.fail("without: takes entries out of the scene that is extended, but nothing is; leave it out");
   if (!extends)
     return own;
   if (extends->type != Type::text)
@@ -56,6 +93,7 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
 
   SceneNode base = read_with_base(next, files);
   remove(own, "extends");
+  leave_out_listed(base, own);
   remove(base, "name"); // a scene that extends another is not that other one
   if (SceneNode *run = base.find("run"), *newer = own.find("run"); run && newer)
     make_way(*run, *newer);

@@ -1,5 +1,6 @@
 #include "apps/scene/read/read_output.h"
 
+#include "apps/scene/read/read_stages.h"
 #include "apps/scene/read/read_stress.h"
 
 namespace gestell::apps
@@ -23,7 +24,8 @@ const std::vector<Key> &output_keys()
           .by_default("a hundredth of the run"),
       key::truth("allow_large", coupling::RunOptions().allow_large,
                  "more than 1 GB of history and states, or 20 000 pictures, is refused without it"),
-      key::table("stress", {}, "stresses, [see there](#stress)").by_default("none")};
+      key::table("stress", {}, "stresses, [see there](#stress)").by_default("none"),
+      key::table("stages", {}, "parts of the run between events, [see there](#stages)").by_default("none")};
   return keys;
 }
 
@@ -68,6 +70,7 @@ void read_output(const SceneTable &scene, Scene &result)
       result.signals.push_back({name, watched.text("signal"), signals->place(name), watched.text("from")});
     }
   read_stress(table, result);
+  read_stages(table, result);
 }
 
 } // namespace gestell::apps

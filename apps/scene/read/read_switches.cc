@@ -222,12 +222,17 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
   }
   if (table.has("orders") && (table.has("tell") || table.has("order")))
     throw table.error("orders", "says the same as 'tell' and 'order'; give one of them");
-  if (!table.has("orders"))
+  own.request.ends = table.text("ends", "");
+  if (table.has("ends") && own.request.ends.empty())
+    throw table.error("ends",
+                      "is empty; say what it means that the signal has passed the value, such as \"the crane tips\"");
+  const bool only_ends = table.has("ends") && !table.has("tell") && !table.has("order") && !table.has("orders");
+  if (!table.has("orders") && !only_ends)
     own.request.orders = read_order(table, scene);
   for (const auto &part : table.table_array("orders"))
     for (const auto &order : read_order(part, scene))
       own.request.orders.push_back(order);
-  if (own.request.orders.empty())
+  if (own.request.orders.empty() && !only_ends)
     throw table.error("orders", "is empty; give orders such as [{ tell = \"motor\", order = \"off\" }]");
   return own;
 }
@@ -282,25 +287,29 @@ Key crossing_key(const std::string &name, const std::string &meaning)
 
 const std::vector<Key> &switch_keys()
 {
-  static const std::vector<Key> keys =
-      joined({{key::plain("when", Key::Form::text, "a signal, or `\"t\"`, the time"),
-               crossing_key("above", "value, with its unit, above which the signal rises; thrown at once where it lies "
-                                     "above when the switch begins to watch"),
-               crossing_key("below", "value below which it falls, likewise"),
-               crossing_key("crosses",
-                            "value that it crosses either way; it must come from the side on which it lies at first")},
-              order_keys(),
-              {key::composed("orders", Key::Form::tables, kind::number, order_keys(),
-                             "several orders at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
-                             "\"brake\", order = \"on\" }]`")
-                   .by_default("`tell` and `order`"),
-               key::number("delay", kind::time, "from the crossing to the orders").from_zero().by_default(0.),
-               key::named("after", "switch from whose orders on it watches").by_default("always"),
-               key::truth("repeat", false, "thrown every time"),
-               key::plain("hysteresis", Key::Form::quantity,
-                          "with `repeat`: by so much the signal must first come back, or with `crosses` go away from "
-                          "the value to either side")
-                   .by_default(0.)}});
+  static const std::vector<Key> keys = joined(
+      {{key::plain("when", Key::Form::text, "a signal, or `\"t\"`, the time"),
+        crossing_key("above", "value, with its unit, above which the signal rises; thrown at once where it lies "
+                              "above when the switch begins to watch"),
+        crossing_key("below", "value below which it falls, likewise"),
+        crossing_key("crosses",
+                     "value that it crosses either way; it must come from the side on which it lies at first")},
+       order_keys(),
+       {key::composed("orders", Key::Form::tables, kind::number, order_keys(),
+                      "several orders at the same instant: `[{ tell = \"motor\", order = \"off\" }, { tell = "
+                      "\"brake\", order = \"on\" }]`")
+            .by_default("`tell` and `order`"),
+        key::plain("ends", Key::Form::text,
+                   "the run ends at the orders with this statement, such as `\"the crane tips\"`, and exit code 3; "
+                   "what was computed is kept")
+            .by_default("it goes on"),
+        key::number("delay", kind::time, "from the crossing to the orders").from_zero().by_default(0.),
+        key::named("after", "switch from whose orders on it watches").by_default("always"),
+        key::truth("repeat", false, "thrown every time"),
+        key::plain("hysteresis", Key::Form::quantity,
+                   "with `repeat`: by so much the signal must first come back, or with `crosses` go away from "
+                   "the value to either side")
+            .by_default(0.)}});
   return keys;
 }
 

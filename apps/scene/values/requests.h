@@ -312,6 +312,17 @@ struct StressRequest
   std::string                place;
 };
 
+/// Stages of the run between events, and signals in which the last one rings.
+struct StageRequest
+{
+  std::vector<std::string> names, borders; ///< one name more than borders; a border is "NAME" or "NAME.KIND"
+  std::vector<std::string> ringing;        ///< names of signals
+  int                      modes = 3;      ///< that are told of them, at most
+  std::string              place;
+
+  bool given() const { return !names.empty(); }
+};
+
 struct ModesRequest
 {
   std::vector<NamedValue>  at;   ///< configuration of the bodies; zero for the rest
@@ -350,6 +361,7 @@ struct Scene
   ModesRequest                       modes;
   std::vector<SignalRequest>         signals;
   StressRequest                      stress;
+  StageRequest                       stages;
   std::vector<std::string>           warnings; ///< of what is allowed and probably not meant
 };
 

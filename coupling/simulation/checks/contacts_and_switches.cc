@@ -4,6 +4,7 @@
 #include "mechanism/elements/coulomb_friction.h"
 
 #include <algorithm>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -23,6 +24,20 @@ bool at_the_start(const Switch &own, double begin)
   return own.signal == "t" && own.level == begin;
 }
 
+const Switch *switch_called(const Machine &machine, const std::string &name)
+{
+  const auto &all   = machine.model().switches();
+  const auto  found = std::find_if(all.begin(), all.end(), [&](const Switch &own) { return own.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+/// A limit that nobody wants to be reached.
+bool ends_the_run(const Machine &machine, const std::string &name)
+{
+  const Switch *own = switch_called(machine, name);
+  return own && !own->ends.empty();
+}
+
 } // namespace
 
 std::vector<std::string> switch_warnings(const Machine &machine, double begin, const std::vector<Event> &events,
@@ -38,9 +53,24 @@ std::vector<std::string> switch_warnings(const Machine &machine, double begin, c
   if (!to_the_end)
     return warnings;
   for (int i = 0; i < machine.events().n_guards(); ++i)
-    if (const ActiveGuard guard = machine.events().guard(i); guard.kind == "switch" && !happened(events, guard))
+    if (const ActiveGuard guard = machine.events().guard(i);
+        guard.kind == "switch" && !happened(events, guard) && !ends_the_run(machine, guard.name))
       warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
   return warnings;
+}
+
+std::string end_by_switch(const Machine &machine, double begin, const Event &event)
+{
+  const Switch *own = switch_called(machine, event.name);
+  if (!own || own->ends.empty() || event.kind != (own->delay > 0. ? "orders" : "switch"))
+    return "";
+  std::ostringstream text;
+  text << (event.t == begin ? "at the start, t = " : "at t = ") << event.t << " s, " << own->ends << ": " << own->signal
+       << (own->crossing == SwitchCrossing::rising    ? " lies above "
+           : own->crossing == SwitchCrossing::falling ? " lies below "
+                                                      : " passes ")
+       << own->level << ", where switch \"" << own->name << "\" ends the run";
+  return text.str();
 }
 
 std::vector<std::string> closed_contact_warnings(const Machine &machine, const InitialState &initial)

@@ -15,6 +15,9 @@ namespace gestell::coupling
 std::vector<std::string> switch_warnings(const Machine &machine, double begin, const std::vector<Event> &events,
                                          bool to_the_end);
 
+/// Statement of the switch whose orders this event is, if they end the run; else empty.
+std::string end_by_switch(const Machine &machine, double begin, const Event &event);
+
 /// Positions that are given may lie inside a stop, which then throws the body out.
 std::vector<std::string> closed_contact_warnings(const Machine &machine, const InitialState &initial);
 

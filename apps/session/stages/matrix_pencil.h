@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <complex>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A damped oscillation A exp(s t) + conjugate in several signals.
+struct DampedOscillation
+{
+  std::complex<double> s;          ///< [1/s], Im s > 0
+  Eigen::VectorXcd     amplitudes; ///< by signal, at the first sample
+
+  double frequency_hz() const;  ///< damped
+  double damping_ratio() const; ///< -Re s / |s|
+};
+
+struct PencilFit
+{
+  std::vector<DampedOscillation> oscillations;  ///< the strongest, ascending in frequency
+  double                         residual = 0.; ///< what all poles leave of the samples, relative to them
+};
+
+/**
+ * Oscillations that signals have in common, by the matrix pencil:
+ *
+ *     Y = [Y_1; Y_2; ...],  Y_s[i, j] = y_s(t_{i+j}) [(n - L) x (L + 1)],   Y ~ U S V^T of rank r,
+ *     z = eigenvalues of V_first^+ V_last,     s = log(z)/h,
+ *
+ * V_first and V_last being V without its last and first row, L = n/2.  r is where singular values fall below 1e-4 of
+ * the largest, so that weak oscillations and a constant have poles of their own and do not spoil the strong ones;
+ * `most` oscillations with the largest amplitudes are told, each signal measured by its own range.
+ *
+ * @param samples  [n x signals] at equal times, n at least 16
+ * @param h        [s] between samples
+ *
+ * Source: T. K. Sarkar, O. Pereira, Using the matrix pencil method to estimate the parameters of a sum of complex
+ * exponentials, IEEE Antennas and Propagation Magazine 37 (1995), 48-55.
+ * @throws std::invalid_argument for too few samples
+ */
+PencilFit matrix_pencil(const Eigen::MatrixXd &samples, double h, int most);
+
+} // namespace gestell::apps

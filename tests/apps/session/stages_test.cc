@@ -1,0 +1,208 @@
+// Stages of a run and what rings in the last one: against closed solutions and the planar crane.
+
+#include "apps/session/session.h"
+#include "apps/session/stages/matrix_pencil.h"
+#include "apps/session/stages/stage_answer.h"
+#include "fem/values/two_pi.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_run.h"
+#include "tests/support/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::Session;
+
+/// f [Hz], zeta, amplitude, phase.
+struct Decay
+{
+  double f, zeta, amplitude, phase;
+
+  double at(double t) const
+  {
+    const double omega = two_pi * f, delta = zeta * omega / std::sqrt(1. - zeta * zeta);
+    return amplitude * std::exp(-delta * t) * std::cos(omega * t + phase);
+  }
+};
+
+const std::vector<Decay> decays{{0.404, 0.0041, 0.17, 0.3}, {1.245, 0.035, 0.01, -1.}, {2.6, 0.078, 0.004, 2.}};
+
+Eigen::MatrixXd samples_of(int n, double h)
+{
+  Eigen::MatrixXd samples(n, 2);
+  for (int i = 0; i < n; ++i)
+    for (int s = 0; s < 2; ++s)
+    {
+      samples(i, s) = s == 0 ? -3. : 40.; // where it comes to rest
+      for (std::size_t j = 0; j < decays.size(); ++j)
+        samples(i, s) += (s == 0 ? 1. : 100. * double(j)) * decays[j].at(h * i);
+    }
+  return samples;
+}
+
+// A sum of exponentials has a Hankel matrix of that rank: what is found is exact up to rounding.
+TEST(MatrixPencil, FindsDampedOscillationsExactly)
+{
+  const auto fit = apps::matrix_pencil(samples_of(300, 0.02), 0.02, 3);
+  ASSERT_EQ(fit.oscillations.size(), 3u);
+  EXPECT_LT(fit.residual, 1e-9);
+  for (std::size_t j = 0; j < 3; ++j)
+  {
+    EXPECT_NEAR(fit.oscillations[j].frequency_hz(), decays[j].f, 1e-8);
+    EXPECT_NEAR(fit.oscillations[j].damping_ratio(), decays[j].zeta, 1e-8);
+    EXPECT_NEAR(std::abs(fit.oscillations[j].amplitudes[0]), decays[j].amplitude, 1e-8);
+    EXPECT_NEAR(std::abs(fit.oscillations[j].amplitudes[1]), 100. * double(j) * decays[j].amplitude, 1e-6);
+  }
+}
+
+TEST(MatrixPencil, TellsTheStrongestOfThem)
+{
+  const auto fit = apps::matrix_pencil(samples_of(300, 0.02).leftCols(1), 0.02, 1);
+  ASSERT_EQ(fit.oscillations.size(), 1u);
+  EXPECT_NEAR(fit.oscillations[0].frequency_hz(), 0.404, 1e-8);
+}
+
+TEST(MatrixPencil, OfWhatStandsStillHasNothing)
+{
+  EXPECT_TRUE(apps::matrix_pencil(Eigen::MatrixXd::Ones(100, 2), 0.01, 3).oscillations.empty());
+  expect_refusal([] { apps::matrix_pencil(Eigen::MatrixXd::Ones(10, 2), 0.01, 3); }, "10 samples");
+}
+
+TEST(LiftOff, IntervalsAreBetweenTheEventsOfAWheel)
+{
+  coupling::RunResult run;
+  run.events           = {{1., "left", "lift_off"},
+                          {1.5, "right", "touch_down"},
+                          {2., "left", "touch_down"},
+                          {2.5, "limiter", "switch"},
+                          {3., "left", "lift_off"}};
+  const auto intervals = apps::lift_off_intervals(run, 0., 4.);
+  ASSERT_EQ(intervals.size(), 3u);
+  const auto expect = [&](std::size_t i, const std::string &wheel, double begin, double end)
+  {
+    EXPECT_EQ(intervals[i].wheel, wheel);
+    EXPECT_EQ(intervals[i].begin, begin);
+    EXPECT_EQ(intervals[i].end, end);
+  };
+  expect(0, "left", 1., 2.);
+  expect(1, "right", 0., 1.5); // began in the air
+  expect(2, "left", 3., 4.);   // does not come down
+}
+
+// --- the planar crane, with a step that leaves 0.1 ms of its event times
+
+std::vector<std::string> crane(const std::vector<std::string> &more = {})
+{
+  std::vector<std::string> settings = {
+      "run.step=\"1 ms\"", "output.stages={borders=[\"limiter\", \"cylinder.braking_ends\"], "
+                           "names=[\"luffing\", \"braking\", \"ringing\"], ringing=[\"q2\", \"q3\", \"F_v\"]}"};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return settings;
+}
+
+apps::Result crane_run(const std::vector<std::string> &more = {}, const std::string &file = "crane_minimal.toml")
+{
+  return Session(shipped(file), crane(more)).run();
+}
+
+TEST(Stages, OfTheCraneRingInItsLinearisedModes)
+{
+  const apps::Result result = crane_run();
+  ASSERT_TRUE(result.stages);
+  const auto &stages = result.stages->stages;
+  ASSERT_EQ(stages.size(), 3u);
+  EXPECT_NEAR(stages[0].end, 2.650085, 1e-4);
+  EXPECT_NEAR(stages[1].end - stages[1].begin, 0.15, 1e-12);
+  EXPECT_EQ(stages[2].end, 10.);
+  // of the reference at rest [Hz]: damped frequency, damping ratio; swings of up to 0.19 rad are slower by
+  // phi^2/16 = 0.2 % and mix the modes by some of that
+  const double expected[3][2] = {{0.404117, 0.00409}, {1.244589, 0.035143}, {2.596595, 0.078359}};
+  const auto  &modes          = result.stages->ringing.modes;
+  ASSERT_EQ(modes.size(), 3u);
+  for (int j = 0; j < 3; ++j)
+  {
+    EXPECT_NEAR(modes[j].linearised_hz, expected[j][0], 1e-5 * expected[j][0]);
+    EXPECT_NEAR(modes[j].linearised_ratio, expected[j][1], 1e-3 * expected[j][1]);
+    EXPECT_NEAR(modes[j].frequency_hz, expected[j][0], 0.01 * expected[j][0]);
+    EXPECT_NEAR(modes[j].damping_ratio, expected[j][1], 0.1 * expected[j][1]);
+  }
+  EXPECT_TRUE(result.stages->lift_offs.empty());
+}
+
+TEST(Stages, OfTyresThatLiftOffRingBehindTheLastTouchDown)
+{
+  const apps::Result result = crane_run({}, "crane_minimal_lift.toml");
+  ASSERT_TRUE(result.stages);
+  ASSERT_EQ(result.stages->lift_offs.size(), 3u);
+  EXPECT_NEAR(result.stages->lift_offs[0].begin, 2.823789, 1e-3);
+  EXPECT_NEAR(result.stages->lift_offs[0].end, 3.310023, 1e-3);
+  EXPECT_EQ(result.stages->ringing.begin, result.stages->lift_offs[2].end);
+}
+
+TEST(Stages, TellHowFarALimitWasMissed)
+{
+  const apps::Result result = crane_run({"switch.limiter.above=\"900 kN\"", "run.end=\"1 s\""});
+  for (const char *words :
+       {"never came to the border 'limiter'", "cylinder.force comes to 2", "the switch needs 9e+05"})
+    EXPECT_THAT(result.run->failure, ::testing::HasSubstr(words));
+  EXPECT_GT(result.run->rows.size(), 0u); // kept
+}
+
+TEST(Stages, DoNotBeginBeyondTheirLimit)
+{
+  const apps::Result result = crane_run({"switch.limiter.above=\"100 kN\"", "run.end=\"1 s\""});
+  EXPECT_THAT(result.run->failure, ::testing::HasSubstr("the stage 'luffing' is over at the start"));
+}
+
+TEST(Stages, NeedNamesAndSignalsThatThereAre)
+{
+  const auto refused = [](const std::string &stages)
+  { return refusal([&] { apps::read_scene(shipped("crane_minimal.toml"), {"output.stages=" + stages}); }); };
+  EXPECT_THAT(refused("{borders=[\"limiter\"], names=[\"a\"]}"), ::testing::HasSubstr("1 border part the run into 2"));
+  EXPECT_THAT(refused("{borders=[\"limiter\"], ringing=[\"q9\"]}"), ::testing::HasSubstr("no signal 'q9'"));
+  EXPECT_THAT(refused("{borders=[]}"), ::testing::HasSubstr("is empty"));
+}
+
+// --- a switch that ends the run
+
+TEST(Switches, EndTheRunWithTheirStatement)
+{
+  const std::vector<std::string> tips = {
+      "switch.tips={when=\"chassis.angle\", below=\"-0.02 rad\", ends=\"the crane tips over its front axle\"}"};
+  const apps::Result result = crane_run(tips);
+  EXPECT_THAT(result.run->failure,
+              ::testing::HasSubstr("the crane tips over its front axle: chassis.angle lies below"));
+  EXPECT_EQ(result.run->events.back().name, "tips");
+  const auto &rows = result.run->rows;
+  EXPECT_NEAR(rows[rows.size() - result.run->columns.size()], result.run->events.back().t, 1e-12); // the last row
+}
+
+TEST(Switches, EndARunThatBeginsBeyondThem)
+{
+  const apps::Result result =
+      crane_run({"switch.tips={when=\"chassis.angle\", below=\"0.1 rad\", ends=\"the crane tips over\"}"});
+  EXPECT_THAT(result.run->failure, ::testing::HasSubstr("at the start, t = 0 s, the crane tips over"));
+}
+
+// --- entries that are not inherited
+
+TEST(Scenes, LeaveOutWhatTheyDoNotWantOfAnother)
+{
+  const test::SceneFolder folder;
+  const std::string       base    = shipped("crane_minimal.toml");
+  const auto              without = [&](const std::string &list)
+  { return folder.write("own.toml", "extends = \"" + base + "\"\nwithout = " + list + "\n"); };
+  EXPECT_EQ(apps::read_scene(without("[\"element.air\"]")).elements.size() + 1,
+            apps::read_scene(base, {}).elements.size());
+  expect_refusal([&] { apps::read_scene(without("[\"element.ari\"]")); }, "did you mean 'element.air'");
+  expect_refusal([&] { apps::read_scene(folder.write("alone.toml", "without = [\"element.air\"]")); }, "nothing is");
+}
+
+} // namespace
+} // namespace gestell::tests
