@@ -1,7 +1,7 @@
 #pragma once
 
+#include "coupling/sensitivity/output_derivatives.h"
 #include "coupling/sensitivity/parameter_twins.h"
-#include "coupling/sensitivity/run_sensitivities.h"
 
 #include <string>
 #include <vector>

@@ -22,9 +22,9 @@ VariationalEquation::VariationalEquation(Machine &machine, const std::vector<Par
       lags_(machine.linear().virtual_coordinates())
 {
   const Index n = machine.size();
-  MatrixXd    M;
-  if (n > largest_inverse || !machine.linear().dense_matrices(M, B_, C_))
-    B_.resize(0, 0);
+  if (n > largest_inverse || !machine.linear().dense_matrices(M_, B_, C_))
+    for (MatrixXd *matrix : {&M_, &B_, &C_})
+      matrix->resize(0, 0);
   mass_.resize(n);
   product_.resize(n);
   VectorXd unit = VectorXd::Zero(n), column(n);
@@ -102,8 +102,8 @@ void VariationalEquation::solve_base(const Base &base, const MatrixXd &F, Matrix
   }
 }
 
-/// A a = r - B s'_0 - C (s_0 + c s'_0)
-void VariationalEquation::solve_without_forces(const Base &base, const Linearised &at, double c, MotionColumns &columns)
+/// f = r - B s'_0 - C (s_0 + c s'_0)
+void VariationalEquation::find_loads(const Linearised &at, double c, MotionColumns &columns)
 {
   columns.q += c * columns.v;
   F_ = at.r;
@@ -120,61 +120,32 @@ void VariationalEquation::solve_without_forces(const Base &base, const Linearise
       machine_.linear().stiffness_times(columns.q.col(k), product_);
       F_.col(k) -= product_;
     }
-  solve_base(base, F_, columns.a);
 }
 
-/// Rows and columns of the joints behind those of the measures.
-void VariationalEquation::border_joints(const Base &base, const Linearised &at, double c, const MotionColumns &columns)
+/// u'' = x + S dp of the measures, dp = k + K u'' + G^T dlambda + dp_h: as many unknowns as there are measures.
+void VariationalEquation::solve_condensed(const Base &base, const Linearised &at, double c, MotionColumns &columns)
 {
-  const Index n_u = base.S.rows(), n_c = at.G.n_rows();
-  S_G_.resize(n_u, n_c);
-  at.G.times_transposed(base.S, S_G_);
-  matrix_.block(0, n_u, n_u, n_c) = -S_G_;
-  matrix_.block(n_u, 0, n_c, n_u) = c * c * at.Gamma_u + c * at.Gamma_v;
-  for (std::size_t b = 0; b < at.G.blocks().size(); ++b)
-  {
-    const ConstraintBlock &block = at.G.blocks()[b];
-    matrix_.block(n_u + block.first_row, block.first_measure, block.n_rows, block.n_measures) += at.G[b];
-  }
-  right_.middleRows(n_u, n_c) = -at.gamma;
-  right_.middleRows(n_u, n_c).noalias() -= at.Gamma_u * columns.u;
-  right_.middleRows(n_u, n_c).noalias() -= at.Gamma_v * columns.u_rate;
-}
-
-void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &columns)
-{
-  const Base &base = this->base(c);
   const auto &W    = machine_.forces().directions();
-  const Index n_u = W.cols(), n_c = machine_.joints().n_rows(), K = n_parameters_;
   const auto &held = machine_.forces().held();
-  const Index n_h = Index(held.size()), size = n_u + n_c + n_h;
-
-  solve_without_forces(base, at, c, columns);
-
-  // The measures: u'' = x + S dp, dp = k + K u'' + G^T dlambda + dp_h
-  columns.u.noalias()      = W.transpose() * columns.q;
-  columns.u_rate.noalias() = W.transpose() * columns.v;
-  X_.noalias()             = W.transpose() * columns.a;
-  if (at.u.size() > 0)
-  {
-    columns.u += at.u;
-    columns.u_rate += at.v;
+  const Index n_u = W.cols(), n_c = machine_.joints().n_rows(), n_h = Index(held.size()), size = n_u + n_c + n_h;
+  solve_base(base, F_, columns.a);
+  X_.noalias() = W.transpose() * columns.a;
+  if (at.a.size() > 0)
     X_ += at.a;
-  }
-  K_ = c * c * at.P_u + c * at.P_v + at.P_a;
-  k_ = at.p;
-  k_.noalias() += at.P_u * columns.u;
-  k_.noalias() += at.P_v * columns.u_rate;
-  for (const HeldMeasure &h : held)
-    k_.row(h.measure).setZero();
   matrix_.setZero(size, size);
-  right_.setZero(size, K);
+  right_.setZero(size, n_parameters_);
   matrix_.topLeftCorner(n_u, n_u).setIdentity();
   matrix_.topLeftCorner(n_u, n_u).noalias() -= base.S * K_;
   right_.topRows(n_u) = X_;
   right_.topRows(n_u).noalias() += base.S * k_;
   if (n_c > 0)
-    border_joints(base, at, c, columns);
+  {
+    S_G_.resize(n_u, n_c);
+    at.G.times_transposed(base.S, S_G_);
+    matrix_.block(0, n_u, n_u, n_c) = -S_G_;
+    matrix_.block(n_u, 0, n_c, n_u) = joint_rows(at, c);
+    right_.middleRows(n_u, n_c)     = joint_right(at, columns);
+  }
   for (Index h = 0; h < n_h; ++h)
   {
     const int measure                    = held[std::size_t(h)].measure;
@@ -183,11 +154,88 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
   }
   if (size > 0)
     right_ = lu_solution(matrix_, right_);
-
   columns.u_acc = right_.topRows(n_u);
-  columns.p     = k_;
+  find_forces(at, columns);
+  columns.a.noalias() += base.Y * columns.p;
+}
+
+/// (A - W K W^T) s'' - W (G^T dlambda + dp_h) = f + W k: fewer unknowns where many measures act on few coordinates.
+void VariationalEquation::solve_whole(const Linearised &at, double c, MotionColumns &columns)
+{
+  const auto &W    = machine_.forces().directions();
+  const auto &held = machine_.forces().held();
+  const Index n = W.rows(), n_c = machine_.joints().n_rows(), n_h = Index(held.size()), size = n + n_c + n_h;
+  if (at.a.size() > 0)
+    k_ += K_ * at.a;
+  matrix_.setZero(size, size);
+  right_.setZero(size, n_parameters_);
+  matrix_.topLeftCorner(n, n) = M_ + c * B_ + c * c * C_;
+  if (c == 0.)
+    for (const int i : lags_)
+      matrix_(i, i) = 1.;
+  matrix_.topLeftCorner(n, n) -= W * MatrixXd(K_ * W.transpose());
+  right_.topRows(n) = F_ + W * k_;
+  if (n_c > 0)
+  {
+    const MatrixXd rows         = joint_rows(at, c);
+    matrix_.block(n, 0, n_c, n) = rows * W.transpose();
+    right_.middleRows(n, n_c)   = joint_right(at, columns);
+    if (at.a.size() > 0)
+      right_.middleRows(n, n_c) -= rows * at.a;
+    for (std::size_t b = 0; b < at.G.blocks().size(); ++b)
+    {
+      const ConstraintBlock &block = at.G.blocks()[b];
+      matrix_.block(0, n + block.first_row, n, block.n_rows) =
+          -(W.middleCols(block.first_measure, block.n_measures) * at.G[b].transpose());
+    }
+  }
+  for (Index h = 0; h < n_h; ++h)
+  {
+    const Eigen::SparseVector<double> w = W.col(held[std::size_t(h)].measure);
+    for (Eigen::SparseVector<double>::InnerIterator it(w); it; ++it)
+    {
+      matrix_(it.index(), n + n_c + h) = -it.value();
+      matrix_(n + n_c + h, it.index()) = it.value();
+    }
+    if (at.a.size() > 0)
+      right_.row(n + n_c + h) = -at.a.row(held[std::size_t(h)].measure);
+  }
+  right_                  = lu_solution(matrix_, right_);
+  columns.a               = right_.topRows(n);
+  columns.u_acc.noalias() = W.transpose() * columns.a;
+  if (at.a.size() > 0)
+  {
+    k_ -= K_ * at.a;
+    columns.u_acc += at.a;
+  }
+  find_forces(at, columns);
+}
+
+/// G + c Gamma_v + c^2 Gamma_u [n_c x n_u]
+MatrixXd VariationalEquation::joint_rows(const Linearised &at, double c) const
+{
+  MatrixXd rows = c * c * at.Gamma_u + c * at.Gamma_v;
+  for (std::size_t b = 0; b < at.G.blocks().size(); ++b)
+  {
+    const ConstraintBlock &block = at.G.blocks()[b];
+    rows.block(block.first_row, block.first_measure, block.n_rows, block.n_measures) += at.G[b];
+  }
+  return rows;
+}
+
+MatrixXd VariationalEquation::joint_right(const Linearised &at, const MotionColumns &columns) const
+{
+  return -at.gamma - at.Gamma_u * columns.u - at.Gamma_v * columns.u_rate;
+}
+
+/// dp and dlambda, of which right_ holds what was solved for last: dlambda and dp_h.
+void VariationalEquation::find_forces(const Linearised &at, MotionColumns &columns) const
+{
+  const auto &held = machine_.forces().held();
+  const Index n_c = machine_.joints().n_rows(), n_h = Index(held.size());
+  columns.p = k_;
   columns.p.noalias() += K_ * columns.u_acc;
-  columns.lambda = right_.middleRows(n_u, n_c);
+  columns.lambda = right_.bottomRows(n_c + n_h).topRows(n_c);
   for (std::size_t b = 0; b < at.G.blocks().size() && n_c > 0; ++b)
   {
     const ConstraintBlock &block = at.G.blocks()[b];
@@ -195,8 +243,30 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
         at.G[b].transpose() * columns.lambda.middleRows(block.first_row, block.n_rows);
   }
   for (Index h = 0; h < n_h; ++h)
-    columns.p.row(held[std::size_t(h)].measure) = right_.row(n_u + n_c + h);
-  columns.a.noalias() += base.Y * columns.p;
+    columns.p.row(held[std::size_t(h)].measure) = right_.bottomRows(n_h).row(h);
+}
+
+void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &columns)
+{
+  const auto &W = machine_.forces().directions();
+  find_loads(at, c, columns);
+  columns.u.noalias()      = W.transpose() * columns.q;
+  columns.u_rate.noalias() = W.transpose() * columns.v;
+  if (at.u.size() > 0)
+  {
+    columns.u += at.u;
+    columns.u_rate += at.v;
+  }
+  K_ = c * c * at.P_u + c * at.P_v + at.P_a;
+  k_ = at.p;
+  k_.noalias() += at.P_u * columns.u;
+  k_.noalias() += at.P_v * columns.u_rate;
+  for (const HeldMeasure &h : machine_.forces().held())
+    k_.row(h.measure).setZero();
+  if (M_.size() > 0 && W.rows() < W.cols())
+    solve_whole(at, c, columns);
+  else
+    solve_condensed(base(c), at, c, columns);
   if (c == 0.)
     settle_lags(at, columns);
   columns.q += c * c * columns.a;

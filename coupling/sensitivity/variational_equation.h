@@ -29,7 +29,8 @@ struct MotionColumns
  * with the terms of MotionLinearisation.
  *
  * A stage of an implicit method, s = s_0 + c s', s' = s'_0 + c s'', is solved as a step of an integrator is, with
- * A = M + c B + c^2 C condensed to the measures; c = 0 gives the accelerations that belong to s and s'.
+ * A = M + c B + c^2 C, condensed to the measures where these are fewer than the coordinates; c = 0 gives the
+ * accelerations that belong to s and s'.
  *
  * Source: docs/sensitivities.md (2) to (5).
  */
@@ -58,15 +59,21 @@ private:
 
   const Base &base(double c);
   void        solve_base(const Base &base, const Eigen::MatrixXd &F, Eigen::MatrixXd &X) const;
-  void        solve_without_forces(const Base &base, const Linearised &at, double c, MotionColumns &columns);
-  void        border_joints(const Base &base, const Linearised &at, double c, const MotionColumns &columns);
-  void        settle_lags(const Linearised &at, MotionColumns &columns) const;
+  void        find_loads(const Linearised &at, double c, MotionColumns &columns);
+  void        solve_condensed(const Base &base, const Linearised &at, double c, MotionColumns &columns);
+  void        solve_whole(const Linearised &at, double c, MotionColumns &columns);
+  void        find_forces(const Linearised &at, MotionColumns &columns) const;
+
+  Eigen::MatrixXd joint_rows(const Linearised &at, double c) const;
+  Eigen::MatrixXd joint_right(const Linearised &at, const MotionColumns &columns) const;
+
+  void settle_lags(const Linearised &at, MotionColumns &columns) const;
 
   Machine               &machine_;
   MotionLinearisation    linearisation_;
   int                    n_parameters_;
   std::map<double, Base> bases_;
-  Eigen::MatrixXd        B_, C_; ///< of small systems, else empty
+  Eigen::MatrixXd        M_, B_, C_; ///< of small systems, else empty
   Eigen::VectorXd        mass_;
   std::vector<int>       lags_;           ///< coordinates without mass, ascending
   std::vector<double>    time_constants_; ///< [s] of them
