@@ -266,7 +266,8 @@ Result Session::run(const std::string &sensitivities)
   SceneTwins           twins;
   coupling::Trajectory trajectory;
   if (differentiated)
-    twins = scene_twins(root, path_, scripts_, scene_, prepared, keys);
+    twins =
+        scene_twins(root, path_, scripts_, scene_, prepared, keys, sensitivities == "all" ? &result.warnings : nullptr);
   result.run = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
                                : not_started(scene_.run.options, failure);
   if (differentiated && result.run->failure.empty() && !result.run->interrupted)

@@ -25,7 +25,7 @@ constexpr double weights[5][4] = {{0., 0., 0., 0.},
 /// Weights of the method less those of the embedded one.
 constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96., 125. / 16. - 225. / 32., 0., 1. / 4.};
 constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
-constexpr double weak           = 1e-3;     ///< coordinates that move less, in the norm of the mass, count as that
+constexpr double weak           = 0.1;      ///< coordinates that move less, in the norm of the mass, count as that
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
 constexpr int    most_halvings  = 30;
 constexpr int    looks          = 7; ///< at a piece, for what acts on it
