@@ -20,6 +20,7 @@
 #include "coupling/simulation/simulation.h"
 
 #include <algorithm>
+#include <ctime>
 #include <sstream>
 
 namespace gestell::apps
@@ -94,6 +95,11 @@ coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared
     failure = none.what();
     return {};
   }
+}
+
+double seconds(std::clock_t ticks)
+{
+  return double(ticks) / CLOCKS_PER_SEC;
 }
 
 constexpr int orbit_rows = 512; ///< of a period
@@ -272,14 +278,20 @@ Result Session::run(const std::string &sensitivities)
   result.asked    = {path_, overrides_, scene_.run.options};
   SceneTwins           twins;
   coupling::Trajectory trajectory;
+  const std::clock_t   at_twins = std::clock();
   if (differentiated)
-    twins = scene_twins(root, path_, scripts_, scene_, prepared, keys);
-  result.run = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
-                               : not_started(scene_.run.options, failure);
+    twins =
+        scene_twins(root, path_, scripts_, scene_, prepared, keys, sensitivities == "all" ? &result.warnings : nullptr);
+  const std::clock_t at_run     = std::clock();
+  result.run                    = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
+                                                  : not_started(scene_.run.options, failure);
+  const std::clock_t behind_run = std::clock();
   if (differentiated && result.run->failure.empty() && !result.run->interrupted)
   {
     progress()("sensitivities", -1.);
-    result.sensitivities = sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, result);
+    result.sensitivities            = sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, result);
+    result.sensitivities->run_cpu_s = seconds(behind_run - at_run);
+    result.sensitivities->cpu_s     = seconds(at_run - at_twins + std::clock() - behind_run);
   }
   progress()("results", -1.);
   result.orders = order_tracking(scene_, *result.run);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/sensitivity/output_derivatives.h"
 #include "coupling/sensitivity/parameter_twins.h"
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/trajectory.h"
@@ -9,16 +10,6 @@
 
 namespace gestell::coupling
 {
-
-/// A number that a run tells, with its derivatives by the parameters [K]; nan: it has none, and `note` tells why.
-struct OutputDerivatives
-{
-  std::string     output; ///< "F_P.max", "F_P.t_max", "F_P.final", "events.3.t"
-  std::string     unit;
-  double          value = 0.;
-  Eigen::VectorXd derivative; ///< [unit / unit of the parameter]
-  std::string     note{};     ///< of an event: "sheet tool_contact"; or why there is no derivative
-};
 
 struct RunSensitivities
 {

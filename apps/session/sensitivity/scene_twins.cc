@@ -3,7 +3,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
-#include "coupling/sensitivity/variational_equation.h"
+#include "coupling/sensitivity/motion_linearisation.h"
 
 #include <stdexcept>
 
@@ -96,10 +96,23 @@ coupling::MachineTwin told(const SceneTwin &of)
   return twin;
 }
 
+void add_twins(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
+               const PreparedMachine &prepared, const coupling::ReducedFrame *frame, VariedKey &key, SceneTwins &made)
+{
+  SceneTwin below = twin_of(root, path, scripts, scene, frame, key, -1.),
+            above = twin_of(root, path, scripts, scene, frame, key, 1.);
+  for (const SceneTwin *twin : {&below, &above})
+    require_same_structure(prepared.machine, twin->prepared->machine, key);
+  coupling::ParameterTwins twins{key.told.key, key.told.unit, key.told.value, key.step, told(below), told(above)};
+  made.scenes.push_back(std::move(below));
+  made.scenes.push_back(std::move(above));
+  made.twins.push_back(std::move(twins));
+}
+
 } // namespace
 
 SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
-                       PreparedMachine &prepared, std::vector<VariedKey> &keys)
+                       PreparedMachine &prepared, std::vector<VariedKey> &keys, std::vector<std::string> *left_out)
 {
   if (prepared.companion)
     throw std::invalid_argument("--sensitivities: a machine in modes (reduction.method = \"modal\") or on an unreduced "
@@ -111,19 +124,24 @@ SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scri
   std::optional<coupling::ReducedFrame> frame;
   if (frame_path(scene) == FramePath::reduce || frame_path(scene) == FramePath::from_file)
     frame = without_pictures(*prepared.machine.model().reduced_frame());
-  SceneTwins made;
+  SceneTwins             made;
+  std::vector<VariedKey> kept;
   for (VariedKey &key : keys)
-  {
-    for (const double sign : {-1., 1.})
+    try
     {
-      made.scenes.push_back(twin_of(root, path, scripts, scene, frame ? &*frame : nullptr, key, sign));
-      require_same_structure(prepared.machine, made.scenes.back().prepared->machine, key);
+      add_twins(root, path, scripts, scene, prepared, frame ? &*frame : nullptr, key, made);
+      kept.push_back(key);
     }
-    coupling::ParameterTwins twins{key.told.key, key.told.unit, key.told.value, key.step, {}, {}};
-    twins.minus = told(made.scenes[made.scenes.size() - 2]);
-    twins.plus  = told(made.scenes.back());
-    made.twins.push_back(std::move(twins));
-  }
+    catch (const std::invalid_argument &none)
+    {
+      if (!left_out)
+        throw;
+      left_out->push_back(none.what());
+    }
+  if (kept.empty())
+    throw std::invalid_argument("--sensitivities all: no parameter of this scene has a derivative: " +
+                                left_out->front());
+  keys = std::move(kept);
   return made;
 }
 

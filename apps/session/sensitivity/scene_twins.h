@@ -25,9 +25,11 @@ struct SceneTwins
   std::vector<coupling::ParameterTwins> twins;
 };
 
-/// @param root  of the scene with its overrides; its frame is `prepared`'s unless a key changes it
+/// @param root      of the scene with its overrides; the frame of all is that of `prepared`
+/// @param keys      without those that are left out
+/// @param left_out  gets a sentence for each key that has no derivative, and is left out; null: it is refused
 /// @throws std::invalid_argument where a scene is refused at such a value, or its machine is of another structure
 SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
-                       PreparedMachine &prepared, std::vector<VariedKey> &keys);
+                       PreparedMachine &prepared, std::vector<VariedKey> &keys, std::vector<std::string> *left_out);
 
 } // namespace gestell::apps

@@ -18,7 +18,7 @@ using gestell::mechanism::Clearance;
 RunOptions fine(double end)
 {
   RunOptions options;
-  options.method.tolerance = 1e-11;
+  options.method.tolerance = 1e-10;
   options.end              = end;
   return options;
 }
