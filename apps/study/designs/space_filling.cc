@@ -19,8 +19,8 @@ namespace
 using Generator =
     boost::random::mt19937_64; ///< its numbers are the same everywhere, those of std's distributions are not
 
-constexpr double work_of_exchanges = 4e7; ///< differences of two levels, some tenths of a second
-constexpr int    most_exchanges    = 20000;
+constexpr double work_of_exchanges = 3e8; ///< differences of two levels, some tenths of a second
+constexpr int    most_exchanges    = 100000;
 
 int random_below(int n, Generator &generator)
 {

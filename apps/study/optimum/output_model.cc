@@ -1,7 +1,15 @@
 #include "apps/study/optimum/output_model.h"
 
+#include <cmath>
+
 namespace gestell::apps
 {
+namespace
+{
+
+constexpr double remembered_point = 1e-9; ///< of coded values: walls that searches reach but for rounding
+
+} // namespace
 
 OutputModel model_of(std::vector<ResponseSurface> surfaces)
 {
@@ -21,10 +29,18 @@ OutputModel model_of(std::vector<ResponseSurface> surfaces)
   };
 }
 
+RememberedModel::PointKey RememberedModel::key_of(const Eigen::VectorXd &xi)
+{
+  PointKey key;
+  for (const double x : xi)
+    key.push_back(std::llround(x / remembered_point));
+  return key;
+}
+
 const OutputPoint &RememberedModel::at(const Eigen::VectorXd &xi, Derivatives derivatives)
 {
-  const std::vector<double> key(xi.data(), xi.data() + xi.size());
-  const auto                found = known_.find(key);
+  const PointKey key   = key_of(xi);
+  const auto     found = known_.find(key);
   if (found != known_.end() && (derivatives == Derivatives::none || found->second.derivatives.size() > 0))
     return found->second;
 

@@ -28,7 +28,7 @@ using OutputModel = std::function<OutputPoint(const Eigen::VectorXd &xi, Derivat
 /// The outputs of surfaces, in their order.
 OutputModel model_of(std::vector<ResponseSurface> surfaces);
 
-/// A model that computes each point once, however often it is asked: runs are dear.
+/// A model that computes each point once, however often it is asked: runs are dear.  Points within 1e-9 are the same.
 class RememberedModel
 {
 public:
@@ -40,9 +40,12 @@ public:
   int                n_failed() const { return n_failed_; } ///< points with a value that is not finite
 
 private:
-  OutputModel                                model_;
-  std::map<std::vector<double>, OutputPoint> known_;
-  int                                        n_evaluations_ = 0, n_failed_ = 0;
+  using PointKey = std::vector<long long>;
+  static PointKey key_of(const Eigen::VectorXd &xi);
+
+  OutputModel                     model_;
+  std::map<PointKey, OutputPoint> known_;
+  int                             n_evaluations_ = 0, n_failed_ = 0;
 };
 
 } // namespace gestell::apps

@@ -15,7 +15,7 @@ namespace
 
 constexpr int    most_corners     = 10;   ///< variables
 constexpr double least_weight     = 1e-3; ///< of a goal, so that the front's ends are not weakly dominated
-constexpr double same_point       = 1e-5; ///< of the ranges of the goals on the front
+constexpr double same_goals       = 1e-5; ///< of the ranges of the goals on the front
 constexpr double weight_of_others = 1e-4;
 constexpr double kept_limits      = 1e-6;
 
@@ -156,7 +156,7 @@ FrontScale scale_of(const Eigen::MatrixXd &front)
 /// Whether two rows differ by what searches leave.
 bool is_same(const Eigen::MatrixXd &goals, int a, int b, const Eigen::VectorXd &range)
 {
-  return (goals.row(a) - goals.row(b)).transpose().cwiseQuotient(range).cwiseAbs().maxCoeff() < same_point;
+  return (goals.row(a) - goals.row(b)).transpose().cwiseQuotient(range).cwiseAbs().maxCoeff() < same_goals;
 }
 
 std::vector<Sense> all_minimised(const OptimumTask &task)

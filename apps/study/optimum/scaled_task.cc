@@ -8,8 +8,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double first_step =
-    100.; ///< in half widths of the box, of the steepest variable: flatter ones reach its walls, too
+/// In half widths of the box, of the steepest variable: flatter ones reach its walls, too.
+constexpr double first_step = 100.;
 
 double positive_or_one(double x)
 {
