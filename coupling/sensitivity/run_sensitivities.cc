@@ -1,5 +1,7 @@
 #include "coupling/sensitivity/run_sensitivities.h"
 
+#include "coupling/sensitivity/meeting_events.h"
+#include "coupling/sensitivity/signal_derivatives.h"
 #include "coupling/sensitivity/variational_steps.h"
 
 #include <algorithm>
@@ -21,22 +23,14 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 constexpr double finest = 1e-8, coarsest = 1e-6; ///< tolerances of a step of the variational equations
-constexpr double little      = 0.02;             ///< of their step, over which rates in time are taken
-constexpr double same_time   = 1e-9;             ///< of the run's length
-constexpr double jump        = 1e-6;             ///< of the fastest coordinate: velocities that differ by more jump
-constexpr double touching    = 1e-6; ///< of what a guard moves in a step, its rate: it touches its zero only
-constexpr double one_percent = 0.01;
+constexpr double little    = 0.02;               ///< of their step, over which rates in time are taken
+constexpr double same_time = 1e-9;               ///< of the run's length
+constexpr double jump      = 1e-6;               ///< of the fastest coordinate: velocities that differ by more jump
+constexpr double touching  = 1e-6; ///< of what a guard moves in a step, its rate: it touches its zero only
 
 constexpr double expected = 0.01; ///< relative change of the motion by that of a parameter: less need not be exact
 
 const double none = std::numeric_limits<double>::quiet_NaN();
-
-/// Signals at a motion, [n_y], and their derivatives [n_y x K].
-struct Told
-{
-  VectorXd y;
-  MatrixXd dy;
-};
 
 /// The run gone over once more, with its derivatives.
 class Passage
@@ -55,32 +49,22 @@ private:
 
   void        start();
   void        expect();
-  void        warn_of_order();
   void        compare_structures(double t, const std::string &after);
   void        pass_piece(std::size_t number);
   void        take_events(std::size_t number);
   void        take_transition(int guard, const MotionState &state, const MotionColumns &columns, const RowVectorXd &dt);
   void        tell_piece_begin(std::size_t number);
-  void        look_at_extremes(double t);
   void        at_extreme(Extreme &extreme);
   void        at_event_extreme(Extreme &extreme, const Told &told, const VectorXd &rates, const RowVectorXd &dt);
-  Told        tell(const MotionState &state, const MotionColumns &columns);
-  VectorXd    values(const MotionState &state);
-  void        find_rates(const MotionState &state, double way, LocalState &rates, VectorXd &y_rates);
-  MotionState moved(const MotionState &state, const VectorXd &jerk, double by);
-  MotionColumns moved(const MotionState &at, const MotionColumns &columns, double by);
-  VectorXd      jerk(const MotionState &state, double by);
-  void find_signal_rates(const MotionState &state, const MotionColumns &columns, VectorXd &rate, VectorXd &second,
-                         MatrixXd &d_rate);
-  RowVectorXd        event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns);
+  RowVectorXd event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns);
   OutputDerivatives &output(const Extreme &extreme, bool instant);
   void               set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant);
-  LocalState         local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const;
 
   const SensitivityProblem &problem_;
   Machine                  &machine_;
   int                       K_;
   VariationalEquation       equation_;
+  SignalDerivatives         signals_;
   VariationalSteps          steps_;
   RunSensitivities          result_;
   std::vector<Extreme>      extremes_;
@@ -110,6 +94,7 @@ double first_step(const SensitivityProblem &problem)
 
 Passage::Passage(const SensitivityProblem &problem)
     : problem_(problem), machine_(problem.machine), K_(int(problem.twins.size())), equation_(machine_, problem.twins),
+      signals_(machine_, problem.signals, problem.twins, equation_),
       steps_(equation_, first_step(problem), tolerance_for(problem.options.method))
 {
   near_ = same_time * (problem.options.end - problem.options.begin);
@@ -216,95 +201,6 @@ void Passage::compare_structures(double t, const std::string &after)
     }
 }
 
-LocalState Passage::local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const
-{
-  LocalState local = state.local;
-  local.u += by * columns.u.col(k);
-  local.v += by * columns.u_rate.col(k);
-  local.a += by * columns.u_acc.col(k);
-  local.p += by * columns.p.col(k);
-  local.lambda += by * columns.lambda.col(k);
-  return local;
-}
-
-Told Passage::tell(const MotionState &state, const MotionColumns &columns)
-{
-  Told told{values(state), MatrixXd(Index(problem_.signals.size()), K_)};
-  for (int k = 0; k < K_; ++k)
-  {
-    const ParameterTwins &twins = problem_.twins[std::size_t(k)];
-    const double          h     = twins.step;
-    const LocalState      above = local_at(state, columns, k, h), below = local_at(state, columns, k, -h);
-    const VectorXd        q_above = state.q + h * columns.q.col(k), q_below = state.q - h * columns.q.col(k),
-                   v_above = state.v + h * columns.v.col(k), v_below = state.v - h * columns.v.col(k),
-                   a_above = state.a + h * columns.a.col(k), a_below = state.a - h * columns.a.col(k);
-    for (std::size_t i = 0; i < problem_.signals.size(); ++i)
-      told.dy(Index(i), k) = (twins.plus.machine->evaluate(twins.plus.signals[i], q_above, v_above, a_above, above) -
-                              twins.minus.machine->evaluate(twins.minus.signals[i], q_below, v_below, a_below, below)) /
-                             (2. * h);
-  }
-  return told;
-}
-
-VectorXd Passage::values(const MotionState &state)
-{
-  VectorXd y(Index(problem_.signals.size()));
-  for (std::size_t i = 0; i < problem_.signals.size(); ++i)
-    y[Index(i)] = machine_.evaluate(problem_.signals[i], state.q, state.v, state.a, state.local);
-  return y;
-}
-
-/// The motion at another instant by Taylor's series, on the branches of here.
-MotionState Passage::moved(const MotionState &state, const VectorXd &jerk, double by)
-{
-  MotionState there = state;
-  there.t           = state.t + by;
-  there.q           = state.q + by * state.v + 0.5 * by * by * state.a + by * by * by / 6. * jerk;
-  there.v           = state.v + by * state.a + 0.5 * by * by * jerk;
-  equation_.complete(there);
-  return there;
-}
-
-VectorXd Passage::jerk(const MotionState &state, double by)
-{
-  const VectorXd zero = VectorXd::Zero(state.q.size());
-  return (moved(state, zero, by).a - moved(state, zero, -by).a) / (2. * by);
-}
-
-/// Columns that go with moved().
-MotionColumns Passage::moved(const MotionState &at, const MotionColumns &columns, double by)
-{
-  MotionColumns there;
-  there.q = columns.q + by * columns.v + 0.5 * by * by * columns.a;
-  there.v = columns.v + by * columns.a;
-  Linearised linearised;
-  equation_.linearise(at, linearised);
-  equation_.solve(linearised, 0., there);
-  return there;
-}
-
-/// Rates of the measures and forces, and of the signals, by central quotients of two distances: order 4.
-void Passage::find_rates(const MotionState &state, double way, LocalState &rates, VectorXd &y_rates)
-{
-  const VectorXd j = jerk(state, way);
-  rates            = state.local;
-  y_rates.setZero(Index(problem_.signals.size()));
-  for (VectorXd *x : {&rates.u, &rates.v, &rates.a, &rates.p, &rates.lambda})
-    x->setZero();
-  for (const auto &[by, weight] : {std::pair(way, 8. / 12.), std::pair(2. * way, -1. / 12.)})
-    for (const double sign : {1., -1.})
-    {
-      const MotionState there  = moved(state, j, sign * by);
-      const double      factor = sign * weight / way;
-      rates.u += factor * there.local.u;
-      rates.v += factor * there.local.v;
-      rates.a += factor * there.local.a;
-      rates.p += factor * there.local.p;
-      rates.lambda += factor * there.local.lambda;
-      y_rates += factor * values(there);
-    }
-}
-
 /// dt_e of a guard that is zero here, before its transition.
 RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns)
 {
@@ -312,7 +208,7 @@ RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state,
   VectorXd     g(std::max(1, machine_.events().n_guards())), below = g, above = g;
   const auto   guard_at = [&](double by)
   {
-    const MotionState there = moved(state, VectorXd::Zero(state.q.size()), by);
+    const MotionState there = signals_.moved(state, VectorXd::Zero(state.q.size()), by);
     machine_.events().guard_values(there.local, g);
     return g[guard];
   };
@@ -322,8 +218,8 @@ RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state,
   for (int k = 0; k < K_; ++k)
   {
     const ParameterTwins &twins = problem_.twins[std::size_t(k)];
-    twins.plus.machine->events().guard_values(local_at(state, columns, k, twins.step), above);
-    twins.minus.machine->events().guard_values(local_at(state, columns, k, -twins.step), below);
+    twins.plus.machine->events().guard_values(signals_.local_at(state, columns, k, twins.step), above);
+    twins.minus.machine->events().guard_values(signals_.local_at(state, columns, k, -twins.step), below);
     dt[k] = -(above[guard] - below[guard]) / (2. * twins.step) / rate;
   }
   const double moves = std::abs(guard_at(steps_.step()) - guard_at(-steps_.step())) +
@@ -344,14 +240,14 @@ void Passage::take_transition(int guard, const MotionState &state, const MotionC
 {
   LocalState rates;
   VectorXd   y_rates;
-  find_rates(state, little * steps_.step(), rates, y_rates);
+  signals_.find_rates(state, little * steps_.step(), rates, y_rates);
   for (int k = 0; k < K_; ++k)
   {
     const ParameterTwins &twins = problem_.twins[std::size_t(k)];
     for (const double sign : {1., -1.})
     {
       EventSystem &events = (sign > 0. ? twins.plus : twins.minus).machine->events();
-      LocalState   local  = local_at(state, columns, k, sign * twins.step);
+      LocalState   local  = signals_.local_at(state, columns, k, sign * twins.step);
       const double by     = sign * twins.step * dt[k];
       local.t += by;
       local.u += by * rates.u;
@@ -373,12 +269,12 @@ void Passage::take_events(std::size_t number)
   const SmoothPiece &piece   = problem_.trajectory.pieces()[number];
   MotionState        state   = steps_.state();
   MotionColumns      columns = steps_.columns();
-  equation_.begin_piece({});
+  equation_.linearisation().begin_piece({});
   dt_ = event_time_derivatives(piece.guards.front(), state, columns);
   LocalState rates;
   VectorXd   y_rates;
-  find_rates(state, little * steps_.step(), rates, y_rates);
-  const Told told = tell(state, columns);
+  signals_.find_rates(state, little * steps_.step(), rates, y_rates);
+  const Told told = signals_.tell(state, columns);
   for (Extreme &extreme : extremes_)
     if (std::abs(extreme.t - state.t) <= near_)
       at_event_extreme(extreme, told, y_rates, dt_);
@@ -390,11 +286,11 @@ void Passage::take_events(std::size_t number)
     take_transition(guard, state, columns, dt_);
     compare_structures(state.t, "\"" + name + "\"");
     const VectorXd before = state.a;
-    equation_.complete(state);
+    equation_.linearisation().complete(state);
     s_rate_   = columns.v + (before - state.a) * dt_;
     columns.v = s_rate_;
     Linearised at;
-    equation_.linearise(state, at);
+    equation_.linearisation().linearise(state, at);
     equation_.solve(at, 0., columns);
   }
   s_      = columns.q;
@@ -425,39 +321,15 @@ void Passage::at_event_extreme(Extreme &extreme, const Told &told, const VectorX
   set(extreme, told.dy.row(i).transpose() + rates[i] * dt.transpose(), dt.transpose());
 }
 
-/// y', y'' and the rate of dy/dx here, of all signals.
-void Passage::find_signal_rates(const MotionState &state, const MotionColumns &columns, VectorXd &rate,
-                                VectorXd &second, MatrixXd &d_rate)
-{
-  const double   way = little * steps_.step();
-  const VectorXd j = jerk(state, way), here = values(state);
-  const Index    n = here.size();
-  rate.setZero(n);
-  second.setZero(n);
-  d_rate.setZero(n, K_);
-  for (const auto &[by, of_rate, of_second] :
-       {std::tuple(way, 8. / 12., 16. / 12.), std::tuple(2. * way, -1. / 12., -1. / 12.)})
-    for (const double sign : {1., -1.})
-    {
-      const MotionState there = moved(state, j, sign * by);
-      const Told        told  = tell(there, moved(there, columns, sign * by));
-      rate += sign * of_rate / way * told.y;
-      d_rate += sign * of_rate / way * told.dy;
-      second += of_second / (way * way) * (told.y - here);
-    }
-}
-
 void Passage::at_extreme(Extreme &extreme)
 {
-  const MotionState   &state   = steps_.state();
-  const MotionColumns &columns = steps_.columns();
-  const Told           told    = tell(state, columns);
-  VectorXd             rate, second;
-  MatrixXd             d_rate;
-  find_signal_rates(state, columns, rate, second, d_rate);
-  const Index    i     = Index(extreme.signal);
-  const double   shift = second[i] != 0. ? -rate[i] / second[i] : 0.; // to where the signal turns
-  const VectorXd slope = d_rate.row(i).transpose();
+  const MotionState   &state        = steps_.state();
+  const MotionColumns &columns      = steps_.columns();
+  const Told           told         = signals_.tell(state, columns);
+  const auto [rate, second, d_rate] = signals_.rates(state, columns, little * steps_.step());
+  const Index    i                  = Index(extreme.signal);
+  const double   shift              = second[i] != 0. ? -rate[i] / second[i] : 0.; // to where the signal turns
+  const VectorXd slope              = d_rate.row(i).transpose();
   set(extreme, told.dy.row(i).transpose() + shift * slope,
       second[i] != 0. ? VectorXd(-slope / second[i]) : VectorXd::Constant(K_, none));
 }
@@ -470,11 +342,11 @@ void Passage::tell_piece_begin(std::size_t number)
                                          [&](const Extreme &e) { return std::abs(e.t - state.t) <= near_; });
   if (!any)
     return;
-  const Told told = tell(state, steps_.columns());
+  const Told told = signals_.tell(state, steps_.columns());
   LocalState rates;
   VectorXd   y_rates = VectorXd::Zero(told.y.size());
   if (number > 0)
-    find_rates(state, little * steps_.step(), rates, y_rates);
+    signals_.find_rates(state, little * steps_.step(), rates, y_rates);
   for (Extreme &extreme : extremes_)
     if (std::abs(extreme.t - state.t) <= near_)
       at_event_extreme(extreme, told, y_rates, dt_);
@@ -505,39 +377,6 @@ void Passage::pass_piece(std::size_t number)
     take_events(number);
 }
 
-/// By which share of its value a parameter makes neighbouring events meet, to first order: beyond, they change places
-/// and the derivative says nothing.
-void Passage::warn_of_order()
-{
-  std::vector<const OutputDerivatives *> events;
-  for (const OutputDerivatives &output : result_.outputs)
-    if (output.output.compare(0, 7, "events.") == 0)
-      events.push_back(&output);
-  for (int k = 0; k < K_; ++k)
-  {
-    const double value    = std::abs(problem_.twins[std::size_t(k)].value);
-    double       smallest = one_percent;
-    std::string  which;
-    for (std::size_t i = 1; i < events.size(); ++i)
-    {
-      const double gap   = events[i]->value - events[i - 1]->value;
-      const double share = gap / (std::abs(events[i]->derivative[k] - events[i - 1]->derivative[k]) * value);
-      if (gap > near_ && share < smallest)
-      {
-        smallest = share;
-        which    = events[i - 1]->note + " and " + events[i]->note;
-      }
-    }
-    if (which.empty())
-      continue;
-    std::ostringstream text;
-    text.precision(2);
-    text << "a change of " << problem_.twins[std::size_t(k)].key << " by " << 100. * smallest << " % makes " << which
-         << " meet; its derivatives hold for less";
-    result_.warnings.push_back(text.str());
-  }
-}
-
 RunSensitivities Passage::result()
 {
   const auto wall = std::chrono::steady_clock::now();
@@ -546,10 +385,10 @@ RunSensitivities Passage::result()
   lambda_ = VectorXd::Zero(machine_.joints().n_rows());
   for (std::size_t i = 0; i < problem_.trajectory.pieces().size(); ++i)
     pass_piece(i);
-  const Told told = tell(steps_.state(), steps_.columns());
+  const Told told = signals_.tell(steps_.state(), steps_.columns());
   LocalState rates;
   VectorXd   y_rates;
-  find_rates(steps_.state(), little * steps_.step(), rates, y_rates);
+  signals_.find_rates(steps_.state(), little * steps_.step(), rates, y_rates);
   RowVectorXd end(K_);
   for (int k = 0; k < K_; ++k)
     end[k] = (problem_.twins[std::size_t(k)].plus.end - problem_.twins[std::size_t(k)].minus.end) /
@@ -559,9 +398,9 @@ RunSensitivities Passage::result()
   for (Extreme &extreme : extremes_)
     if (std::abs(extreme.t - steps_.state().t) <= near_)
       set(extreme, result_.outputs[5 * extreme.signal + 4].derivative, end.transpose());
-  warn_of_order();
-  result_.steps  = steps_.steps();
-  result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  result_.warnings = meeting_events(result_.outputs, problem_.twins, near_);
+  result_.steps    = steps_.steps();
+  result_.wall_s   = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   return std::move(result_);
 }
 

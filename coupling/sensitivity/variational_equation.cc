@@ -3,8 +3,6 @@
 #include "coupling/integration/system/dense_solvers.h"
 
 #include <algorithm>
-#include <cmath>
-#include <stdexcept>
 
 namespace gestell::coupling
 {
@@ -15,54 +13,20 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index       largest_inverse = 200;  ///< coordinates of systems whose A^-1 is kept
-constexpr std::size_t most_bases      = 64;   ///< factors kept
-constexpr double      bend            = 1e-6; ///< of the size of a joint, by which its measures are moved
-constexpr double      shift           = 1e-7; ///< of the size of an element, likewise
-constexpr double      exact           = 1e-5; ///< of derivatives: quotients do not differ by more
-constexpr double      slow            = 1e-3; ///< [m/s, rad/s] speed below which measures are moved as if they had it
-
-bool same(const VectorXd &a, const VectorXd &b)
-{
-  return a == b;
-}
-
-/// (plus - minus)/2 step as a sparse matrix; empty if it is zero.
-Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, const Eigen::SparseMatrix<double> &plus,
-                                     double step)
-{
-  Eigen::SparseMatrix<double> difference = (plus - minus) / (2. * step);
-  difference.prune(0.);
-  return difference.nonZeros() > 0 ? difference : Eigen::SparseMatrix<double>();
-}
+constexpr Index       largest_inverse = 200; ///< coordinates of systems whose A^-1 is kept
+constexpr std::size_t most_bases      = 64;  ///< factors kept
 } // namespace
 
-void require_variational(const Machine &machine)
-{
-  if (machine.forces().need_multipliers())
-    throw std::invalid_argument("sensitivities: friction in an ideal joint follows from the force of the joint, which "
-                                "the variational equations do not carry yet; make the joint compliant, or take "
-                                "differences of two runs with --set");
-}
-
 VariationalEquation::VariationalEquation(Machine &machine, const std::vector<ParameterTwins> &twins)
-    : machine_(machine), twins_(twins),
-      consistent_((require_variational(machine), machine), "the variational equations")
+    : machine_(machine), linearisation_(machine, twins), n_parameters_(int(twins.size())),
+      lags_(machine.linear().virtual_coordinates())
 {
-  const Index n = machine.size(), n_u = machine.forces().directions().cols(), n_c = machine.joints().n_rows();
-  for (VectorXd *x : {&minus_, &plus_, &product_})
-    x->setZero(std::max(n, n_u));
-  for (VectorXd *x : {&rate_, &bias_, &g_})
-    x->setZero(n_c);
-  G_minus_ = G_plus_ = ConstraintJacobian(machine.joints().blocks());
-  moved_.resize(machine);
-  blocks_ = machine.forces().blocks();
-  lags_   = machine.linear().virtual_coordinates();
-  inexact_.assign(blocks_.size(), 0);
-  MatrixXd M;
+  const Index n = machine.size();
+  MatrixXd    M;
   if (n > largest_inverse || !machine.linear().dense_matrices(M, B_, C_))
     B_.resize(0, 0);
   mass_.resize(n);
+  product_.resize(n);
   VectorXd unit = VectorXd::Zero(n), column(n);
   for (Index i = 0; i < n; ++i)
   {
@@ -75,294 +39,6 @@ VariationalEquation::VariationalEquation(Machine &machine, const std::vector<Par
       time_constants_.push_back(column[i]);
     }
     unit[i] = 0.;
-  }
-  find_changes();
-}
-
-/// By products with a vector that has no zeros: equal bit by bit means equal matrices.
-void VariationalEquation::find_changes()
-{
-  const Index n = machine_.size();
-  VectorXd    x(n), minus(n), plus(n);
-  for (Index i = 0; i < n; ++i)
-    x[i] = 1. + 0.37 * std::sin(1. + double(i));
-  for (const ParameterTwins &twin : twins_)
-  {
-    const LinearSystem &below = twin.minus.machine->linear(), &above = twin.plus.machine->linear();
-    Changes             change;
-    const auto          differ = [&](auto product)
-    {
-      (below.*product)(x, minus);
-      (above.*product)(x, plus);
-      return !same(minus, plus);
-    };
-    change.mass      = differ(&LinearSystem::mass_times);
-    change.damping   = differ(&LinearSystem::damping_times);
-    change.stiffness = differ(&LinearSystem::stiffness_times);
-    change.load =
-        !below.excitation().is_constant() || !same(below.excitation().constant(), above.excitation().constant());
-    change.W = quotient(twin.minus.machine->forces().directions(), twin.plus.machine->forces().directions(), twin.step);
-    changes_.push_back(std::move(change));
-  }
-}
-
-void VariationalEquation::complete(MotionState &state)
-{
-  const auto &W           = machine_.forces().directions();
-  state.local.t           = state.t;
-  state.local.u.noalias() = W.transpose() * state.q;
-  state.local.v.noalias() = W.transpose() * state.v;
-  keep_held_rates(machine_, state.local.v);
-  state.a.resize(state.q.size());
-  consistent_.solve(state.q, state.v, state.a, state.local, work_);
-  for (const int i : lags_)
-    state.a[i] = 0.;
-}
-
-void VariationalEquation::begin_piece(const std::vector<MotionState> &passed)
-{
-  for (Changes &what : changes_)
-    what.forces = what.joints = true;
-  of_accelerations_ = true;
-  for (const MotionState &state : passed)
-    find_inexact(state);
-  Linearised at;
-  MatrixXd   p, gamma, P_a;
-  for (const MotionState &state : passed)
-  {
-    linearise(state, at);
-    for (auto &[sum, part] : {std::pair(&p, &at.p), std::pair(&gamma, &at.gamma), std::pair(&P_a, &at.P_a)})
-    {
-      if (sum->size() == 0)
-        sum->setZero(part->rows(), part->cols());
-      *sum += part->cwiseAbs();
-    }
-  }
-  for (std::size_t k = 0; k < changes_.size() && !passed.empty(); ++k)
-  {
-    changes_[k].forces = !p.col(Index(k)).isZero(0.);
-    changes_[k].joints = changes_[k].forces || !gamma.col(Index(k)).isZero(0.);
-  }
-  of_accelerations_ = passed.empty() || !P_a.isZero(0.);
-}
-
-void VariationalEquation::linearise(const MotionState &state, Linearised &at)
-{
-  const Index n = machine_.size(), n_u = state.local.u.size(), n_c = machine_.joints().n_rows(), K = n_parameters();
-  at.P_u.setZero(n_u, n_u);
-  at.P_v.setZero(n_u, n_u);
-  product_.resize(n_u);
-  machine_.forces().derivatives(state.local, product_, at.P_u, at.P_v);
-  differentiate(state, inexact_, at);
-  if (of_accelerations_)
-  {
-    at.P_a.resize(n_u, n_u);
-    machine_.forces().tangent(state.local, 0., 0., 1., product_, at.P_a);
-  }
-  else
-    at.P_a.setZero(n_u, n_u);
-  for (const HeldMeasure &h : machine_.forces().held())
-    for (MatrixXd *P : {&at.P_u, &at.P_v, &at.P_a})
-      P->row(h.measure).setZero();
-  at.r.setZero(n, K);
-  at.p.setZero(n_u, K);
-  at.gamma.setZero(n_c, K);
-  const bool turns = std::any_of(changes_.begin(), changes_.end(), [](const Changes &c) { return c.W.size() > 0; });
-  for (MatrixXd *x : {&at.u, &at.v, &at.a})
-    x->setZero(turns ? n_u : 0, turns ? K : 0);
-  for (int k = 0; k < K; ++k)
-  {
-    add_loads(state, k, at);
-    if (changes_[std::size_t(k)].forces)
-      add_forces(state, k, at);
-  }
-  if (n_c > 0)
-    add_joints(state, at);
-}
-
-/// Quotients for P_u and P_v of the blocks that are marked, by moving the same measure of all at once.
-void VariationalEquation::differentiate(const MotionState &state, const std::vector<char> &marked, Linearised &at)
-{
-  int most = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    most = marked[b] ? std::max(most, blocks_[b].n_measures) : most;
-  for (int j = 0; j < most; ++j)
-    for (const bool rates : {false, true})
-    {
-      const auto way = [&](const ForceBlock &block)
-      {
-        const int    measure = block.first_measure + j;
-        const double x       = std::abs(rates ? state.local.v[measure] : state.local.u[measure]);
-        const double size    = rates ? slow : block.size > 0. ? block.size : 1.;
-        return shift * std::max(x, size);
-      };
-      const auto forces_at = [&](double sign, VectorXd &p)
-      {
-        moved_      = state.local;
-        VectorXd &x = rates ? moved_.v : moved_.u;
-        for (std::size_t b = 0; b < blocks_.size(); ++b)
-          if (marked[b] && j < blocks_[b].n_measures)
-            x[blocks_[b].first_measure + j] += sign * way(blocks_[b]);
-        p = state.local.p;
-        machine_.forces().force(moved_, p);
-      };
-      forces_at(-1., minus_);
-      forces_at(1., plus_);
-      for (std::size_t b = 0; b < blocks_.size(); ++b)
-        if (const ForceBlock &block = blocks_[b]; marked[b] && j < block.n_measures)
-          (rates ? at.P_v : at.P_u).col(block.first_measure + j).segment(block.first_measure, block.n_measures) =
-              (plus_ - minus_).segment(block.first_measure, block.n_measures) * (0.5 / way(block));
-    }
-}
-
-void VariationalEquation::find_inexact(const MotionState &state)
-{
-  const Index n_u = state.local.u.size();
-  Linearised  told, seen;
-  for (Linearised *at : {&told, &seen})
-  {
-    at->P_u.setZero(n_u, n_u);
-    at->P_v.setZero(n_u, n_u);
-  }
-  product_.resize(n_u);
-  machine_.forces().derivatives(state.local, product_, told.P_u, told.P_v);
-  differentiate(state, std::vector<char>(blocks_.size(), 1), seen);
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (MatrixXd Linearised::*P : {&Linearised::P_u, &Linearised::P_v})
-    {
-      const int      first = blocks_[b].first_measure, k = blocks_[b].n_measures;
-      const MatrixXd own = (told.*P).block(first, first, k, k), other = (seen.*P).block(first, first, k, k);
-      if (!((own - other).cwiseAbs().maxCoeff() <= exact * other.cwiseAbs().maxCoeff()))
-        inexact_[b] = 1;
-    }
-}
-
-void VariationalEquation::add_loads(const MotionState &state, int k, Linearised &at)
-{
-  const ParameterTwins &twin  = twins_[std::size_t(k)];
-  const Changes        &what  = changes_[std::size_t(k)];
-  const LinearSystem   &below = twin.minus.machine->linear(), &above = twin.plus.machine->linear();
-  const double          quotient = 0.5 / twin.step;
-  minus_.resize(state.q.size());
-  plus_.resize(state.q.size());
-  const auto add = [&](bool changed, auto product, const VectorXd &x)
-  {
-    if (!changed)
-      return;
-    (below.*product)(x, minus_);
-    (above.*product)(x, plus_);
-    at.r.col(k) -= quotient * (plus_ - minus_);
-  };
-  add(what.mass, &LinearSystem::mass_times, state.a);
-  add(what.damping, &LinearSystem::damping_times, state.v);
-  add(what.stiffness, &LinearSystem::stiffness_times, state.q);
-  if (what.load)
-  {
-    below.excitation().at(state.t, minus_);
-    above.excitation().at(state.t, plus_);
-    at.r.col(k) += quotient * (plus_ - minus_);
-  }
-  if (what.W.size() == 0)
-    return;
-  at.r.col(k) += what.W * state.local.p;
-  at.u.col(k) = what.W.transpose() * state.q;
-  at.v.col(k) = what.W.transpose() * state.v;
-  at.a.col(k) = what.W.transpose() * state.a;
-}
-
-void VariationalEquation::add_forces(const MotionState &state, int k, Linearised &at)
-{
-  const ParameterTwins &twin = twins_[std::size_t(k)];
-  minus_ = plus_ = state.local.p;
-  twin.minus.machine->forces().force(state.local, minus_);
-  twin.plus.machine->forces().force(state.local, plus_);
-  at.p.col(k) = (plus_ - minus_) * (0.5 / twin.step);
-}
-
-/// G u'' + bias [n_c] at a motion, and G.
-void VariationalEquation::joint_terms(const Machine &machine, const LocalState &local, VectorXd &terms,
-                                      ConstraintJacobian &G)
-{
-  machine.joints().constraints(local, g_, G);
-  machine.joints().rates(local, rate_, bias_);
-  terms = bias_;
-  G.add_product(1., local.a, terms);
-}
-
-void VariationalEquation::add_joints(const MotionState &state, Linearised &at)
-{
-  const Index n_c = machine_.joints().n_rows(), n_u = state.local.u.size();
-  if (at.G.n_rows() != n_c)
-    at.G = ConstraintJacobian(machine_.joints().blocks());
-  machine_.joints().constraints(state.local, g_, at.G);
-  at.Gamma_u.setZero(n_c, n_u);
-  at.Gamma_v.setZero(n_c, n_u);
-  bend_joints(state, &LocalState::u, at.Gamma_u, &at.P_u);
-  bend_joints(state, &LocalState::v, at.Gamma_v, nullptr);
-  VectorXd below(n_c), above(n_c), p_below = VectorXd::Zero(n_u), p_above = p_below;
-  for (int k = 0; k < n_parameters(); ++k)
-  {
-    if (!changes_[std::size_t(k)].joints)
-      continue;
-    const ParameterTwins &twin     = twins_[std::size_t(k)];
-    const double          quotient = 0.5 / twin.step;
-    joint_terms(*twin.minus.machine, state.local, below, G_minus_);
-    joint_terms(*twin.plus.machine, state.local, above, G_plus_);
-    at.gamma.col(k) = quotient * (above - below);
-    p_below.setZero();
-    p_above.setZero();
-    G_minus_.set_forces(state.local.lambda, p_below);
-    G_plus_.set_forces(state.local.lambda, p_above);
-    for (const ConstraintBlock &block : machine_.joints().blocks())
-      at.p.col(k).segment(block.first_measure, block.n_measures) =
-          quotient * (p_above - p_below).segment(block.first_measure, block.n_measures);
-  }
-}
-
-/// Derivatives of G u'' + bias and of G^T lambda, by moving the same measure of all joints at once: no two share one.
-void VariationalEquation::bend_joints(const MotionState &state, VectorXd LocalState::*moved, MatrixXd &Gamma,
-                                      MatrixXd *P)
-{
-  const auto &blocks = machine_.joints().blocks();
-  int         most   = 0;
-  for (const ConstraintBlock &block : blocks)
-    most = std::max(most, block.n_measures);
-  VectorXd below(Gamma.rows()), above(Gamma.rows()), p_below = VectorXd::Zero(Gamma.cols()), p_above = p_below;
-  for (int j = 0; j < most; ++j)
-  {
-    const auto way = [&](const ConstraintBlock &block)
-    {
-      const double size = block.size > 0. ? block.size : 1.;
-      return bend * (P ? size : std::max(size, std::abs((state.local.*moved)[block.first_measure + j])));
-    };
-    const auto move = [&](double sign)
-    {
-      moved_ = state.local;
-      for (const ConstraintBlock &block : blocks)
-        if (j < block.n_measures)
-          (moved_.*moved)[block.first_measure + j] += sign * way(block);
-    };
-    move(-1.);
-    joint_terms(machine_, moved_, below, G_minus_);
-    move(1.);
-    joint_terms(machine_, moved_, above, G_plus_);
-    if (P)
-    {
-      G_minus_.set_forces(state.local.lambda, p_below);
-      G_plus_.set_forces(state.local.lambda, p_above);
-    }
-    for (const ConstraintBlock &block : blocks)
-    {
-      if (j >= block.n_measures)
-        continue;
-      const double quotient = 0.5 / way(block);
-      const int    column   = block.first_measure + j;
-      Gamma.col(column).segment(block.first_row, block.n_rows) =
-          quotient * (above - below).segment(block.first_row, block.n_rows);
-      if (P)
-        P->col(column).segment(block.first_measure, block.n_measures) =
-            quotient * (p_above - p_below).segment(block.first_measure, block.n_measures);
-    }
   }
 }
 
@@ -426,15 +102,9 @@ void VariationalEquation::solve_base(const Base &base, const MatrixXd &F, Matrix
   }
 }
 
-void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &columns)
+/// A a = r - B s'_0 - C (s_0 + c s'_0)
+void VariationalEquation::solve_without_forces(const Base &base, const Linearised &at, double c, MotionColumns &columns)
 {
-  const Base &base = this->base(c);
-  const auto &W    = machine_.forces().directions();
-  const Index n_u = W.cols(), n_c = machine_.joints().n_rows(), K = n_parameters();
-  const auto &held = machine_.forces().held();
-  const Index n_h = Index(held.size()), size = n_u + n_c + n_h;
-
-  // Without forces: A a = r - B s'_0 - C (s_0 + c s'_0)
   columns.q += c * columns.v;
   F_ = at.r;
   if (B_.size() > 0)
@@ -443,15 +113,43 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
     F_.noalias() -= C_ * columns.q;
   }
   else
-    for (Index k = 0; k < K; ++k)
+    for (Index k = 0; k < n_parameters_; ++k)
     {
-      product_.resize(F_.rows());
       machine_.linear().damping_times(columns.v.col(k), product_);
       F_.col(k) -= product_;
       machine_.linear().stiffness_times(columns.q.col(k), product_);
       F_.col(k) -= product_;
     }
   solve_base(base, F_, columns.a);
+}
+
+/// Rows and columns of the joints behind those of the measures.
+void VariationalEquation::border_joints(const Base &base, const Linearised &at, double c, const MotionColumns &columns)
+{
+  const Index n_u = base.S.rows(), n_c = at.G.n_rows();
+  S_G_.resize(n_u, n_c);
+  at.G.times_transposed(base.S, S_G_);
+  matrix_.block(0, n_u, n_u, n_c) = -S_G_;
+  matrix_.block(n_u, 0, n_c, n_u) = c * c * at.Gamma_u + c * at.Gamma_v;
+  for (std::size_t b = 0; b < at.G.blocks().size(); ++b)
+  {
+    const ConstraintBlock &block = at.G.blocks()[b];
+    matrix_.block(n_u + block.first_row, block.first_measure, block.n_rows, block.n_measures) += at.G[b];
+  }
+  right_.middleRows(n_u, n_c) = -at.gamma;
+  right_.middleRows(n_u, n_c).noalias() -= at.Gamma_u * columns.u;
+  right_.middleRows(n_u, n_c).noalias() -= at.Gamma_v * columns.u_rate;
+}
+
+void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &columns)
+{
+  const Base &base = this->base(c);
+  const auto &W    = machine_.forces().directions();
+  const Index n_u = W.cols(), n_c = machine_.joints().n_rows(), K = n_parameters_;
+  const auto &held = machine_.forces().held();
+  const Index n_h = Index(held.size()), size = n_u + n_c + n_h;
+
+  solve_without_forces(base, at, c, columns);
 
   // The measures: u'' = x + S dp, dp = k + K u'' + G^T dlambda + dp_h
   columns.u.noalias()      = W.transpose() * columns.q;
@@ -475,22 +173,8 @@ void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &c
   matrix_.topLeftCorner(n_u, n_u).noalias() -= base.S * K_;
   right_.topRows(n_u) = X_;
   right_.topRows(n_u).noalias() += base.S * k_;
-  MatrixXd S_G;
   if (n_c > 0)
-  {
-    S_G.resize(n_u, n_c);
-    at.G.times_transposed(base.S, S_G);
-    matrix_.block(0, n_u, n_u, n_c) = -S_G;
-    matrix_.block(n_u, 0, n_c, n_u) = c * c * at.Gamma_u + c * at.Gamma_v;
-    for (std::size_t b = 0; b < at.G.blocks().size(); ++b)
-    {
-      const ConstraintBlock &block = at.G.blocks()[b];
-      matrix_.block(n_u + block.first_row, block.first_measure, block.n_rows, block.n_measures) += at.G[b];
-    }
-    right_.middleRows(n_u, n_c) = -at.gamma;
-    right_.middleRows(n_u, n_c).noalias() -= at.Gamma_u * columns.u;
-    right_.middleRows(n_u, n_c).noalias() -= at.Gamma_v * columns.u_rate;
-  }
+    border_joints(base, at, c, columns);
   for (Index h = 0; h < n_h; ++h)
   {
     const int measure                    = held[std::size_t(h)].measure;

@@ -49,7 +49,7 @@ const VectorXd &PieceReader::acceleration(std::size_t node)
     node_.v              = at.v;
     if (node_.local.u.size() == 0)
       node_.local.resize(equation_.machine());
-    equation_.complete(node_);
+    equation_.linearisation().complete(node_);
     kept = {node, node_.a};
   }
   return kept.second;
@@ -130,10 +130,10 @@ void VariationalSteps::look_along(const SmoothPiece &piece)
     at.t                   = node.t;
     at.q                   = node.q;
     at.v                   = node.v;
-    equation_.complete(at);
+    equation_.linearisation().complete(at);
     passed.push_back(std::move(at));
   }
-  equation_.begin_piece(passed);
+  equation_.linearisation().begin_piece(passed);
 }
 
 void VariationalSteps::expect(const MatrixXd &s, const MatrixXd &s_rate)
@@ -150,9 +150,9 @@ void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, c
   state_.q            = piece.nodes.front().q;
   state_.v            = piece.nodes.front().v;
   state_.local.lambda = lambda;
-  equation_.complete(state_);
+  equation_.linearisation().complete(state_);
   look_along(piece);
-  equation_.linearise(state_, at_);
+  equation_.linearisation().linearise(state_, at_);
   columns_.q = s;
   columns_.v = s_rate;
   equation_.solve(at_, 0., columns_);
@@ -205,8 +205,8 @@ bool VariationalSteps::try_step(double to)
   {
     stage_state_.t = i == n_stages - 1 ? to : from + at_shares[i] * H;
     reader_.read(0.25 * H, stage_state_);
-    equation_.complete(stage_state_);
-    equation_.linearise(stage_state_, stage_at_);
+    equation_.linearisation().complete(stage_state_);
+    equation_.linearisation().linearise(stage_state_, stage_at_);
     stage_.q = columns_.q;
     stage_.v = columns_.v;
     for (int j = 0; j < i; ++j)

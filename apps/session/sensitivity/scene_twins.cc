@@ -3,7 +3,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
-#include "coupling/sensitivity/variational_equation.h"
+#include "coupling/sensitivity/motion_linearisation.h"
 
 #include <stdexcept>
 

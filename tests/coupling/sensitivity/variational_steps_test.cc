@@ -42,10 +42,11 @@ double end_error(int n)
 {
   Machine machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
           above                     = oscillator(stiffness * (1. + 1e-6));
-  std::vector<ParameterTwins> twins = {{"c", "N/m", stiffness, 1e-6 * stiffness, {&below}, {&above}}};
-  VariationalEquation         equation(machine, twins);
-  VariationalSteps            steps(equation, T / n, 1e300);
-  const SmoothPiece           piece = exact_motion();
+  std::vector<ParameterTwins> twins = {
+      {"c", "N/m", stiffness, 1e-6 * stiffness, {&below, {}, {}, T}, {&above, {}, {}, T}}};
+  VariationalEquation equation(machine, twins);
+  VariationalSteps    steps(equation, T / n, 1e300);
+  const SmoothPiece   piece = exact_motion();
   steps.begin(piece, VectorXd(), MatrixXd::Zero(1, 1), MatrixXd::Zero(1, 1));
   for (int i = 1; i <= n; ++i)
     steps.advance_to(T * i / n);

@@ -1,0 +1,89 @@
+#pragma once
+
+#include "coupling/integration/step/consistent_start.h"
+#include "coupling/sensitivity/parameter_twins.h"
+
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Refuses a machine whose variational equations are not built, before it runs.
+/// @throws std::invalid_argument with what it is and the way out
+void require_variational(const Machine &machine);
+
+/// The motion and its accelerations, forces and multipliers, as the equation of motion gives them.
+struct MotionState
+{
+  double          t = 0.;
+  Eigen::VectorXd q, v, a; // [n]
+  LocalState      local;
+};
+
+/// The equations of motion linearised at a motion, and what parameters change in them while it is held fixed.
+struct Linearised
+{
+  Eigen::MatrixXd    P_u, P_v, P_a; ///< dp/du, dp/du', dp/du'' [n_u x n_u]; that of joints, d(G^T lambda)/du, is in P_u
+  ConstraintJacobian G;
+  Eigen::MatrixXd    Gamma_u, Gamma_v; ///< d(G u'' + bias)/du, /du' [n_c x n_u]
+  Eigen::MatrixXd    r;                ///< [n x K] loads by M, B, C, W and f_t of the parameters
+  Eigen::MatrixXd    p;                ///< [n_u x K] forces by the parameters
+  Eigen::MatrixXd    gamma;            ///< [n_c x K] of g'' by the parameters
+  Eigen::MatrixXd    u, v, a;          ///< [n_u x K] of W^T q, q', q'' by W; empty: no parameter changes W
+};
+
+/**
+ * Linearises a machine along a motion: exact derivatives of the laws (of those that act along directions which turn, by
+ * quotients), and what parameters change while the motion is held fixed, by central quotients of their two machines
+ * with the histories that each of them has by then.
+ *
+ * Source: docs/sensitivities.md (3), (4).
+ */
+class MotionLinearisation
+{
+public:
+  /// @throws std::invalid_argument as require_variational(), and for a coordinate without mass that is no lag
+  MotionLinearisation(Machine &machine, const std::vector<ParameterTwins> &twins);
+
+  /// Accelerations, forces and multipliers of a motion; state.t, q, v are given, local.lambda is where to begin.
+  void complete(MotionState &state);
+  /// A smooth piece of the motion begins, that passes these instants: parameters whose two machines have bit by bit
+  /// equal forces at all of them are not looked at on it, nor are forces' dependences on u'' that are zero there. None:
+  /// everything is looked at.
+  void begin_piece(const std::vector<MotionState> &passed);
+  /// What there is at a state, by the histories that the machine and its twins have now.
+  void linearise(const MotionState &state, Linearised &at);
+
+private:
+  /// What of the linear base a parameter changes.
+  struct Changes
+  {
+    bool                        mass = false, damping = false, stiffness = false, load = false;
+    bool                        forces = true, joints = true; ///< on the present piece
+    Eigen::SparseMatrix<double> W;                            ///< dW/dx; empty: none
+  };
+
+  void find_changes();
+  void find_inexact(const MotionState &state);
+  void differentiate(const MotionState &state, const std::vector<char> &blocks, Linearised &at);
+  void add_loads(const MotionState &state, int k, Linearised &at);
+  void add_forces(const MotionState &state, int k, Linearised &at);
+  void add_joints(const MotionState &state, Linearised &at);
+  void bend_joints(const MotionState &state, Eigen::VectorXd LocalState::*moved, Eigen::MatrixXd &Gamma,
+                   Eigen::MatrixXd *P);
+  void joint_terms(const Machine &machine, const LocalState &local, Eigen::VectorXd &terms, ConstraintJacobian &G);
+
+  Machine                           &machine_;
+  const std::vector<ParameterTwins> &twins_;
+  ConsistentStart                    consistent_;
+  IntegrationWork                    work_;
+  std::vector<Changes>               changes_;
+  Eigen::VectorXd                    minus_, plus_, product_, rate_, bias_, g_;
+  ConstraintJacobian                 G_minus_, G_plus_;
+  LocalState                         moved_;
+  std::vector<ForceBlock>            blocks_;
+  std::vector<char>                  inexact_; ///< blocks whose derivatives leave out how their directions turn
+  bool                               of_accelerations_ = true; ///< a force depends on u'' on the present piece
+};
+
+} // namespace gestell::coupling
