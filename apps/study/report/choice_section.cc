@@ -69,15 +69,18 @@ std::pair<double, double> ends_of(const StudyTable &table, int output, const Sho
   return {low, high};
 }
 
-void shade_window(const StudyTable &table, const RowChoice &choice, Chart &chart)
+/// A bar along the abscissa.
+void mark_window(const StudyTable &table, const RowChoice &choice, Chart &chart)
 {
+  constexpr double bar_height = 0.025; ///< of the chart
   if (choice.window.size() < 2)
     return;
   const ShownAxis x    = axis_of(table, choice.task.over);
-  const double    from = x.shown(table.values(choice.window.front(), choice.task.over)),
-               to      = x.shown(table.values(choice.window.back(), choice.task.over));
-  chart.panels.front().tiles.push_back(
-      {from, to, chart.y.begin, chart.y.end, 2, family_of(table, choice.task, choice.best) + ": all limits are kept"});
+  const double    from = x.shown(table.values(choice.window.front(), choice.task.over));
+  const double    to   = x.shown(table.values(choice.window.back(), choice.task.over));
+  chart.panels.front().tiles.push_back({from, to, chart.y.begin,
+                                        chart.y.begin + bar_height * (chart.y.end - chart.y.begin), 2,
+                                        family_of(table, choice.task, choice.best) + ": all limits are kept"});
 }
 
 std::string chart_of(const StudyTable &table, const RowChoice &choice, int output)
@@ -85,13 +88,13 @@ std::string chart_of(const StudyTable &table, const RowChoice &choice, int outpu
   const ShownAxis y = axis_of(table, output);
   Chart           chart;
   chart.title = y.head() + " over " + axis_of(table, choice.task.over).head();
-  chart.note  = "filled: all limits are kept; shaded: the window about the best run, run " +
+  chart.note  = "filled: all limits are kept; bar: the window about the best run, run " +
                (choice.best < 0 ? std::string("none") : std::to_string(choice.best + 1));
   chart.x.label          = axis_of(table, choice.task.over).head();
   const auto [low, high] = ends_of(table, output, y);
   chart.y                = fitted(ChartAxis{y.head()}, low, high, 0.05);
   chart.height           = 320.;
-  shade_window(table, choice, chart);
+  mark_window(table, choice, chart);
   for (const std::vector<int> &family : families_of(table, choice.task))
     chart.panels.front().add(curve_of(table, choice, family, output));
   for (const Limit &limit : choice.task.limits)

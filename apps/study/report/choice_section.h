@@ -8,7 +8,7 @@
 namespace gestell::apps
 {
 
-/// The best of the runs, by words; goals and limits of all families over an output, the window about the best shaded.
+/// The best of the runs, by words; goals and limits of all families over an output, the window about the best as a bar.
 /// Empty where a study did not ask.
 std::string choice_section(const StudyFindings &findings, Pictures &pictures);
 

@@ -23,6 +23,7 @@ public:
   StudyFindings of(const StudyAnswer &answer);
 
 private:
+  Eigen::VectorXd values_at(const Eigen::VectorXd &xi, Eigen::MatrixXd *derivatives);
   OutputPoint     run_at(const Eigen::VectorXd &xi, Derivatives derivatives);
   StudyOptimum    optimum_of(const StudyAnswer &answer, const OutputModel &surfaces);
   RobustResult    robust_at(const Eigen::VectorXd &nominal, const StudyTable &table, const OutputModel &surfaces);
@@ -36,7 +37,8 @@ private:
   std::filesystem::path      file_;
   std::unique_ptr<RowsFile>  rows_;
   std::vector<StudyVariable> variables_;
-  int                        number_ = 0; ///< of the last run
+  int                        number_         = 0;     ///< of the last run
+  bool                       by_differences_ = false; ///< some run had no sensitivities
 };
 
 } // namespace gestell::apps

@@ -55,7 +55,7 @@ Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<b
                               const std::string &sensitivities)
 {
   Scene scene = variants_.at(levels);
-  if (kept_.empty())
+  if (kept_.empty() && sensitivities.empty()) // the scenes just beside have all signals
     leave_out_unread(scene);
   const auto frame = frames_.frame(scene, {});
   Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
