@@ -20,6 +20,7 @@ namespace
 {
 
 constexpr double least_steps = 50.;
+constexpr int    least_more  = 8; ///< modes
 
 /// [s] of the processor that this process took so far.
 double cpu_now()
@@ -69,6 +70,11 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
 }
 
 } // namespace
+
+int more_modes(const ModelAnswer &answer)
+{
+  return std::min(answer.most_modes, std::max(2 * answer.modes, answer.modes + least_more));
+}
 
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
 {

@@ -44,6 +44,9 @@ struct ModelAnswer
   double cpu() const { return prepare_cpu + run_cpu; }
 };
 
+/// Of a model to compare with: twice the modes, eight more at least, as many as there are.
+int more_modes(const ModelAnswer &answer);
+
 /// The answer that a run of the scene has given.
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs);
 

@@ -301,7 +301,7 @@ void Climb::prove(const Place &place, SizedModel &model)
   ModelVariant       finer  = chosen;
   finer.mesh /= ratio_of_meshes;
   if (chosen.modes >= 0)
-    finer.modes = std::min(2 * answers_[place].modes, answers_[place].most_modes);
+    finer.modes = more_modes(answers_[place]);
   finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
   try
   {
