@@ -27,7 +27,7 @@ constexpr double smallest_tolerance = 1e-8;
 constexpr int    most_rungs         = 40;
 constexpr int    thin_after         = 2;   ///< rungs
 constexpr double worth_it           = 0.9; ///< of the CPU time, below which another reduction is taken
-constexpr double far_too_stiff      = 16.; ///< times what is allowed: four meshes more would not do
+constexpr double far_too_stiff      = 4.;  ///< times what is allowed: on walls, at order one, 64 times the coordinates
 
 constexpr auto thin_walls = "walls are thin";
 
