@@ -162,7 +162,7 @@ SecondModel BudgetMaker::finer_in_modes()
   return tried(
       [&]
       {
-        const int    m = more_modes(run_);
+        const int    m = more_modes(scene_, run_);
         ModelVariant more{1., m, method_};
         if (!modes_are_chosen(scene_)) // of statics alone
           more.reduction = "craig-bampton";
@@ -189,7 +189,7 @@ SecondModel BudgetMaker::coarser_in_mesh()
   return tried(
       [&]
       {
-        ModelAnswer  other = answer({coarser, run_.modes, method_});
+        ModelAnswer  other = answer({coarser, modes_asked(scene_, run_), method_});
         const double ratio = std::cbrt(double(run_.n_frame) / other.n_frame);
         second.reason      = "against cells of 1.5 times the size";
         if (ratio < hardly)

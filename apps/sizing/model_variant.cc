@@ -71,9 +71,15 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
 
 } // namespace
 
-int more_modes(const ModelAnswer &answer)
+int modes_asked(const Scene &scene, const ModelAnswer &answer)
 {
-  return std::min(answer.most_modes, std::max(2 * answer.modes, answer.modes + least_more));
+  return scene.frame.source == FrameSource::parts ? scene.reduction.options.n_modes : answer.modes;
+}
+
+int more_modes(const Scene &scene, const ModelAnswer &answer)
+{
+  const int asked = modes_asked(scene, answer), modes = asked < 0 ? answer.modes : asked;
+  return std::min(answer.most_modes, std::max(2 * modes, modes + least_more));
 }
 
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)

@@ -200,7 +200,7 @@ SizeRung Climb::rung_of(const Scene &scene, const ModelAnswer &answer) const
                                                        : 0.;
   rung.coordinates = answer.n_frame;
   rung.interface   = answer.interface;
-  rung.modes       = modes_are_chosen(scene) ? answer.modes : -1;
+  rung.modes       = modes_are_chosen(scene) ? modes_asked(scene, answer) : -1;
   rung.reduction   = modes_are_chosen(scene) ? scene.reduction.method : "";
   rung.method      = method.method;
   rung.step        = method.step;
@@ -301,7 +301,7 @@ void Climb::prove(const Place &place, SizedModel &model)
   ModelVariant       finer  = chosen;
   finer.mesh /= ratio_of_meshes;
   if (chosen.modes >= 0)
-    finer.modes = more_modes(answers_[place]);
+    finer.modes = more_modes(varied(scene_, chosen), answers_[place]);
   finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
   try
   {
