@@ -12,6 +12,7 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -55,8 +56,12 @@ SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, c
   options.stop       = &interruption();
   options.exhaustive = asked.exhaustive;
   options.readable   = readable;
-  options.on_rung    = [](const SizeRung &rung) { std::cout << rung_text(rung) << std::endl; };
-  std::cout << "    cells [m]  coordinates  modes  method                CPU [s]  error/allowed, most by\n";
+  options.on_rung    = [begins = true](const SizeRung &rung) mutable
+  {
+    if (std::exchange(begins, false))
+      std::cout << "    cells [m]  coordinates  modes  method                CPU [s]  error/allowed, most by\n";
+    std::cout << rung_text(rung) << std::endl;
+  };
   return size_search(scene, outputs, options);
 }
 
@@ -113,7 +118,8 @@ Command size_command()
           "find the smallest mesh, number of modes and integration that keep the outputs within a tolerance",
           {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
           CommandInput::scene,
-          {{"--tolerance", &asked->tolerance, "relative error that each output may have (demanded)"},
+          {{"--tolerance", &asked->tolerance, "relative error that each output may have, 1e-8 to 1 (demanded)",
+            CommandOption::Range::above_zero},
            {"--outputs", &asked->outputs,
             "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
            {"--max-cpu", &asked->max_cpu, "[s] that a model may take, from CAD to the end of the run",

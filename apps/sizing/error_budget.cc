@@ -16,7 +16,6 @@ namespace
 constexpr double coarser    = 1.5;  ///< size of the cells of the second mesh
 constexpr double mesh_order = 1.5;  ///< in their size
 constexpr double hardly     = 1.1;  ///< ratio of sizes below which two meshes are alike
-constexpr int    more_modes = 8;    ///< at least
 constexpr double left_over  = 1.25; ///< of what degree three corrects, docs/theory/mesh_error.md (4b)
 constexpr int    most_raised =
     60000; ///< coordinates of a mesh that is compared with degree three, which has three times as many
@@ -163,7 +162,7 @@ SecondModel BudgetMaker::finer_in_modes()
   return tried(
       [&]
       {
-        const int    m = std::min(most, std::max(2 * run_.modes, run_.modes + more_modes));
+        const int    m = more_modes(scene_, run_);
         ModelVariant more{1., m, method_};
         if (!modes_are_chosen(scene_)) // of statics alone
           more.reduction = "craig-bampton";
@@ -190,7 +189,7 @@ SecondModel BudgetMaker::coarser_in_mesh()
   return tried(
       [&]
       {
-        ModelAnswer  other = answer({coarser, run_.modes, method_});
+        ModelAnswer  other = answer({coarser, modes_asked(scene_, run_), method_});
         const double ratio = std::cbrt(double(run_.n_frame) / other.n_frame);
         second.reason      = "against cells of 1.5 times the size";
         if (ratio < hardly)

@@ -16,8 +16,10 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
  *     time       |v - v_f|, f integrated by `exact` of order 8 to 1e-10; where that does not treat the machine, with
  *                half the step (a sixteenth of the tolerance), times 2^p/(2^p - 1) (16/15)
  *     reduction  |v_f(m) - v_f(2 m)|, m modes, eight more at least
- *     mesh       |v_f(h) - v_f(3/2 h)|/(r^(3/2) - 1), r^3 the ratio of the numbers of coordinates: order 3/2 in h is
- *                between 1 of a sharp corner and 2 of smooth elements
+ *     mesh       1.25 |v_f - v_3|, v_3 in elements of degree three on the same mesh; of a frame with more than 60 000
+ *                coordinates that of the finest with cells of 3/2, 9/4, 27/8 of the size that has no more, over
+ * r^(3/2), r^3 the ratio of the numbers of coordinates: order 3/2 in h is between 1 of a sharp corner and 4 of smooth
+ * fields.  Where degree three does not tell an output, |v_f(h) - v_f(3/2 h)|/(r^(3/2) - 1)
  *
  * Where two models differ in the order of their events up to the instant that decides an output, their difference says
  * nothing of its error: no number is given then, but the range of the values of all models.
@@ -25,7 +27,7 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
  * @param run  the scene's own answer.
  * @throws coupling::ConvergenceFailure if it is interrupted
  *
- * Source: Roache, J. Fluids Eng. 116, 1994, 405-413 (two meshes); docs/size.md.
+ * Source: docs/theory/mesh_error.md (4a, 4b); Roache, J. Fluids Eng. 116, 1994, 405-413 (two meshes); docs/size.md.
  */
 ErrorBudget error_budget(const Scene &scene, const std::vector<OutputName> &outputs, const ModelAnswer &run,
                          const std::atomic<bool> *stop = nullptr);

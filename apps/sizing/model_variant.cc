@@ -20,6 +20,7 @@ namespace
 {
 
 constexpr double least_steps = 50.;
+constexpr int    least_more  = 8; ///< modes
 
 /// [s] of the processor that this process took so far.
 double cpu_now()
@@ -69,6 +70,17 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
 }
 
 } // namespace
+
+int modes_asked(const Scene &scene, const ModelAnswer &answer)
+{
+  return scene.frame.source == FrameSource::parts ? scene.reduction.options.n_modes : answer.modes;
+}
+
+int more_modes(const Scene &scene, const ModelAnswer &answer)
+{
+  const int asked = modes_asked(scene, answer), modes = asked < 0 ? answer.modes : asked;
+  return std::min(answer.most_modes, std::max(2 * modes, modes + least_more));
+}
 
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
 {

@@ -44,6 +44,11 @@ struct ModelAnswer
   double cpu() const { return prepare_cpu + run_cpu; }
 };
 
+/// As reduction.modes has it: of a frame of parts each part's, below zero where they are chosen by themselves.
+int modes_asked(const Scene &scene, const ModelAnswer &answer);
+/// Of a model to compare with: twice the modes, eight more at least, as many as there are.
+int more_modes(const Scene &scene, const ModelAnswer &answer);
+
 /// The answer that a run of the scene has given.
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs);
 

@@ -27,7 +27,7 @@ constexpr double smallest_tolerance = 1e-8;
 constexpr int    most_rungs         = 40;
 constexpr int    thin_after         = 2;   ///< rungs
 constexpr double worth_it           = 0.9; ///< of the CPU time, below which another reduction is taken
-constexpr double far_too_stiff      = 16.; ///< times what is allowed: four meshes more would not do
+constexpr double far_too_stiff      = 4.;  ///< times what is allowed: on walls, at order one, 64 times the coordinates
 
 constexpr auto thin_walls = "walls are thin";
 
@@ -200,7 +200,7 @@ SizeRung Climb::rung_of(const Scene &scene, const ModelAnswer &answer) const
                                                        : 0.;
   rung.coordinates = answer.n_frame;
   rung.interface   = answer.interface;
-  rung.modes       = modes_are_chosen(scene) ? answer.modes : -1;
+  rung.modes       = modes_are_chosen(scene) ? modes_asked(scene, answer) : -1;
   rung.reduction   = modes_are_chosen(scene) ? scene.reduction.method : "";
   rung.method      = method.method;
   rung.step        = method.step;
@@ -301,7 +301,7 @@ void Climb::prove(const Place &place, SizedModel &model)
   ModelVariant       finer  = chosen;
   finer.mesh /= ratio_of_meshes;
   if (chosen.modes >= 0)
-    finer.modes = std::min(2 * answers_[place].modes, answers_[place].most_modes);
+    finer.modes = more_modes(varied(scene_, chosen), answers_[place]);
   finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
   try
   {

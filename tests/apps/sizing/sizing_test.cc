@@ -182,6 +182,33 @@ TEST(SizeSearch, WritesTheChosenModelAsAScene)
   EXPECT_EQ(sized.run.options.end, 0.05);
 }
 
+/// Parts have meshes of their own, one that is the same as another has its mesh; a reduction is written beside its
+/// modes.
+TEST(SizeSearch, WritesMeshesOfPartsAndReductions)
+{
+  const std::string press = shipped("tie_rod_press.toml");
+  test::SceneFolder folder;
+  const Scene       parts = read_scene(press);
+  ModelVariant      model;
+  model.mesh        = 1.5;
+  model.modes       = 6;
+  const Scene sized = read_scene(folder.write("sized.toml", sized_scene(parts, {}, model, folder.path("."))));
+  ASSERT_EQ(sized.frame.parts.parts.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(sized.frame.parts.parts[i].geometry.mesh.size, 1.5 * parts.frame.parts.parts[i].geometry.mesh.size,
+                1e-12);
+  EXPECT_EQ(sized.reduction.options.n_modes, 6);
+  EXPECT_TRUE(sized.frame.parts.all_modes);
+
+  const std::string file  = folder.write("rod.toml", test::quoted(rod("modes = 8", by_steps)));
+  const Scene       given = read_scene(file);
+  ModelVariant      free;
+  free.modes     = 6;
+  free.reduction = "free-interface";
+  EXPECT_EQ(read_scene(folder.write("free.toml", sized_scene(given, {}, free, folder.path(".")))).reduction.method,
+            "free-interface");
+}
+
 TEST(SizeSearch, RefusesTolerancesThatNoModelHas)
 {
   const Read read(rod("modes = 8", by_steps));
