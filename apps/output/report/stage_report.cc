@@ -1,6 +1,7 @@
 #include "apps/output/report/stage_report.h"
 
 #include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>

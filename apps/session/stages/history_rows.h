@@ -12,7 +12,7 @@ namespace gestell::apps
 class HistoryRows
 {
 public:
-  explicit HistoryRows(const RunResult &run) : run_(run), width_(run.columns.size()) {}
+  explicit HistoryRows(const coupling::RunResult &run) : run_(run), width_(run.columns.size()) {}
 
   std::size_t size() const { return width_ > 0 ? run_.rows.size() / width_ : 0; }
   double      t(std::size_t i) const { return run_.rows[i * width_]; }
@@ -26,8 +26,8 @@ public:
   const std::string &unit(std::size_t column) const { return run_.units[column]; }
 
 private:
-  const RunResult &run_;
-  std::size_t      width_;
+  const coupling::RunResult &run_;
+  std::size_t                width_;
 };
 
 } // namespace gestell::apps

@@ -20,12 +20,13 @@ namespace
 using coupling::Event;
 using coupling::RunResult;
 
-constexpr int     most_modes    = 60;  ///< of the linearised machine that are looked at
-constexpr double  most_samples  = 300; ///< of the pencil, whose cost grows with their cube
-constexpr long    least_samples = 40;
-constexpr double  near          = 0.25;  ///< relative distance of frequencies beyond which modes are no pair
-constexpr double  combined      = 0.015; ///< relative distance of poles within which one is a combination
-const char *const contacts[]    = {"lift_off", "touch_down", "closes", "opens"};
+constexpr int     most_modes        = 60;  ///< of the linearised machine that are looked at
+constexpr double  most_samples      = 300; ///< of the pencil, whose cost grows with their cube
+constexpr long    least_samples     = 40;
+constexpr double  periods_of_window = 2.;
+constexpr double  near              = 0.25;  ///< relative distance of frequencies beyond which modes are no pair
+constexpr double  combined          = 0.015; ///< relative distance of poles within which one is a combination
+const char *const contacts[]        = {"lift_off", "touch_down", "closes", "opens"};
 
 /// From the last event of a contact on.
 double ringing_begin(const RunResult &run, const Stage &last)
@@ -103,7 +104,7 @@ std::string combination(const DampedOscillation &own, const std::vector<DampedOs
   const auto is = [&](std::complex<double> s) { return std::abs(own.s - s) < combined * std::abs(own.s); };
   const auto hz = [](const DampedOscillation &any) { return short_text(any.frequency_hz()); };
   for (const DampedOscillation &any : stronger)
-    for (int k = 2; k <= 3; ++k)
+    for (int k = 2; k <= 4; ++k)
       if (is(double(k) * any.s))
         return std::to_string(k) + " x " + hz(any) + " Hz";
   for (const DampedOscillation &any : stronger)
@@ -125,6 +126,20 @@ RingingMode ringing_mode(const DampedOscillation &found)
   for (Eigen::Index s = 0; s < found.amplitudes.size(); ++s)
     mode.amplitudes.push_back(std::abs(found.amplitudes[s]));
   return mode;
+}
+
+/// A window shorter than two periods does not tell a frequency from a drift.  @return what is to be said of it
+std::string leave_out_slow(std::vector<DampedOscillation> &found, const Ringing &ringing)
+{
+  const double window = ringing.end - ringing.begin;
+  const auto   slow =
+      std::remove_if(found.begin(), found.end(),
+                     [&](const DampedOscillation &own) { return own.frequency_hz() * window < periods_of_window; });
+  if (slow == found.end())
+    return "";
+  found.erase(slow, found.end());
+  return "what is slower than " + rounded(periods_of_window / window) + " Hz is not told: " + rounded(window) +
+         " s behind the last contact are less than two periods of it";
 }
 
 /// The strongest first, so that each is compared with those that may have made it.
@@ -167,8 +182,9 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
                     std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
     return;
   }
-  const PencilFit fit = matrix_pencil(samples, ringing.step, scene.stages.modes);
-  ringing.residual    = fit.residual;
+  PencilFit fit    = matrix_pencil(samples, ringing.step, scene.stages.modes);
+  ringing.residual = fit.residual;
+  result.reason    = leave_out_slow(fit.oscillations, ringing);
   std::vector<coupling::Mode> linearised;
   try
   {

@@ -80,7 +80,7 @@ std::string over_at_start(const Scene &scene, const std::string &border)
 /// @return why they are fewer than asked for; empty: they are not
 std::string add_stages(const Scene &scene, const RunResult &run, StageResult &result)
 {
-  const Rows        rows(run);
+  const HistoryRows rows(run);
   const double      begin = rows.t(0), end = rows.t(rows.size() - 1);
   double            from  = begin;
   auto              event = run.events.begin();
