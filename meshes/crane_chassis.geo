@@ -1,4 +1,4 @@
-// Chassis of a mobile crane: two longitudinal box girders, seven cross plates that go through them, boxes between these
+// Chassis of a mobile crane: two longitudinal box girders, eight cross plates that go through them, boxes between these
 // under boom and cylinder, columns with the bores of the boom's pin, lugs with those of the cylinder's; plates 10 to 16 mm,
 // drawn in mm.  x forward, y to the left, z up; the origin lies at the height of the axles midway between them; symmetric
 // about y = 0.

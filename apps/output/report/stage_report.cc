@@ -1,6 +1,7 @@
 #include "apps/output/report/stage_report.h"
 
 #include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-std::string time_text(double t)
+std::string seconds_text(double t)
 {
   return short_text(t, 5);
 }
@@ -32,8 +33,8 @@ std::string stages_html(const std::vector<Stage> &stages)
     double size = 0.;
     for (const Stage &stage : stages)
       size = std::max({size, std::abs(stage.extremes[i].min), std::abs(stage.extremes[i].max)});
-    const DisplayUnit        unit = display_unit(stages.front().extremes[i].unit, size);
-    std::vector<std::string> row{stages.front().extremes[i].signal, unit.unit};
+    const DisplayUnit            unit = display_unit(stages.front().extremes[i].unit, size);
+    std::vector<HtmlTable::Cell> row{stages.front().extremes[i].signal, unit.unit};
     for (const Stage &stage : stages)
       for (const double x : {stage.extremes[i].min, stage.extremes[i].max})
         row.push_back(short_text(unit.factor * x, 5));
@@ -41,8 +42,8 @@ std::string stages_html(const std::vector<Stage> &stages)
   }
   std::string text = "<p>";
   for (const Stage &stage : stages)
-    text += "<strong>" + escape_xml(stage.name) + "</strong> from " + time_text(stage.begin) + " to " +
-            time_text(stage.end) + " s" + (&stage == &stages.back() ? ".</p>\n" : ", ");
+    text += "<strong>" + escape_xml(stage.name) + "</strong> from " + seconds_text(stage.begin) + " to " +
+            seconds_text(stage.end) + " s" + (&stage == &stages.back() ? ".</p>\n" : ", ");
   return text + table.scrolled_html();
 }
 
@@ -73,22 +74,23 @@ std::string ringing_html(const Ringing &ringing)
   HtmlTable table(heads);
   for (const RingingMode &mode : ringing.modes)
   {
-    const bool               paired = mode.linearised >= 0;
-    std::vector<std::string> row{short_text(mode.frequency_hz, 5),
-                                 paired ? short_text(mode.linearised_hz, 5) : "",
-                                 paired ? percent_off(mode.frequency_hz, mode.linearised_hz) : "",
-                                 short_text(mode.damping_ratio, 3),
-                                 paired ? short_text(mode.linearised_ratio, 3) : "",
-                                 paired ? std::to_string(mode.linearised + 1) : ""};
+    const bool                   paired = mode.linearised >= 0;
+    std::vector<HtmlTable::Cell> row{short_text(mode.frequency_hz, 5),
+                                     paired ? short_text(mode.linearised_hz, 5) : "",
+                                     paired ? percent_off(mode.frequency_hz, mode.linearised_hz) : mode.combination,
+                                     short_text(mode.damping_ratio, 3),
+                                     paired ? short_text(mode.linearised_ratio, 3) : "",
+                                     paired ? std::to_string(mode.linearised + 1) : ""};
     for (const double amplitude : mode.amplitudes)
       row.push_back(short_text(amplitude, 3));
     table.add(row);
   }
-  return "<p>What rings from " + time_text(ringing.begin) + " to " + time_text(ringing.end) +
+  return "<p>What rings from " + seconds_text(ringing.begin) + " to " + seconds_text(ringing.end) +
          " s, behind the last contact: damped frequencies and damping found in the signals by the matrix pencil, which "
          "leaves " +
          short_text(100. * ringing.residual, 2) +
-         " % of them, beside those of the machine linearised at rest. Large swings are slower than small ones.</p>\n" +
+         " % of them, beside those of the machine linearised at rest. Large swings are slower than small ones, and "
+         "make others: multiples and sums of their frequencies.</p>\n" +
          table.scrolled_html();
 }
 

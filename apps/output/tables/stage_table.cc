@@ -16,8 +16,9 @@ Json mode_json(const Ringing &ringing, const RingingMode &mode)
   Json json = {{"damped_frequency_hz", mode.frequency_hz}, {"damping_ratio", mode.damping_ratio}};
   for (std::size_t s = 0; s < ringing.signals.size(); ++s)
     json["amplitudes"][ringing.signals[s]] = mode.amplitudes[s];
-  json["linearised"] = mode.linearised < 0 ? Json()
-                                           : Json{{"mode", mode.linearised + 1},
+  json["combination"] = mode.combination.empty() ? Json() : Json(mode.combination);
+  json["linearised"]  = mode.linearised < 0 ? Json()
+                                            : Json{{"mode", mode.linearised + 1},
                                                   {"damped_frequency_hz", mode.linearised_hz},
                                                   {"damping_ratio", mode.linearised_ratio}};
   return json;
@@ -40,6 +41,8 @@ void add_ringing(const Ringing &ringing, std::ostream &text)
     if (mode.linearised >= 0)
       text << "   | " << std::setw(10) << short_text(mode.linearised_hz, 5) << std::setw(12)
            << short_text(mode.linearised_ratio, 3) << "   mode " << mode.linearised + 1;
+    if (!mode.combination.empty())
+      text << "   = " << mode.combination;
     text << '\n';
   }
 }

@@ -26,8 +26,9 @@ struct RingingMode
 {
   double              frequency_hz  = 0.; ///< damped
   double              damping_ratio = 0.;
-  std::vector<double> amplitudes;                                ///< by signal, at the begin of the window
-  int                 linearised    = -1;                        ///< number of the mode from 0 on; -1: none
+  std::vector<double> amplitudes;         ///< by signal, at the begin of the window
+  std::string         combination;        ///< of stronger ones, "3 x 0.4026 Hz"; empty: it is a mode
+  int                 linearised    = -1; ///< number of the mode from 0 on; -1: none
   double              linearised_hz = 0., linearised_ratio = 0.; ///< damped frequency
 };
 

@@ -112,7 +112,7 @@ PencilFit matrix_pencil(const MatrixXd &samples, double h, int most)
       VectorXcd    A        = amplitudes_of(j, z, coefficients);
       const double strength = A.norm();
       A                     = A.cwiseProduct(range);
-      found.emplace_back(strength, DampedOscillation{std::log(z[j]) / h, A});
+      found.emplace_back(strength, DampedOscillation{std::log(z[j]) / h, A, strength});
     }
   std::sort(found.begin(), found.end(), [](const auto &a, const auto &b) { return a.first > b.first; });
   for (std::size_t i = 0; i < std::min(found.size(), std::size_t(std::max(0, most))); ++i)

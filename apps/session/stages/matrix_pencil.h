@@ -11,8 +11,9 @@ namespace gestell::apps
 /// A damped oscillation A exp(s t) + conjugate in several signals.
 struct DampedOscillation
 {
-  std::complex<double> s;          ///< [1/s], Im s > 0
-  Eigen::VectorXcd     amplitudes; ///< by signal, at the first sample
+  std::complex<double> s;             ///< [1/s], Im s > 0
+  Eigen::VectorXcd     amplitudes;    ///< by signal, at the first sample
+  double               strength = 0.; ///< of the amplitudes, each beside the range of its signal
 
   double frequency_hz() const;  ///< damped
   double damping_ratio() const; ///< -Re s / |s|

@@ -1,9 +1,7 @@
 #include "apps/session/stages/stage_answer.h"
 
-#include "apps/session/stages/matrix_pencil.h"
-#include "coupling/equilibrium/static_equilibrium.h"
-#include "coupling/machine/configuration/assembly.h"
-#include "coupling/modes/modes.h"
+#include "apps/session/stages/history_rows.h"
+#include "apps/session/stages/ringing.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -20,41 +18,14 @@ namespace
 using coupling::Event;
 using coupling::RunResult;
 
-constexpr double  nan           = std::numeric_limits<double>::quiet_NaN();
-constexpr int     most_modes    = 60;  ///< of the linearised machine that are looked at
-constexpr double  most_samples  = 300; ///< of the pencil, whose cost grows with their cube
-constexpr long    least_samples = 40;
-constexpr double  near          = 0.25; ///< relative distance of frequencies beyond which modes are no pair
-const char *const contacts[]    = {"lift_off", "touch_down", "closes", "opens"};
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_border(const Event &event, const std::string &border)
 {
   return event.name == border || event.name + "." + event.kind == border;
 }
 
-/// Rows of the history, as many as there are.
-class Rows
-{
-public:
-  explicit Rows(const RunResult &run) : run_(run), width_(run.columns.size()) {}
-
-  std::size_t size() const { return width_ > 0 ? run_.rows.size() / width_ : 0; }
-  double      t(std::size_t i) const { return run_.rows[i * width_]; }
-  double      at(std::size_t i, std::size_t column) const { return run_.rows[i * width_ + column]; }
-  /// @return 0, the time, if there is none
-  std::size_t column(const std::string &name) const
-  {
-    const auto found = std::find(run_.columns.begin(), run_.columns.end(), name);
-    return found == run_.columns.end() ? 0 : std::size_t(found - run_.columns.begin());
-  }
-  const std::string &unit(std::size_t column) const { return run_.units[column]; }
-
-private:
-  const RunResult &run_;
-  std::size_t      width_;
-};
-
-StageExtremes extremes_of(const Rows &rows, const std::string &signal, const Stage &stage)
+StageExtremes extremes_of(const HistoryRows &rows, const std::string &signal, const Stage &stage)
 {
   const std::size_t column = rows.column(signal);
   StageExtremes     found{signal, rows.unit(column), nan, nan, nan, nan};
@@ -83,7 +54,7 @@ std::string unreached(const Scene &scene, const std::string &border, const RunRe
   const bool rises  = own->request.crossing != coupling::SwitchCrossing::falling;
   const auto signal = std::find_if(scene.signals.begin(), scene.signals.end(),
                                    [&](const SignalRequest &any) { return any.path == own->request.signal; });
-  if (const Rows rows(run); signal != scene.signals.end() && rows.size() > 0)
+  if (const HistoryRows rows(run); signal != scene.signals.end() && rows.size() > 0)
   {
     const Stage         all{"", rows.t(0), rows.t(rows.size() - 1), {}};
     const StageExtremes found = extremes_of(rows, signal->name, all);
@@ -109,7 +80,7 @@ std::string over_at_start(const Scene &scene, const std::string &border)
 /// @return why they are fewer than asked for; empty: they are not
 std::string add_stages(const Scene &scene, const RunResult &run, StageResult &result)
 {
-  const Rows        rows(run);
+  const HistoryRows rows(run);
   const double      begin = rows.t(0), end = rows.t(rows.size() - 1);
   double            from  = begin;
   auto              event = run.events.begin();
@@ -139,117 +110,6 @@ std::string add_stages(const Scene &scene, const RunResult &run, StageResult &re
   return reason;
 }
 
-/// From the last event of a contact on.
-double ringing_begin(const RunResult &run, const Stage &last)
-{
-  double begin = last.begin;
-  for (const Event &event : run.events)
-    if (std::find(std::begin(contacts), std::end(contacts), event.kind) != std::end(contacts))
-      begin = std::max(begin, event.t);
-  return begin;
-}
-
-/// Samples at equal times; rows beside the grid, as at events, are left out.
-Eigen::MatrixXd samples_of(const Rows &rows, double output_step, Ringing &ringing)
-{
-  const double every = std::max(1., std::floor((ringing.end - ringing.begin) / output_step / most_samples));
-  std::vector<std::vector<double>> taken(ringing.signals.size());
-  ringing.step = every * output_step;
-  double next  = std::ceil(ringing.begin / output_step + 1e-6) * output_step;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (std::abs(rows.t(i) - next) < 1e-6 * output_step)
-    {
-      for (std::size_t s = 0; s < taken.size(); ++s)
-        taken[s].push_back(rows.at(i, rows.column(ringing.signals[s])));
-      next += ringing.step;
-    }
-  Eigen::MatrixXd samples(Eigen::Index(taken.front().size()), Eigen::Index(taken.size()));
-  for (Eigen::Index s = 0; s < samples.cols(); ++s)
-    samples.col(s) = Eigen::VectorXd::Map(taken[std::size_t(s)].data(), samples.rows());
-  return samples;
-}
-
-/// Modes of the machine at rest where its driven joints stand at that state.
-std::vector<coupling::Mode> modes_at_rest(PreparedMachine &prepared, const Eigen::VectorXd &end_state, double t)
-{
-  coupling::Machine   &machine = prepared.machine;
-  coupling::KnownStart known;
-  known.state.t = t;
-  known.state.q = end_state;
-  known.state.v = Eigen::VectorXd::Zero(machine.size());
-  known.q_given.assign(std::size_t(machine.size()), 0);
-  known.v_given = known.q_given;
-  coupling::LocalState local;
-  local.resize(machine);
-  machine.gather(t, known.state.q, known.state.v, known.state.v, local);
-  machine.events().start(local);
-  Eigen::VectorXd              g(machine.joints().n_rows());
-  coupling::ConstraintJacobian G(machine.joints().blocks());
-  machine.joints().constraints(local, g, G);
-  for (Eigen::Index row = 0; row < g.size(); ++row)
-    known.shifts.emplace_back(int(row), g[row]);
-  const Eigen::VectorXd q = coupling::held_equilibrium(machine, known).q;
-  machine.gather(t, q, known.state.v, known.state.v, local);
-  machine.events().start(local);
-  return coupling::coupled_modes(machine, q, {}, most_modes);
-}
-
-/// The nearest of those that move what rings.
-void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
-{
-  double least = near;
-  for (std::size_t j = 0; j < modes.size(); ++j)
-    if (modes[j].damped_frequency_hz > 0.)
-      if (const double away = std::abs(modes[j].damped_frequency_hz / mode.frequency_hz - 1.); away < least)
-      {
-        least                 = away;
-        mode.linearised       = int(j);
-        mode.linearised_hz    = modes[j].damped_frequency_hz;
-        mode.linearised_ratio = modes[j].damping_ratio;
-      }
-}
-
-void identify(const Scene &scene, PreparedMachine &prepared, const Eigen::VectorXd &end_state, const RunResult &run,
-              StageResult &result)
-{
-  const Rows rows(run);
-  Ringing   &ringing = result.ringing;
-  ringing.begin      = ringing_begin(run, result.stages.back());
-  ringing.end        = result.stages.back().end;
-  ringing.signals    = scene.stages.ringing;
-  for (const std::string &signal : ringing.signals)
-    ringing.units.push_back(rows.unit(rows.column(signal)));
-  const Eigen::MatrixXd samples = samples_of(rows, coupling::output_step(scene.run.options), ringing);
-  if (samples.rows() < least_samples)
-  {
-    result.reason = "too few rows of the history lie behind the last contact, at " + rounded(ringing.begin) +
-                    " s; modes need " + std::to_string(least_samples) + ", there are " +
-                    std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
-    return;
-  }
-  const PencilFit fit = matrix_pencil(samples, ringing.step, scene.stages.modes);
-  ringing.residual    = fit.residual;
-  std::vector<coupling::Mode> modes;
-  try
-  {
-    modes = modes_at_rest(prepared, end_state, scene.run.options.begin);
-  }
-  catch (const std::exception &none)
-  {
-    result.reason = std::string("no modes to compare with: ") + none.what();
-  }
-  for (const DampedOscillation &found : fit.oscillations)
-  {
-    RingingMode mode;
-    mode.frequency_hz  = found.frequency_hz();
-    mode.damping_ratio = found.damping_ratio();
-    for (Eigen::Index s = 0; s < found.amplitudes.size(); ++s)
-      mode.amplitudes.push_back(std::abs(found.amplitudes[s]));
-    pair_up(modes, mode);
-    ringing.modes.push_back(std::move(mode));
-  }
-}
-
 } // namespace
 
 std::vector<LiftOff> lift_off_intervals(const RunResult &run, double begin, double end)
@@ -277,7 +137,7 @@ std::vector<LiftOff> lift_off_intervals(const RunResult &run, double begin, doub
 std::optional<StageResult> stage_answer(const Scene &scene, PreparedMachine &prepared, const Eigen::VectorXd &end_state,
                                         RunResult &run)
 {
-  const Rows rows(run);
+  const HistoryRows rows(run);
   if (rows.size() == 0)
     return std::nullopt;
   StageResult result;
@@ -294,7 +154,7 @@ std::optional<StageResult> stage_answer(const Scene &scene, PreparedMachine &pre
       run.failure = missing;
   }
   else if (!scene.stages.ringing.empty() && run.failure.empty() && prepared.machine.size() == end_state.size())
-    identify(scene, prepared, end_state, run, result);
+    find_ringing(scene, prepared, end_state, run, result);
   return result;
 }
 
