@@ -1,7 +1,9 @@
 #include "coupling/modes/superposition.h"
+#include "coupling/integration/system/fastest_load.h"
 
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/eigensolvers/sparse_modes.h"
+#include "coupling/integration/system/fastest_load.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/machine/dense_base.h"
 #include "coupling/machine/sparse_base.h"
@@ -138,14 +140,6 @@ SparseCholesky factor(const Machine &machine, const SparseMatrix &K, const std::
   }
 }
 
-double fastest_load(const Machine &machine)
-{
-  double omega = 0.;
-  for (const Excitation::Harmonic &harmonic : machine.linear().excitation().harmonics())
-    omega = std::max(omega, harmonic.omega);
-  return omega;
-}
-
 /// Directions of elements and loads [n x k].
 MatrixXd directions(const Machine &machine)
 {
@@ -224,7 +218,8 @@ class ModeCount
 public:
   ModeCount(const Machine &machine, const SuperpositionOptions &options, const StaticShortfall &shortfall)
       : options_(options), shortfall_(shortfall), n_(machine.size()),
-        limit_(options.frequency > 0. ? two_pi * options.frequency : above_loads * fastest_load(machine)),
+        limit_(options.frequency > 0. ? two_pi * options.frequency
+                                      : above_loads * fastest_load(machine.linear().excitation())),
         elements_alone_(limit_ > 0. && !(options.tolerance > 0.)),
         tolerance_(options.tolerance > 0.                                                   ? options.tolerance
                    : options.frequency > 0. || (limit_ > 0. && shortfall.n_elements() == 0) ? 0.
@@ -348,8 +343,9 @@ void note_loads(const Machine &machine, const SuperpositionOptions &options, con
   std::ostringstream text;
   text.precision(3);
   text << "modal superposition: ";
-  const double highest = result.modes.omega[result.modes.omega.size() - 1], fastest = fastest_load(machine);
-  const auto   note = [&](const std::string &way_out) { result.notes.push_back(text.str() + way_out); };
+  const double highest = result.modes.omega[result.modes.omega.size() - 1],
+               fastest = fastest_load(machine.linear().excitation());
+  const auto note      = [&](const std::string &way_out) { result.notes.push_back(text.str() + way_out); };
   if (fastest > highest)
   {
     text << "a load has " << fastest / two_pi << " Hz, above the highest mode kept, " << highest / two_pi << " Hz; ";
@@ -408,7 +404,7 @@ Superposition superpose(const Machine &machine, const VectorXd &q, const Superpo
   Superposition result;
   result.modes = {modes.omega.head(count), modes.V.leftCols(count), options.diagonal_damping};
   if (machine.forces().directions().cols() > 0 || !machine.linear().excitation().constant().isZero(0.) ||
-      fastest_load(machine) > 0.)
+      fastest_load(machine.linear().excitation()) > 0.)
     result.static_residual = shortfall.of(modes)[count - 1];
   result.coupling = damping_between_modes(machine, result.modes.V);
   tell(options, rule.rule(), result);

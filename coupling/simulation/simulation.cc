@@ -1,6 +1,7 @@
 #include "coupling/simulation/simulation.h"
 
 #include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/system/fastest_load.h"
 #include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/element_law.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
@@ -68,18 +69,9 @@ template <typename... Parts>
   throw std::invalid_argument(message.str());
 }
 
-/// Highest frequency [rad/s] among the loads; 0 if they are constant.
-double fastest_load(const Machine &machine)
-{
-  double omega = 0.;
-  for (const Excitation::Harmonic &harmonic : machine.linear().excitation().harmonics())
-    omega = std::max(omega, harmonic.omega);
-  return omega;
-}
-
 void check_load_period(const Machine &machine, const RunOptions &options)
 {
-  const double omega = fastest_load(machine), h = options.method.step;
+  const double omega = fastest_load(machine.linear().excitation()), h = options.method.step;
   if (!(omega > 0.) || h * omega < 2. * M_PI)
     return;
   const double period = 2. * M_PI / omega;
@@ -119,7 +111,7 @@ MethodOptions with_largest_step(const Machine &machine, const RunOptions &option
   if (!controlled(method) || method.step > 0.)
     return method;
   method.step        = (options.end - options.begin) / 50.;
-  const double omega = fastest_load(machine);
+  const double omega = fastest_load(machine.linear().excitation());
   if (omega > 0.)
     method.step = std::min(method.step, 0.25 * M_PI / omega);
   return method;
@@ -251,7 +243,7 @@ void warn_of_fast_loads(const Machine &machine, RunResult &result)
   const ReducedFrame *frame = machine.model().reduced_frame();
   if (!frame || !(frame->frequency_limit_hz > 0.))
     return;
-  const double fastest = fastest_load(machine) / (2. * M_PI);
+  const double fastest = fastest_load(machine.linear().excitation()) / (2. * M_PI);
   if (fastest <= frame->frequency_limit_hz)
     return;
   std::ostringstream text;
@@ -412,8 +404,7 @@ void Run::finish(const InitialState &initial)
   for (std::string warning : {fast_forces_->warning(), momentary_->warning()})
     if (!warning.empty())
       warnings.push_back(std::move(warning));
-  for (const std::string &warning : tilting_rotors(machine_, v.norm() > initial.v.norm() ? v : initial.v))
-    warnings.push_back(warning);
+  add(tilting_rotors(machine_, v.norm() > initial.v.norm() ? v : initial.v), warnings);
   add(warnings, result_.warnings);
 }
 

@@ -433,7 +433,6 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
   report.n_of_kind      = {mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()};
   for (Face &face : report.faces)
     face.samples.clear();
-
   report.n_points      = static_cast<int>(mesh.points.size());
   report.n_cells       = mesh.n_cells();
   report.n_coordinates = 3 * number_of_nodes(mesh);
