@@ -2,8 +2,8 @@
 
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
-#include "coupling/simulation/trajectory.h"
 #include "coupling/simulation/run_result.h"
+#include "coupling/simulation/trajectory.h"
 
 #include <atomic>
 #include <functional>

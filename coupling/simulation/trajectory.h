@@ -14,7 +14,8 @@ struct MotionNode
   Eigen::VectorXd q, v; // [n]
 };
 
-/// The motion between two events, smooth: nodes at the ends of steps, and the guards whose transitions end it, in order.
+/// The motion between two events, smooth: nodes at the ends of steps, and the guards whose transitions end it, in
+/// order.
 struct SmoothPiece
 {
   std::vector<MotionNode> nodes;
