@@ -276,9 +276,10 @@ void Climb::try_reductions(Place &place)
     return;
   for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
   {
-    Place other     = place;
-    other.reduction = entry.name;
-    if (!entry.takes("modes") || entry.name == scene_.reduction.method || !options_.readable(variant_of(other)))
+    Place other        = place;
+    other.reduction    = entry.name;
+    const bool reduces = entry.makes != coupling::ReductionEntry::Makes::no_frame && entry.takes("modes");
+    if (!reduces || entry.name == scene_.reduction.method || !options_.readable(variant_of(other)))
       continue;
     try
     {
