@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/study/file/study_file.h"
-#include "apps/study/runs/study_runner.h"
+#include "apps/study/runs/run_row.h"
 
 #include <filesystem>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/study/runs/rows_file.h"
+#include "apps/study/runs/study_runner.h"
 
 #include <functional>
 

@@ -2,6 +2,7 @@
 
 #include "apps/study/runs/frame_shelf.h"
 #include "apps/study/runs/output_formulas.h"
+#include "apps/study/runs/run_row.h"
 #include "apps/study/runs/scene_variants.h"
 
 #include <atomic>
@@ -9,17 +10,6 @@
 
 namespace gestell::apps
 {
-
-/// What one run of a study gave.
-struct RunRow
-{
-  int                      run    = 0; ///< from 1
-  RunStatus                status = RunStatus::waiting;
-  std::string              message{}; ///< why it failed
-  std::vector<double>      values{};  ///< one an output, nan of none
-  std::vector<std::string> units{};   ///< of the values; empty of a failed run
-  double                   cpu_s = 0.;
-};
 
 /**
  * Runs of one scene at chosen values of its variables.  What they have in common is made once: the files are read, the

@@ -27,9 +27,9 @@ struct StudyVariable
   std::string              unit{}; ///< of all values below; empty: none
   double                   from = -1., to = 1.;
   std::vector<double>      levels{}; ///< of a full factorial design, ascending; empty: as many as it asks for, evenly
-  std::vector<std::string> words{};  ///< of a variable that takes words: level k is the k-th of them
   Scatter                  scatter = Scatter::none;
   double                   width   = 0.; ///< of the scatter, in the unit of the variable
+  std::vector<std::string> words{};      ///< of a variable that takes words: level k is the k-th of them
 
   double centre() const { return 0.5 * (from + to); }
   double half_range() const { return 0.5 * (to - from); }
