@@ -152,8 +152,9 @@ RobustResult StudyAnalysis::robust_at(const Eigen::VectorXd &nominal, const Stud
   const auto          &task  = request_.optimise->task;
   if (asked.on == AnalysisOn::surface)
     return robust_on(surfaces, nominal, variables_, table.outputs, asked.draws, asked.seed, task.limits);
-  const Eigen::MatrixXd points = scattered_points(nominal, variables_, asked.draws, asked.seed);
-  Eigen::MatrixXd       values(points.rows(), Eigen::Index(table.outputs.size()));
+  const Eigen::MatrixXd points  = scattered_points(nominal, variables_, asked.draws, asked.seed);
+  constexpr double      not_run = std::numeric_limits<double>::quiet_NaN();
+  Eigen::MatrixXd       values  = Eigen::MatrixXd::Constant(points.rows(), Eigen::Index(table.outputs.size()), not_run);
   for (Eigen::Index i = 0; i < points.rows() && !stop_; ++i)
     values.row(i) = run_at(points.row(i).transpose(), Derivatives::none).values.transpose();
   RobustResult result = robust_figures(values, table.outputs, task.limits);
