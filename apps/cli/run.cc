@@ -13,6 +13,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -43,6 +44,19 @@ struct BudgetOptions
   std::string sensitivities;
 };
 
+/// What stops a budget leaves the run that it is of.
+void add_budget(const Scene &scene, const std::vector<OutputName> &outputs, Result &result)
+{
+  try
+  {
+    result.budget = error_budget(scene, outputs, answer_of(result, outputs), &interruption());
+  }
+  catch (const std::runtime_error &failure)
+  {
+    result.warnings.push_back("there is no error budget: " + std::string(failure.what()));
+  }
+}
+
 int run_scene(const CommonOptions &options, const BudgetOptions &asked)
 {
   ProgressLine progress(options.quiet);
@@ -55,7 +69,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   require_writable(folder);
   Result result = session.run(asked.sensitivities);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
-    result.budget = error_budget(session.scene(), outputs, answer_of(result, outputs), &interruption());
+    add_budget(session.scene(), outputs, result);
   prepare_folder(folder);
   progress.done();
   write_results(folder, result);
@@ -85,6 +99,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
               << "\n  the run itself is in " << folder.string() << '\n';
     return exit_failed;
   }
+  if (asked.budget && !result.budget && result.run->failure.empty())
+    return interruption() ? exit_interrupted : exit_failed;
   return result.run->interrupted ? exit_interrupted : exit_done;
 }
 

@@ -106,7 +106,9 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
             << "\nreport: " << (folder / "report.html").string() << '\n';
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
-  return model.result.met ? exit_done : exit_failed;
+  if (result.run->interrupted)
+    return exit_interrupted;
+  return model.result.met && result.run->failure.empty() ? exit_done : exit_failed;
 }
 
 } // namespace

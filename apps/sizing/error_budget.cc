@@ -189,7 +189,8 @@ SecondModel BudgetMaker::coarser_in_mesh()
   return tried(
       [&]
       {
-        ModelAnswer  other = answer({coarser, modes_asked(scene_, run_), method_});
+        const bool   parts = scene_.frame.source == FrameSource::parts; // their second reduction stays as it is
+        ModelAnswer  other = answer({coarser, parts ? -1 : modes_asked(scene_, run_), method_});
         const double ratio = std::cbrt(double(run_.n_frame) / other.n_frame);
         second.reason      = "against cells of 1.5 times the size";
         if (ratio < hardly)

@@ -19,6 +19,16 @@ namespace gestell::apps
 namespace
 {
 
+/// [Hz] of a mode that is asked for; a machine may have fewer than modes.number.
+template <typename Modes>
+double frequency_of(const OutputName &output, const Modes &modes)
+{
+  if (output.mode > int(modes.size()))
+    throw std::invalid_argument("--outputs: '" + output.text + "': this model has " + std::to_string(modes.size()) +
+                                " modes");
+  return modes[std::size_t(output.mode) - 1].frequency_hz;
+}
+
 constexpr double least_steps = 50.;
 constexpr int    least_more  = 8; ///< modes
 
@@ -61,10 +71,7 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
   for (std::size_t i = 0; i < outputs.size(); ++i)
     if (!outputs[i].of_signal())
     {
-      if (outputs[i].mode > int(modes.size()))
-        throw std::invalid_argument("--outputs: '" + outputs[i].text + "': this model has " +
-                                    std::to_string(modes.size()) + " modes");
-      answer.sizes[i] = answer.values[i] = modes[std::size_t(outputs[i].mode) - 1].frequency_hz;
+      answer.sizes[i] = answer.values[i] = frequency_of(outputs[i], modes);
       answer.units[i]                    = "Hz";
     }
 }
@@ -99,7 +106,7 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
   for (std::size_t i = 0; i < outputs.size(); ++i)
     if (!outputs[i].of_signal())
     {
-      answer.sizes[i] = answer.values[i] = result.coupled_modes.at(std::size_t(outputs[i].mode) - 1).frequency_hz;
+      answer.sizes[i] = answer.values[i] = frequency_of(outputs[i], result.coupled_modes);
       answer.units[i]                    = "Hz";
     }
   return answer;

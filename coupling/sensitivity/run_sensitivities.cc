@@ -299,7 +299,17 @@ void Passage::take_events(std::size_t number)
   {
     VectorXd change = problem_.trajectory.pieces()[number + 1].nodes.front().v - state.v;
     for (const int i : equation_.lags())
+    {
+      if (std::abs(change[i]) > jump * state.v.cwiseAbs().maxCoeff() && dt_.cwiseAbs().maxCoeff() > 0.)
+      {
+        std::ostringstream text;
+        text << "sensitivities: the law of a motor or another element of first order changes at t = " << state.t
+             << ", an instant that depends on the entries asked for; its jump is not carried: take differences of two "
+                "runs with --set";
+        throw std::invalid_argument(text.str());
+      }
       change[i] = 0.;
+    }
     if (!(change.cwiseAbs().maxCoeff() <= jump * state.v.cwiseAbs().maxCoeff()))
     {
       std::ostringstream text;

@@ -28,7 +28,8 @@ constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
 constexpr double weak           = 0.1;      ///< coordinates that move less, in the norm of the mass, count as that
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
 constexpr int    most_halvings  = 30;
-constexpr int    looks          = 7; ///< at a piece, for what acts on it
+constexpr std::size_t looks     = 7;        ///< at a piece at least, for what acts on it
+constexpr std::size_t nodes_of_a_look = 20; ///< what is zero at each look and acts between them lasts no longer
 } // namespace
 
 void PieceReader::begin(const SmoothPiece &piece)
@@ -122,10 +123,10 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
 void VariationalSteps::look_along(const SmoothPiece &piece)
 {
   std::vector<MotionState> passed;
-  const std::size_t        last = piece.nodes.size() - 1;
-  for (int i = 0; i <= looks; ++i)
+  const std::size_t        last = piece.nodes.size() - 1, n = std::max(looks, last / nodes_of_a_look);
+  for (std::size_t i = 0; i <= n; ++i)
   {
-    const MotionNode &node = piece.nodes[last * std::size_t(i) / looks];
+    const MotionNode &node = piece.nodes[last * i / n];
     MotionState       at   = state_;
     at.t                   = node.t;
     at.q                   = node.q;

@@ -69,6 +69,10 @@ MatrixXd following(const FrameJoint &joint, const fem::Interface &first, const f
 {
   if (first.face.degree == 0)
     return carried(position_of(first), position_of(second));
+  if (!first.face.overlaps(second.face))
+    throw std::invalid_argument(joint.place + ": the flexible faces '" + first.name + "' and '" + second.name +
+                                "' lie beside each other; choose faces that touch, or join them by coupling = "
+                                "\"rigid\"");
   constexpr double parallel = 0.9998; // cosine of a degree
   if (std::abs(first.face.axes.col(2).dot(second.face.axes.col(2))) < parallel)
     throw std::invalid_argument(joint.place + ": the flexible faces '" + first.name + "' and '" + second.name +

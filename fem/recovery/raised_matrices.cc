@@ -55,8 +55,7 @@ FrameMatrices raised_matrices(const Discretisation &quadratic, const FrameSpecif
   raised.modal_damping_ratio = frame.modal_damping_ratio;
   raised.interfaces          = frame.interfaces;
   for (Interface &interface : raised.interfaces)
-    for (int &coordinate : interface.coordinate)
-      coordinate = coordinate < 0 ? coordinate : degree.place[std::size_t(coordinate)];
+    interface.renumber([&](int i) { return degree.place[std::size_t(i)]; });
   raised.translations  = P * frame.translations;
   raised.rigid_motions = P * frame.rigid_motions;
   // Of the cubics the load as if nothing were clamped, of the quadratics their own.

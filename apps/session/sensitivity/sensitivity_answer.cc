@@ -57,10 +57,12 @@ SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepar
   for (const VariedKey &key : keys)
     found.keys.push_back(key.told);
   coupling::RunSensitivities run;
+  SensitivityResult          frequencies;
   try
   {
     run = coupling::run_sensitivities(
         {prepared.machine, signals, scene.run.options, *result.run, trajectory, twins.twins});
+    add_frequencies(scene, prepared, twins, result, frequencies);
   }
   catch (const std::exception &none) // of this motion: what was computed of it stays
   {
@@ -70,7 +72,8 @@ SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepar
   for (const coupling::OutputDerivatives &output : run.outputs)
     found.outputs.push_back({output.output, output.unit, output.note, output.value, output.derivative});
   found.steps = run.steps;
-  add_frequencies(scene, prepared, twins, result, found);
+  for (SensitivityOutput &output : frequencies.outputs)
+    found.outputs.push_back(std::move(output));
   result.warnings.insert(result.warnings.end(), run.warnings.begin(), run.warnings.end());
   warn_of_idle_keys(found, result.warnings);
   return found;

@@ -24,7 +24,7 @@ bool is_of_study(const std::string &override_text)
 {
   const std::string                     table = override_text.substr(0, override_text.find_first_of(".= "));
   static const std::vector<std::string> tables{"variables", "outputs", "design", "surface",
-                                               "optimise",  "scene",   "keep"};
+                                               "optimise",  "choose",  "scene",  "keep"};
   return std::find(tables.begin(), tables.end(), table) != tables.end();
 }
 
@@ -74,6 +74,11 @@ void read_variables(const SceneTable &root, const SceneNode &node, StudyFile &st
       if (const auto [taker, is_new] = takers.emplace(key, request.variable.name); !is_new)
         throw std::invalid_argument(request.place + ": '" + key + "' takes the value of variable " + taker->second +
                                     " already; leave it out in one of them");
+  for (const auto &[inner, of_inner] : takers)
+    for (const auto &[whole, of_whole] : takers)
+      if (inner.compare(0, whole.size() + 1, whole + ".") == 0)
+        throw root.error("'" + inner + "' of variable " + of_inner + " is a part of '" + whole + "' of variable " +
+                         of_whole + ", which takes its place; let one of them change it");
 }
 
 void read_outputs(const SceneTable &root, const SceneNode &node, StudyFile &study, std::vector<std::string> &names)

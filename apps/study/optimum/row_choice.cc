@@ -45,6 +45,12 @@ std::string family_of(const StudyTable &table, const RowChoiceTask &task, int ro
   return name;
 }
 
+/// Runs that failed stand last.
+bool in_order(double a, double b)
+{
+  return std::isnan(a) || std::isnan(b) ? !std::isnan(a) && std::isnan(b) : a < b;
+}
+
 std::vector<std::vector<int>> families_of(const StudyTable &table, const RowChoiceTask &task)
 {
   std::vector<std::string>      names;
@@ -64,7 +70,7 @@ std::vector<std::vector<int>> families_of(const StudyTable &table, const RowChoi
   if (task.over >= 0)
     for (std::vector<int> &family : families)
       std::stable_sort(family.begin(), family.end(),
-                       [&](int a, int b) { return table.values(a, task.over) < table.values(b, task.over); });
+                       [&](int a, int b) { return in_order(table.values(a, task.over), table.values(b, task.over)); });
   return families;
 }
 

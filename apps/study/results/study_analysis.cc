@@ -139,7 +139,8 @@ StudyOptimum StudyAnalysis::optimum_of(const StudyAnswer &answer, const OutputMo
   optimum.found   = find_optimum(model, asked.task, options);
   optimum.nominal = middle_run(answer.table);
   if (!runs && asked.verify && !stop_)
-    optimum.verified = run_at(optimum.found.coded, Derivatives::none).values;
+    if (const Eigen::VectorXd values = run_at(optimum.found.coded, Derivatives::none).values; values.allFinite())
+      optimum.verified = values;
   if (!optimum.nominal && asked.verify && !stop_)
     optimum.nominal = run_at(Eigen::VectorXd::Zero(optimum.found.coded.size()), Derivatives::none).values;
   return optimum;

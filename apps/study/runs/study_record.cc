@@ -35,7 +35,7 @@ void flatten(const SceneNode &node, const std::string &path, Entries &entries)
 bool matters(const std::string &key)
 {
   static const std::vector<std::string> others{"name",     "description", "extends", "surface",
-                                               "optimise", "keep",        "scene"};
+                                               "optimise", "choose",      "keep",    "scene"};
   return std::find(others.begin(), others.end(), key) == others.end();
 }
 

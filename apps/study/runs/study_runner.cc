@@ -97,10 +97,10 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
     row.cpu_s = spent();
     return failed(row, result->run->failure);
   }
+  if (derivatives)
+    *derivatives = derivatives_or_none(*result, levels);
   try
   {
-    if (derivatives)
-      *derivatives = output_derivatives(outputs_, *result, variants_, variables_, levels);
     for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
     {
       row.values.push_back(value.value);
@@ -120,6 +120,18 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
   row.status = RunStatus::done;
   row.cpu_s  = spent();
   return row;
+}
+
+Eigen::MatrixXd StudyRunner::derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const
+{
+  try
+  {
+    return output_derivatives(outputs_, result, variants_, variables_, levels);
+  }
+  catch (const std::invalid_argument &)
+  {
+    return {};
+  }
 }
 
 std::string run_folder(int number)

@@ -48,9 +48,12 @@ private:
   std::vector<VariableRequest> variables_;
   SceneVariants                variants_;
   FrameShelf                   frames_;
-  OutputFormulas               outputs_;
-  std::filesystem::path        kept_;
-  bool                         any_done_ = false; ///< outputs could be read
+  /// None where the machine or an output has none: the search then takes differences of runs.
+  Eigen::MatrixXd derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const;
+
+  OutputFormulas        outputs_;
+  std::filesystem::path kept_;
+  bool                  any_done_ = false; ///< outputs could be read
 };
 
 /// Folder of a run's own results, from that of the study: "run_12".

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace gestell::tests
 {
 namespace
@@ -53,6 +55,15 @@ TEST(RowChoice, HasTheWindowOfItsFamilyUpToTheFirstRunThatBreaksALimit)
   const RowChoice choice = choose_row(table, largest_force());
   EXPECT_EQ(choice.window, (std::vector<int>{4, 1})); // the run at 4 s lies behind one that breaks the limit
   EXPECT_EQ(family_of(table, choice.task, choice.best), "linear");
+}
+
+/// Where a failed run would stand is not known; the others keep their order.
+TEST(RowChoice, HasItsWindowWhateverRunFailed)
+{
+  const double nan     = std::numeric_limits<double>::quiet_NaN();
+  StudyTable   table   = table_of({{0, 1, 10, 1.4}, {0, 3, 5, 1.3}, {0, nan, nan, nan}, {0, 2, 30, 1.3}});
+  table.runs[2].status = RunStatus::failed;
+  EXPECT_EQ(choose_row(table, largest_force()).window, (std::vector<int>{0, 3, 1}));
 }
 
 TEST(RowChoice, IsNoneWhereEveryRunBreaksALimitOrHasFailed)

@@ -92,6 +92,8 @@ TEST(StudyFile, WhatIsWrongIsToldWithItsPlace)
   says(everything + "run = '1'\n", "'run' is a column of runs.csv already");
   says(everything + "[variables.c2]\nkey = 'parameters.c_P'\nfrom = 1\nto = 2\n",
        "takes the value of variable c_P already");
+  says(everything + "[variables.k]\nkey = 'parameters.c_P.value'\nfrom = 1\nto = 2\n",
+       "'parameters.c_P.value' of variable k is a part of 'parameters.c_P' of variable c_P");
   says(everything + "[design]\ntype = 'Sobol'\nruns = 5\n[surface]\n", "has 6 coefficients, but the design has 5 runs");
   says(everything + "[design]\ntype = 'Sobol'\nruns = 9\n[optimise.goals.H]\n", "there is no output 'H'");
   says(everything + "[design]\ntype = 'Sobol'\nruns = 9\n[optimise]\ngoals = { F = {} }\nrobust = {}\n",

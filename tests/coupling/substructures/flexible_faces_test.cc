@@ -102,7 +102,7 @@ TEST(FlexibleFaces, JoinMeshesThatDoNotMatch)
   for (int j = 6; j < 12; ++j)
   {
     EXPECT_LT(omega[j], coarse[j] * 1.001) << j; // what degree 4 leaves
-    EXPECT_GT(omega[j], fine[j] * 0.999) << j; // between nodes the two sides differ
+    EXPECT_GT(omega[j], fine[j] * 0.999) << j;   // between nodes the two sides differ
   }
 }
 
@@ -169,6 +169,10 @@ TEST(FlexibleFaces, AreRefusedWhereTheyCannotMoveAlike)
   auto wide             = joint;
   wide.tolerance        = 1.;
   EXPECT_NE(refusal(tilted, wide).find("parallel planes"), std::string::npos);
+
+  auto beside = halves(3);
+  beside[1].placement.at += 2. * part_width * Eigen::Vector3d::UnitY();
+  EXPECT_NE(refusal(beside, wide).find("lie beside each other"), std::string::npos);
 
   auto unjoined = halves(3);
   make_flexible(unjoined[0], "rear", 3);
