@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-/// The machine at another value of one parameter, with where it starts and what is told of it there.
+/// The machine at another value of one parameter, with its start and its signals.
 struct MachineTwin
 {
   Machine            *machine = nullptr;

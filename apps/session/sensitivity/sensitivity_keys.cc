@@ -115,8 +115,8 @@ VariedKey varied(const std::string &key, const SceneNode &root, const Parameters
   const SceneNode &node     = node_of(root, key);
   const Quantity   quantity = value_of(key, node, parameters);
   if (quantity.value == 0.)
-    refuse(key,
-           node.place.text() + " is 0, of which nobody knows what is little; give it a small value, or leave it out");
+    refuse(key, node.place.text() +
+                    " is 0, so that its size tells no step for a quotient; give it a small value, or leave it out");
   VariedKey found;
   found.told.key   = key;
   found.told.value = quantity.value;

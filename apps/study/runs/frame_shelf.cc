@@ -18,7 +18,7 @@ namespace
 
 constexpr std::size_t most_kept = 3;
 
-/// Held for as long as it lives; where the file cannot be made nobody waits.
+/// Holds the lock while it lives; where its file cannot be made, processes do not wait for each other.
 class FileLock
 {
 public:

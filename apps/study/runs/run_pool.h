@@ -21,8 +21,8 @@ using TakeRow = std::function<void(const RunRow &row)>;
 /**
  * Makes runs side by side, by so many processes; one makes them in this process.
  *
- * Each process takes the next run that nobody has.  One that ends by a signal costs the row of its run, which is marked
- * as failed, and another takes its place.
+ * Each process takes the next run that no other has taken.  One that ends by a signal costs the row of its run, which
+ * is marked as failed, and another takes its place.
  *
  * @param stop  ends all, what has not ended yet has no row
  * @throws std::invalid_argument as StudyRunner::run()
