@@ -1,9 +1,9 @@
 #include "apps/session/stages/ringing.h"
 
 #include "apps/session/stages/history_rows.h"
-#include "apps/session/stages/matrix_pencil.h"
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/assembly.h"
+#include "coupling/modes/matrix_pencil.h"
 #include "coupling/modes/modes.h"
 #include "fem/values/number_text.h"
 
@@ -17,6 +17,7 @@ namespace gestell::apps
 namespace
 {
 
+using coupling::DampedOscillation;
 using coupling::Event;
 using coupling::RunResult;
 
@@ -182,9 +183,9 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
                     std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
     return;
   }
-  PencilFit fit    = matrix_pencil(samples, ringing.step, scene.stages.modes);
-  ringing.residual = fit.residual;
-  result.reason    = leave_out_slow(fit.oscillations, ringing);
+  coupling::PencilFit fit = coupling::matrix_pencil(samples, ringing.step, scene.stages.modes);
+  ringing.residual        = fit.residual;
+  result.reason           = leave_out_slow(fit.oscillations, ringing);
   std::vector<coupling::Mode> linearised;
   try
   {

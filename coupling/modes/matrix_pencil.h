@@ -5,7 +5,7 @@
 #include <complex>
 #include <vector>
 
-namespace gestell::apps
+namespace gestell::coupling
 {
 
 /// A damped oscillation A exp(s t) + conjugate in several signals.
@@ -44,4 +44,4 @@ struct PencilFit
  */
 PencilFit matrix_pencil(const Eigen::MatrixXd &samples, double h, int most);
 
-} // namespace gestell::apps
+} // namespace gestell::coupling

@@ -1,4 +1,4 @@
-#include "apps/session/stages/matrix_pencil.h"
+#include "coupling/modes/matrix_pencil.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace gestell::apps
+namespace gestell::coupling
 {
 
 namespace
@@ -122,4 +122,4 @@ PencilFit matrix_pencil(const MatrixXd &samples, double h, int most)
   return fit;
 }
 
-} // namespace gestell::apps
+} // namespace gestell::coupling
