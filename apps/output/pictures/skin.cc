@@ -147,16 +147,14 @@ Skin refined(const Skin &skin, double edge)
   return fine;
 }
 
-std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
+std::vector<std::array<int, 2>> edges_between(const Skin &skin, const EdgeBetween &is_edge)
 {
-  const double cosine = std::cos(degrees * 3.14159265358979323846 / 180.);
-
   struct Edge
   {
     std::array<int, 2> ends;
     Vector3d           first_normal;
     int                n_triangles;
-    bool               sharp;
+    bool               drawn;
   };
   std::unordered_map<long, Edge> edges;
   for (const auto &t : skin.triangles)
@@ -167,16 +165,22 @@ std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
       const int  a = std::min(t[i], t[(i + 1) % 3]), b = std::max(t[i], t[(i + 1) % 3]);
       const long key   = static_cast<long>(a) * static_cast<long>(skin.points.size()) + b;
       const auto found = edges.emplace(key, Edge{{a, b}, n, 0, false}).first;
-      if (++found->second.n_triangles > 1 && n.dot(found->second.first_normal) < cosine)
-        found->second.sharp = true;
+      if (++found->second.n_triangles > 1 && is_edge(n, found->second.first_normal))
+        found->second.drawn = true;
     }
   }
-  std::vector<std::array<int, 2>> sharp;
+  std::vector<std::array<int, 2>> drawn;
   for (const auto &[key, edge] : edges)
-    if (edge.sharp || edge.n_triangles == 1)
-      sharp.push_back(edge.ends);
-  std::sort(sharp.begin(), sharp.end());
-  return sharp;
+    if (edge.drawn || edge.n_triangles == 1)
+      drawn.push_back(edge.ends);
+  std::sort(drawn.begin(), drawn.end());
+  return drawn;
+}
+
+std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
+{
+  const double cosine = std::cos(degrees * 3.14159265358979323846 / 180.);
+  return edges_between(skin, [=](const Vector3d &a, const Vector3d &b) { return a.dot(b) < cosine; });
 }
 
 } // namespace gestell::apps

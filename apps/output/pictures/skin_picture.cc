@@ -40,11 +40,12 @@ std::vector<Facet> facets_of(const Skin &skin, double enlargement, const View &v
 }
 
 /// Edges as one path; with a raster only those not hidden.
-std::string edge_path(const Skin &skin, double enlargement, const View &view, const DepthRaster *raster)
+std::string path_of(const std::vector<std::array<int, 2>> &edges, const Skin &skin, double enlargement,
+                    const View &view, const DepthRaster *raster)
 {
   std::string svg;
   const auto  place = [&](int i) { return view(skin.points[i] + enlargement * skin.displacement[i]); };
-  for (const auto &[a, b] : sharp_edges(skin, sharp))
+  for (const auto &[a, b] : edges)
   {
     const Vector3d p = place(a), q = place(b), middle = 0.5 * (p + q);
     if (raster != nullptr && !raster->sees(middle, 2.5))
@@ -55,6 +56,19 @@ std::string edge_path(const Skin &skin, double enlargement, const View &view, co
     append_coordinate(svg += ' ', q[1]);
   }
   return svg;
+}
+
+std::string edge_path(const Skin &skin, double enlargement, const View &view, const DepthRaster *raster)
+{
+  return path_of(sharp_edges(skin, sharp), skin, enlargement, view, raster);
+}
+
+/// The silhouette, where what is seen borders on what is not, so that round bodies have one, too.
+std::string silhouette_path(const Skin &skin, const View &view)
+{
+  return path_of(edges_between(skin, [&](const Vector3d &a, const Vector3d &b)
+                               { return view.faces_viewer(a) != view.faces_viewer(b); }),
+                 skin, 0., view, nullptr);
 }
 
 const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke:currentColor;stroke-width:1.2;"
@@ -253,7 +267,7 @@ std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes
   const View  view(seen, picture_size);
   std::string outlines;
   for (const Shape &shape : later)
-    outlines += edge_path({shape.points, shape.displacement, shape.triangles}, 0., view, nullptr);
+    outlines += silhouette_path({shape.points, shape.displacement, shape.triangles}, view);
 
   const auto               pale   = [](const std::array<int, 3> &) { return Colour{205, 211, 218}; };
   const std::vector<Facet> facets = facets_of(skin, 0., view, pale);

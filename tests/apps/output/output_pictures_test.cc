@@ -172,6 +172,20 @@ TEST(Skin, SharpEdgesOfACubeAreItsTwelve)
   EXPECT_EQ(sharp_edges(skin, 95.).size(), 0u);
 }
 
+// A round bar seen from the side: two lines along it, and its ends, which are lines from there.
+TEST(Skin, ARoundBarHasASilhouette)
+{
+  Shape bar;
+  add_bar(bar, {0., 0., 0.}, {2., 0., 0.}, 0.1);
+  const Skin     skin{bar.points, std::vector<Vector3d>(bar.points.size(), Vector3d::Zero()), bar.triangles};
+  const Vector3d towards(0., -1., 0.1);
+  int            along = 0;
+  for (const auto &[a, b] : edges_between(skin, [&](const Vector3d &m, const Vector3d &n)
+                                          { return (m.dot(towards) > 0.) != (n.dot(towards) > 0.); }))
+    along += std::abs((skin.points[a] - skin.points[b])[0]) > 1.9;
+  EXPECT_EQ(along, 2);
+}
+
 TEST(Projection, HidesWhatStandsBehind)
 {
   const std::vector<Vector3d> seen = {{-1., -1., -1.}, {1., 1., 1.}};
