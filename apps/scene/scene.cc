@@ -269,6 +269,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   scene.modes = read_modes(table, names, scene);
   read_output(table, scene);
   table.finish();
+  parameters.refuse_idle_overrides();
   refuse_rotations_of_nodes(scene);
   scene.warnings = table.warnings();
   return scene;

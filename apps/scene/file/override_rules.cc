@@ -7,11 +7,6 @@ namespace gestell::apps
 namespace
 {
 
-bool from_command_line(const SceneNode &node)
-{
-  return node.place.file.rfind("--set", 0) == 0;
-}
-
 void take_away(SceneNode &table, const std::vector<std::string> &keys)
 {
   auto      &entries = table.entries;
@@ -35,6 +30,11 @@ std::string method_in(const SceneNode &table, const std::string &otherwise)
 }
 
 } // namespace
+
+bool from_command_line(const SceneNode &node)
+{
+  return node.place.file.rfind("--set", 0) == 0;
+}
 
 void make_way(SceneNode &older, const SceneNode &newer)
 {

@@ -5,6 +5,9 @@
 namespace gestell::apps
 {
 
+/// Whether a value was given by `--set`.
+bool from_command_line(const SceneNode &node);
+
 /**
  * Lets a newer layer of [run], of an extending file or of the command line, replace what an older one says without
  * having to take back every key: another method takes away the parameters of the former one, a tolerance takes the

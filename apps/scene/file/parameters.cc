@@ -1,5 +1,6 @@
 #include "apps/scene/file/parameters.h"
 
+#include "apps/scene/file/override_rules.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/tokens.h"
 #include "fem/values/nearest_name.h"
@@ -58,6 +59,8 @@ Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &n
     return known->second;
   const SceneNode &value = *table.find(name);
   value.used             = true;
+  if (from_command_line(value))
+    overrides_.emplace(name, value.place);
   if (const auto first = std::find(open.begin(), open.end(), name); first != open.end())
   {
     std::string circle;
@@ -81,6 +84,7 @@ Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &n
           {
             if (!table.find(other))
               return std::nullopt;
+            needs_[name].insert(other);
             return evaluate_entry(table, other, open);
           },
           table_names(table));
@@ -123,8 +127,31 @@ Expression Parameters::expression(const SceneNode &value, const std::vector<Vari
 {
   if (value.type == SceneNode::Type::text)
     return parse_expression(
-        value.text, variables, [this](const std::string &name) { return find(name); }, names(), kind);
+        value.text, variables,
+        [this](const std::string &name)
+        {
+          use(name);
+          return find(name);
+        },
+        names(), kind);
   return Quantity{value.number, {}, false, Counts::nothing};
+}
+
+void Parameters::use(const std::string &name) const
+{
+  if (values_.count(name) == 0 || !used_.insert(name).second)
+    return;
+  if (const auto needed = needs_.find(name); needed != needs_.end())
+    for (const std::string &other : needed->second)
+      use(other);
+}
+
+void Parameters::refuse_idle_overrides() const
+{
+  for (const auto &[name, place] : overrides_)
+    if (used_.count(name) == 0)
+      place.fail("no value of the scene depends on the parameter '" + name + "', so that it changes nothing" +
+                 suggestion(name, {used_.begin(), used_.end()}));
 }
 
 } // namespace gestell::apps

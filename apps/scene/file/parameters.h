@@ -4,6 +4,7 @@
 #include "apps/scene/language/parse_expression.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,19 @@ public:
   Expression expression(const SceneNode &value, const std::vector<Variable> &variables,
                         const Kind *kind = nullptr) const;
 
+  /// Refuses a parameter of the command line (`--set`) that no value read so far depends on: a slip of the pen would
+  /// else change nothing without a word.
+  /// @throws std::invalid_argument with the nearest name
+  void refuse_idle_overrides() const;
+
 private:
   Quantity evaluate_entry(const SceneNode &table, const std::string &name, std::vector<std::string> &open);
+  void     use(const std::string &name) const;
 
-  std::map<std::string, Quantity> values_;
+  std::map<std::string, Quantity>              values_;
+  std::map<std::string, std::set<std::string>> needs_;     ///< of a parameter, others
+  std::map<std::string, Place>                 overrides_; ///< those of the command line
+  mutable std::set<std::string>                used_;      ///< by values outside the table, and what those need
 };
 
 } // namespace gestell::apps

@@ -74,6 +74,16 @@ TEST(SceneOverride, AddsKeysThatAreKnownAndRefusesOthers)
             "--set element.rod.clearence=0.4 mm: element.rod: unknown key 'clearence'; did you mean 'clearance'?");
 }
 
+// A slip of the pen would change nothing, and its result would look like the answer.
+TEST(SceneOverride, OfAParameterThatNothingDependsOnIsRefused)
+{
+  EXPECT_EQ(complaint(small_scene(), {"parameters.radiu=90 mm"}),
+            "--set parameters.radiu=90 mm: no value of the scene depends on the parameter 'radiu', so that it changes "
+            "nothing; did you mean 'radius'?");
+  EXPECT_NO_THROW(scene_of(small_scene(), {"parameters.half=45 mm", "parameters.radius=2*half"}));
+  EXPECT_NE(complaint(small_scene(), {"parameters.half=45 mm", "parameters.twice=2*half"}), "");
+}
+
 TEST(SceneOverride, OfTheWrongFormIsRefused)
 {
   for (const std::string text : {"run.step", "=3", "run..step=3", "run.\"step=3", "name.x=3", "extends=other.toml"})
