@@ -1,9 +1,9 @@
 // The work-precision chart: what it concludes from runs, how its references know their own error, and that what it
 // offers can be used.
 
-#include "apps/cli/chart_methods.h"
-#include "apps/cli/chart_reference.h"
-#include "apps/cli/work_measurement.h"
+#include "apps/cli/chart/chart_methods.h"
+#include "apps/cli/chart/chart_reference.h"
+#include "apps/cli/chart/work_measurement.h"
 #include "apps/output/charts/work_precision.h"
 #include "apps/output/charts/work_precision_chart.h"
 #include "apps/output/report/work_precision_page.h"

@@ -1,4 +1,4 @@
-#include "apps/cli/work_measurement.h"
+#include "apps/cli/chart/work_measurement.h"
 
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/simulation/recorder.h"

@@ -1,4 +1,4 @@
-#include "apps/cli/chart_reference.h"
+#include "apps/cli/chart/chart_reference.h"
 
 #include "fem/values/nearest_name.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/cli/work_measurement.h"
+#include "apps/cli/chart/work_measurement.h"
 
 #include <string>
 #include <vector>

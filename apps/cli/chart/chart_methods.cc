@@ -1,4 +1,4 @@
-#include "apps/cli/chart_methods.h"
+#include "apps/cli/chart/chart_methods.h"
 
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"

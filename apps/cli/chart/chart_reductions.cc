@@ -1,4 +1,4 @@
-#include "apps/cli/chart_reductions.h"
+#include "apps/cli/chart/chart_reductions.h"
 
 #include "apps/cli/interruption.h"
 #include "apps/cli/results_path.h"
