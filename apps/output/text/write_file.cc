@@ -8,7 +8,8 @@ namespace fs = std::filesystem;
 
 void write_file(const fs::path &path, const std::string &content)
 {
-  fs::create_directories(path.parent_path());
+  if (path.has_parent_path())
+    fs::create_directories(path.parent_path());
   coupling::WholeFile file(path.string());
   file.stream().write(content.data(), static_cast<std::streamsize>(content.size()));
   file.finish();

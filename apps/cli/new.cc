@@ -1,0 +1,78 @@
+#include "apps/cli/command.h"
+#include "apps/output/text/write_file.h"
+#include "apps/templates/scene_templates.h"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+struct NewOptions
+{
+  std::string kind, file; ///< empty: the list of kinds; KIND.toml
+};
+
+void list_kinds()
+{
+  for (const SceneTemplate &any : scene_templates())
+    std::cout << any.kind << std::string(15 - any.kind.size(), ' ') << headline(any) << '\n';
+}
+
+/// Name of the scene that a file holds.
+std::string name_of(const std::filesystem::path &file)
+{
+  if (file.extension() != ".toml" || file.stem().empty())
+    throw std::invalid_argument(file.string() + ": a scene's file ends in .toml, such as machine.toml");
+  const std::string name = file.stem().string();
+  if (name.find_first_of("\"\\") != std::string::npos)
+    throw std::invalid_argument(file.string() + ": the name of a scene has neither quotes nor backslashes");
+  return name;
+}
+
+void require_free(const std::filesystem::path &file)
+{
+  if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+    throw std::invalid_argument(
+        file.string() + " is there already and stays as it is; give another name: " + "gestell new KIND other.toml");
+}
+
+int make_new(const NewOptions &options)
+{
+  if (options.kind.empty())
+  {
+    list_kinds();
+    return exit_done;
+  }
+  const SceneTemplate         chosen = scene_template(options.kind);
+  const std::filesystem::path scene  = options.file.empty() ? options.kind + ".toml" : options.file;
+  const std::filesystem::path frame  = std::filesystem::path(scene).replace_extension(".geo");
+  const SceneTemplate         own    = named(chosen, name_of(scene));
+  require_free(scene);
+  require_free(frame);
+  write_file(frame, own.frame);
+  write_file(scene, own.scene);
+  std::cout << "written: " << scene.string() << ", and its frame " << frame.string() << "\nnext:    gestell check "
+            << scene.string() << "\n         gestell run " << scene.string() << '\n';
+  return exit_done;
+}
+
+} // namespace
+
+Command new_command()
+{
+  const auto own = std::make_shared<NewOptions>();
+  return {"new",
+          "write a scene to start from, with its frame",
+          {"gestell new press", "gestell new cam my_cam.toml"},
+          CommandInput::none,
+          {{"KIND", &own->kind, "frame, slider-crank, cam, press or crane (default: the list of them)"},
+           {"FILE", &own->file, "scene to write (default KIND.toml)"}},
+          [own](const CommonOptions &) { return make_new(*own); }};
+}
+
+} // namespace gestell::apps
