@@ -24,6 +24,13 @@ CommandOption CommandOption::one_of(const std::vector<std::string> &names) const
   return option;
 }
 
+CommandOption CommandOption::proposing(const std::vector<std::string> &words) const
+{
+  CommandOption option = *this;
+  option.proposals     = words;
+  return option;
+}
+
 CommandOption CommandOption::with(const std::string &other) const
 {
   CommandOption option = *this;

@@ -45,13 +45,15 @@ struct CommandOption
   std::string              name; ///< "--jobs"; "--peers,!--no-peers" of a flag with its opposite; "KEY" without a name
   Value                    value;
   std::string              does;
-  Range                    range   = Range::any;
-  std::vector<std::string> choices = {}; ///< empty: any text
-  std::string              needs   = ""; ///< option without which it has no meaning
+  Range                    range     = Range::any;
+  std::vector<std::string> choices   = {}; ///< empty: any text
+  std::string              needs     = ""; ///< option without which it has no meaning
+  std::vector<std::string> proposals = {}; ///< words for completion, where others are refused elsewhere or are none
 
   CommandOption above_zero() const;
   CommandOption existing_file() const;
   CommandOption one_of(const std::vector<std::string> &names) const;
+  CommandOption proposing(const std::vector<std::string> &words) const;
   CommandOption with(const std::string &option) const; ///< needs it
 };
 

@@ -1,4 +1,5 @@
 #include "apps/cli/command.h"
+#include "apps/reference/declared_tables.h"
 #include "apps/reference/help_text.h"
 #include "apps/reference/json_schema.h"
 #include "apps/reference/key_tables.h"
@@ -18,6 +19,14 @@ struct HelpCommandOptions
   std::string docs; ///< folder whose schema and tables of keys are renewed; empty: none
 };
 
+std::vector<std::string> tables()
+{
+  std::vector<std::string> paths;
+  for (const DeclaredTable &table : declared_tables())
+    paths.push_back(table.path);
+  return paths;
+}
+
 int help(const HelpCommandOptions &help)
 {
   if (!help.docs.empty())
@@ -36,7 +45,7 @@ Command help_command()
           "explain the keys of a scene",
           {"gestell help element.clearance", "gestell help stiffness"},
           CommandInput::none,
-          {{"KEY", &own->topic, "table or key (default: the list of tables)"},
+          {CommandOption{"KEY", &own->topic, "table or key (default: the list of tables)"}.proposing(tables()),
            {"--schema", &own->schema, "JSON schema of scenes, for editors, instead"},
            {"--renew", &own->docs, "write schema and tables of keys in this folder of documents anew, instead"}},
           [own](const CommonOptions &) { return help(*own); }};

@@ -17,6 +17,14 @@ struct NewOptions
   std::string kind, file; ///< empty: the list of kinds; KIND.toml
 };
 
+std::vector<std::string> kinds()
+{
+  std::vector<std::string> names;
+  for (const SceneTemplate &any : scene_templates())
+    names.push_back(any.kind);
+  return names;
+}
+
 void list_kinds()
 {
   for (const SceneTemplate &any : scene_templates())
@@ -70,7 +78,7 @@ Command new_command()
           "write a scene to start from, with its frame",
           {"gestell new press", "gestell new cam my_cam.toml"},
           CommandInput::none,
-          {{"KIND", &own->kind, "frame, slider-crank, cam, press or crane (default: the list of them)"},
+          {CommandOption{"KIND", &own->kind, "of machine (default: the list of kinds)"}.proposing(kinds()),
            {"FILE", &own->file, "scene to write (default KIND.toml)"}},
           [own](const CommonOptions &) { return make_new(*own); }};
 }

@@ -1,0 +1,156 @@
+#include "apps/command_line/command_line.h"
+
+#include "apps/session/commit.h"
+#include "apps/version.h"
+#include "fem/values/nearest_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <variant>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// CLI11's own check prints the largest number there is, with all its digits.
+CLI::Validator above_zero()
+{
+  return CLI::Validator(
+      [](const std::string &text)
+      {
+        char        *end   = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        return *end == '\0' && !text.empty() && value > 0. && std::isfinite(value)
+                   ? std::string()
+                   : "needs a plain number above zero, got " + text;
+      },
+      "NUMBER");
+}
+
+std::vector<std::string> command_names(const CLI::App &program)
+{
+  std::vector<std::string> names;
+  for (const CLI::App *command : program.get_subcommands([](const CLI::App *) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+/// "SCENE" or "CAD", and what goes with it.
+void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
+{
+  if (input == CommandInput::none)
+    return;
+  const bool cad = input == CommandInput::cad, study = input == CommandInput::study;
+  command
+      .add_option(cad     ? "CAD"
+                  : study ? "STUDY"
+                          : "SCENE",
+                  options.input,
+                  cad     ? "STEP, BREP, .geo or .msh file"
+                  : study ? "study file (TOML)"
+                          : "scene file (TOML)")
+      ->required(input != CommandInput::scene_or_none);
+  command
+      .add_option("--jobs", options.jobs,
+                  study ? "processes that make runs side by side (default 1)"
+                        : "threads of the linear algebra that makes a frame (default 1)")
+      ->check(above_zero());
+  command.add_flag("--quiet", options.quiet, "no progress on standard error");
+  command.add_flag_callback(
+      "--trust-scripts", [&options] { options.scripts = fem::Scripts::trusted; },
+      "run scripts of gmsh (.geo) as they are, which may run programs and write files");
+  if (cad)
+    return;
+  command.add_option("-o,--output", options.folder,
+                     study ? "folder for results (default results/<study name>)"
+                           : "folder for results (default results/<scene name>)");
+  command
+      .add_option("--set", options.overrides,
+                  study ? "override an entry of the study or of its scene: key.path=value"
+                        : "override an entry of the scene: key.path=value")
+      ->allow_extra_args(false);
+}
+
+/// A bool is a flag, a list is parted by commas.
+struct AddOption
+{
+  CLI::App            &command;
+  const CommandOption &option;
+
+  CLI::Option *operator()(bool *value) const { return command.add_flag(option.name, *value, option.does); }
+  template <typename T>
+  CLI::Option *operator()(std::vector<T> *value) const
+  {
+    return command.add_option(option.name, *value, option.does)->delimiter(',');
+  }
+  template <typename T>
+  CLI::Option *operator()(T *value) const
+  {
+    return command.add_option(option.name, *value, option.does);
+  }
+};
+
+void add_option(CLI::App &command, const CommandOption &option)
+{
+  CLI::Option *added = std::visit(AddOption{command, option}, option.value);
+  if (option.range == CommandOption::Range::above_zero)
+    added->check(above_zero());
+  if (option.range == CommandOption::Range::existing_file)
+    added->check(CLI::ExistingFile);
+  if (!option.choices.empty())
+    added->check(CLI::IsMember(option.choices));
+  if (!option.needs.empty())
+    added->needs(command.get_option(option.needs));
+}
+
+void add_command(CLI::App &program, const Command &command, CommonOptions &options)
+{
+  CLI::App   *added  = program.add_subcommand(command.name, command.does);
+  std::string footer = "Example:";
+  for (const std::string &example : command.examples)
+    footer += "\n  " + example;
+  added->footer(footer);
+  add_input(*added, command.input, options);
+  for (const CommandOption &option : command.options)
+    add_option(*added, option);
+}
+
+} // namespace
+
+std::unique_ptr<CLI::App> command_line(const std::vector<Command> &all, CommonOptions &options)
+{
+  auto program = std::make_unique<CLI::App>(
+      "Gestell computes how a machine and the frame that carries it shake each other.", "gestell");
+  program->set_version_flag("--version",
+                            std::string("gestell ") + version + (commit().empty() ? "" : " (" + commit() + ")"));
+  program->require_subcommand(1);
+  for (const Command &command : all)
+    add_command(*program, command, options);
+  return program;
+}
+
+void require_command(const CLI::App &program, const std::string &word)
+{
+  const auto names = command_names(program);
+  if (!word.empty() && word.front() != '-' && std::find(names.begin(), names.end(), word) == names.end())
+    throw std::invalid_argument("there is no command '" + word + "'" + suggestion(word, names));
+}
+
+std::invalid_argument unexpected(const CLI::App &program)
+{
+  const CLI::App          *command = program.get_subcommands().empty() ? &program : program.get_subcommands().front();
+  const std::string        word    = program.remaining(true).front();
+  std::vector<std::string> options;
+  for (const CLI::Option *option : command->get_options())
+    for (const std::string &name : option->get_lnames())
+      options.push_back("--" + name);
+  return std::invalid_argument(command->get_name() + ": " +
+                               (word.front() == '-'
+                                    ? "there is no option " + word + suggestion(word, options)
+                                    : "'" + word + "' is one input too many; names with spaces stand in quotes"));
+}
+
+} // namespace gestell::apps
