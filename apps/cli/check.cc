@@ -1,6 +1,7 @@
 #include "apps/cli/command.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/free_bodies.h"
+#include "apps/scene/build/scene_in_words.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/substructures/require_joints.h"
@@ -87,6 +88,8 @@ int check(const CommonOptions &options)
             << '\n';
   if (!geometry.empty())
     std::cout << "frame: " << geometry << '\n';
+  for (const std::string &line : scene_in_words(scene))
+    std::cout << "  " << line << '\n';
   if (!scene.joints.empty() && !places_known(scene))
     std::cout << "joints: closed when the frame is made; interfaces without 'position' are placed by its file\n";
   for (const BodyRequest &body : scene.bodies)

@@ -30,6 +30,9 @@ coupling::Machine build_machine(const Scene &scene); ///< FramePath none or dens
 coupling::Machine build_machine(const Scene &scene, coupling::ReducedFrame frame);
 coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame);
 
+/// The machine as far as it is known without computing: a frame that must be made first is a stand-in with its interfaces.
+coupling::Machine machine_to_check(const Scene &scene);
+
 /// The signals of the scene; throws std::invalid_argument with place and nearest name for a path that does not exist.
 std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine);
 

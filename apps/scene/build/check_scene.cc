@@ -10,9 +10,6 @@
 
 namespace gestell::apps
 {
-namespace
-{
-
 coupling::Machine machine_to_check(const Scene &scene)
 {
   const FramePath path = frame_path(scene);
@@ -22,8 +19,6 @@ coupling::Machine machine_to_check(const Scene &scene)
     return build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
   return build_machine(scene, stand_in_frame(scene));
 }
-
-} // namespace
 
 bool places_known(const Scene &scene)
 {
