@@ -19,13 +19,7 @@ namespace
   throw std::invalid_argument(value.place.text() + ": parameters." + written_key(name) + ": " + what);
 }
 
-std::vector<std::string> table_names(const SceneNode &table)
-{
-  std::vector<std::string> names;
-  for (const auto &entry : table.entries)
-    names.push_back(entry.first);
-  return names;
-}
+constexpr std::size_t longest_chain = 500; ///< of parameters that need each other; each takes some of the stack
 
 void check_name(const SceneNode &value, const std::string &name)
 {
@@ -37,6 +31,21 @@ void check_name(const SceneNode &value, const std::string &name)
 
 } // namespace
 
+struct Parameters::Table
+{
+  explicit Table(const SceneNode &table)
+  {
+    for (const auto &[name, value] : table.entries)
+    {
+      entries.emplace(name, &value);
+      names.push_back(name);
+    }
+  }
+
+  std::map<std::string, const SceneNode *> entries;
+  std::vector<std::string>                 names;
+};
+
 Parameters::Parameters(const SceneNode *table)
 {
   if (!table)
@@ -46,18 +55,19 @@ Parameters::Parameters(const SceneNode *table)
     throw std::invalid_argument(table->place.text() + ": parameters: needs a table, got " + type_name(table->type));
   for (const auto &[name, value] : table->entries)
     check_name(value, name);
-  for (const auto &entry : table->entries)
+  const Table by_name(*table);
+  for (const std::string &name : by_name.names)
   {
     std::vector<std::string> open;
-    evaluate_entry(*table, entry.first, open);
+    evaluate_entry(by_name, name, open);
   }
 }
 
-Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &name, std::vector<std::string> &open)
+Quantity Parameters::evaluate_entry(const Table &table, const std::string &name, std::vector<std::string> &open)
 {
   if (const auto known = values_.find(name); known != values_.end())
     return known->second;
-  const SceneNode &value = *table.find(name);
+  const SceneNode &value = *table.entries.at(name);
   value.used             = true;
   if (from_command_line(value))
     overrides_.emplace(name, value.place);
@@ -68,6 +78,10 @@ Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &n
       circle += *i + " -> ";
     fail(value, name, "depends on itself: " + circle + name);
   }
+  if (open.size() >= longest_chain)
+    fail(value, name,
+         "is needed at the end of a chain of " + std::to_string(longest_chain) +
+             " parameters; put those that others need before them");
   open.push_back(name);
 
   Quantity result;
@@ -82,12 +96,12 @@ Quantity Parameters::evaluate_entry(const SceneNode &table, const std::string &n
           value.text,
           [&](const std::string &other) -> std::optional<Quantity>
           {
-            if (!table.find(other))
+            if (table.entries.count(other) == 0)
               return std::nullopt;
             needs_[name].insert(other);
             return evaluate_entry(table, other, open);
           },
-          table_names(table));
+          table.names);
     }
     catch (const std::invalid_argument &e)
     {

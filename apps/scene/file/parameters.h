@@ -35,7 +35,8 @@ public:
   void refuse_idle_overrides() const;
 
 private:
-  Quantity evaluate_entry(const SceneNode &table, const std::string &name, std::vector<std::string> &open);
+  struct Table; ///< the entries by name
+  Quantity evaluate_entry(const Table &table, const std::string &name, std::vector<std::string> &open);
   void     use(const std::string &name) const;
 
   std::map<std::string, Quantity>              values_;

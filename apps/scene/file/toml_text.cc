@@ -42,6 +42,49 @@ std::string line_of(const std::string &path, std::size_t number)
   return line;
 }
 
+constexpr int deepest = 50; ///< tables and arrays in each other; parsers take some of the stack for each
+
+/// Past a string that begins at i: to its closing quotes, or the end of the text.
+std::size_t behind_string(const std::string &text, std::size_t i)
+{
+  const char  quote  = text[i];
+  const bool  triple = text.compare(i, 3, std::string(3, quote)) == 0;
+  std::size_t at     = i + (triple ? 3 : 1);
+  for (; at < text.size(); ++at)
+    if (quote == '"' && text[at] == '\\')
+      ++at;
+    else if (triple ? text.compare(at, 3, std::string(3, quote)) == 0 : text[at] == quote || text[at] == '\n')
+      return at + (triple ? 3 : 1);
+  return at;
+}
+
+/// Line in which brackets, or the dots of a key, go deeper than that; 0: none.
+int too_deep(const std::string &text)
+{
+  int line = 1, depth = 0, dots = 0;
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const char c = text[i];
+    if (c == '"' || c == '\'')
+    {
+      const std::size_t next = behind_string(text, i);
+      line += int(std::count(text.begin() + long(i), text.begin() + long(std::min(next, text.size())), '\n'));
+      i = next;
+      continue;
+    }
+    if (c == '#')
+      i = std::min(text.find('\n', i), text.size());
+    else
+      ++i;
+    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+    dots = c == '.' ? dots + 1 : c == '\n' || c == '=' || c == ',' ? 0 : dots;
+    if (depth > deepest || dots > deepest)
+      return line;
+    line += c == '\n';
+  }
+  return 0;
+}
+
 /// Entries in the order of the file; toml11 keeps none.
 std::vector<const toml::table::value_type *> in_order(const toml::table &table)
 {
@@ -120,10 +163,15 @@ SceneNode parse_toml_file(const std::string &path)
   std::ifstream in(path, std::ios::binary);
   if (!in)
     fail(0, "cannot be read; check its permissions");
-  const auto folder = std::filesystem::absolute(path).parent_path().lexically_normal().string();
+  const auto        folder = std::filesystem::absolute(path).parent_path().lexically_normal().string();
+  std::stringstream text;
+  text << in.rdbuf();
+  if (const int line = too_deep(text.str()); line > 0)
+    fail(line, "tables and arrays stand in each other more than " + std::to_string(deepest) +
+                   " deep here; a scene needs six at most");
   try
   {
-    return converted(toml::parse(in, path), Place{path, 1}, folder);
+    return converted(toml::parse(text, path), Place{path, 1}, folder);
   }
   catch (const toml::exception &e)
   {
@@ -139,7 +187,7 @@ SceneNode parse_toml_file(const std::string &path)
 
 std::optional<SceneNode> parse_toml_value(const std::string &text, const Place &place, const std::string &folder)
 {
-  if (text.find('\n') != std::string::npos)
+  if (text.find('\n') != std::string::npos || too_deep(text) > 0)
     return std::nullopt;
   try
   {

@@ -144,6 +144,36 @@ TEST(Messages, AJointFarFromBothBodiesIsNamedWithTheDistance)
   EXPECT_NE(said[0].find("the joint \"elbow\" lies 10.6 m from \"p\" and \"bar\""), std::string::npos) << said[0];
 }
 
+// What a file can be made of without an end, and what a parser with a stack would end by a signal for.
+TEST(Messages, RefuseWhatIsDeeperThanAnyScene)
+{
+  const auto repeated = [](const std::string &text, int n)
+  {
+    std::string all;
+    for (int i = 0; i < n; ++i)
+      all += text;
+    return all;
+  };
+  const auto deep = [&](const std::string &text) { expect_complaint("x = 1\n" + text, "more than 50 deep"); };
+  deep("a = " + repeated("[", 6000) + repeated("]", 6000));
+  deep("a = " + repeated("{b = ", 6000) + "1" + repeated("}", 6000));
+  deep(repeated("a.", 20000) + "a = 1\n");
+  deep("[" + repeated("a.", 20000) + "a]\n");
+  std::string chain = "[parameters]\n";
+  for (int i = 2000; i > 0; --i)
+    chain += "p" + std::to_string(i) + " = \"p" + std::to_string(i - 1) + " + 1\"\n";
+  expect_complaint(chain + "p0 = 1\n", "a chain of 500 parameters");
+}
+
+TEST(Messages, BracketsInTextsAndCommentsAreNotDeep)
+{
+  std::string note;
+  for (int i = 0; i < 100; ++i)
+    note += "[{(";
+  const auto scene = test::scene_of("description = \"" + note + "\" # " + note + "\n" + pendulum);
+  EXPECT_EQ(scene.description, note);
+}
+
 TEST(Messages, ARunNeedsNoSignals)
 {
   const auto motion = run(pendulum);
