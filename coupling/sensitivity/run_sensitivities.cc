@@ -22,7 +22,8 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double finest = 1e-8, coarsest = 1e-6; ///< tolerances of a step of the variational equations
+constexpr double finest = 1e-8, coarse = 1e-6; ///< tolerances of a step of the variational equations
+constexpr double of_fixed_steps = 1e-5;         ///< likewise, of runs by fixed steps of order 1 or 2
 constexpr double little    = 0.02;               ///< of their step, over which rates in time are taken
 constexpr double same_time = 1e-9;               ///< of the run's length
 constexpr double jump      = 1e-6;               ///< of the fastest coordinate: velocities that differ by more jump
@@ -79,8 +80,8 @@ private:
 double tolerance_for(const MethodOptions &method)
 {
   if (controlled(method))
-    return std::clamp(100. * method.tolerance, finest, coarsest);
-  return method.order > 2 ? finest : coarsest;
+    return std::clamp(100. * method.tolerance, finest, coarse);
+  return method.order > 2 ? finest : of_fixed_steps;
 }
 
 double first_step(const SensitivityProblem &problem)
