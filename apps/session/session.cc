@@ -280,8 +280,9 @@ Result Session::run(const std::string &sensitivities)
   coupling::Trajectory trajectory;
   const std::clock_t   at_twins = std::clock();
   if (differentiated)
-    twins =
-        scene_twins(root, path_, scripts_, scene_, prepared, keys, sensitivities == "all" ? &result.warnings : nullptr);
+    twins = scene_twins({root, path_, scripts_}, scene_, prepared, keys,
+                        sensitivities == "all" ? &result.warnings : nullptr, progress());
+  result.warnings.insert(result.warnings.end(), twins.warnings.begin(), twins.warnings.end());
   const std::clock_t at_run     = std::clock();
   result.run                    = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
                                                   : not_started(scene_.run.options, failure);

@@ -159,10 +159,12 @@ std::vector<std::string> all_keys(const SceneNode &root, const Parameters &param
 
 } // namespace
 
-std::string VariedKey::overridden(double sign) const
+std::string VariedKey::overridden(double by) const
 {
   // A whole number of a file that stands for a real one is written as a text.
-  return told.key + "=\"(" + text + ")*(1 " + (sign * told.value > 0. ? "+" : "-") + " 1e-6)\"";
+  std::string text_of_share;
+  append_exact(text_of_share, share * std::abs(by));
+  return told.key + "=\"(" + text + ")*(1 " + (by * told.value > 0. ? "+ " : "- ") + text_of_share + ")\"";
 }
 
 std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list)

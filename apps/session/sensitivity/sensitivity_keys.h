@@ -16,8 +16,8 @@ struct VariedKey
   std::string    text;      ///< in the file: "900 kN/mm"
   double         step = 0.; ///< of its value, > 0
 
-  /// "parameters.c_P=(900 kN/mm)*(1 + 1e-6)"
-  std::string overridden(double sign) const;
+  /// "parameters.c_P=(900 kN/mm)*(1 + 1e-6)", larger by `by` of its step: below zero smaller.
+  std::string overridden(double by) const;
 };
 
 /// Entries named by a comma separated list, or "all": every number of [parameters] that is no expression of others.
