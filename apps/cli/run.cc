@@ -101,7 +101,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   }
   if (asked.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
-  return result.run->interrupted ? exit_interrupted : exit_done;
+  const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
+  return interrupted ? exit_interrupted : exit_done;
 }
 
 } // namespace

@@ -290,7 +290,8 @@ Result Session::run(const std::string &sensitivities)
   if (differentiated && result.run->failure.empty() && !result.run->interrupted)
   {
     progress()("sensitivities", -1.);
-    result.sensitivities            = sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, result);
+    result.sensitivities =
+        sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, watch_.interruption, result);
     result.sensitivities->run_cpu_s = seconds(behind_run - at_run);
     result.sensitivities->cpu_s     = seconds(at_run - at_twins + std::clock() - behind_run);
   }

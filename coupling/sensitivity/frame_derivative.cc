@@ -29,9 +29,8 @@ void require_same_structure(const ReducedFrame &at, const ReducedFrame &other)
            other.interfaces[i].coordinate == at.interfaces[i].coordinate;
   if (!same)
     throw std::invalid_argument("the frame at another value has " + std::to_string(other.n_interface) +
-                                " coordinates of interfaces and " +
-                                std::to_string(other.M.rows() - other.n_interface) + " modes, this one " +
-                                std::to_string(at.n_interface) + " and " +
+                                " coordinates of interfaces and " + std::to_string(other.M.rows() - other.n_interface) +
+                                " modes, this one " + std::to_string(at.n_interface) + " and " +
                                 std::to_string(at.M.rows() - at.n_interface) +
                                 ": there is no difference of the two; give the number of modes (reduction.modes)");
 }
@@ -139,9 +138,9 @@ FrameDerivative frame_derivative(const ReducedFrame &at, const ReducedFrame &min
   const double       quotient = 0.5 / step;
   FrameDerivative    found;
   double             first = 0., second = 0.;
-  for (const auto &[to, F] : {std::pair(&FrameDerivative::M, &ReducedFrame::M),
-                              std::pair(&FrameDerivative::B, &ReducedFrame::B),
-                              std::pair(&FrameDerivative::C, &ReducedFrame::C)})
+  for (const auto &[to, F] :
+       {std::pair(&FrameDerivative::M, &ReducedFrame::M), std::pair(&FrameDerivative::B, &ReducedFrame::B),
+        std::pair(&FrameDerivative::C, &ReducedFrame::C)})
   {
     const MatrixXd change = above.*F - below.*F;
     found.*to             = quotient * 0.5 * (change + change.transpose());

@@ -22,9 +22,9 @@ struct FrameDerivative
 };
 
 /**
- * Central quotient of two reduced frames, (F+ - F-)/2 step.  Each has coordinates of its own: behind the interface stand
- * its modes, which have any sign and, where frequencies meet, any order and combination.  Theirs are turned by the
- * orthogonal matrix R that brings their shapes nearest to those of `at`,
+ * Central quotient of two reduced frames, (F+ - F-)/2 step.  Each has coordinates of its own: behind the interface
+ * stand its modes, which have any sign and, where frequencies meet, any order and combination.  Theirs are turned by
+ * the orthogonal matrix R that brings their shapes nearest to those of `at`,
  *
  *     p± = diag(E, R) p,   R = U V^T of  X = U S V^T,   D± X = D in the mean square,
  *

@@ -177,7 +177,8 @@ void MotionLinearisation::add_loads(const MotionState &state, int k, Linearised 
   const ParameterTwins &twin  = twins_[std::size_t(k)];
   const Changes        &what  = changes_[std::size_t(k)];
   const LinearSystem   &below = twin.minus.machine->linear(), &above = twin.plus.machine->linear();
-  for (const auto &[matrix, x] : {std::pair(&what.M, &state.a), std::pair(&what.B, &state.v), std::pair(&what.C, &state.q)})
+  for (const auto &[matrix, x] :
+       {std::pair(&what.M, &state.a), std::pair(&what.B, &state.v), std::pair(&what.C, &state.q)})
     if (matrix->size() > 0)
       at.r.col(k).noalias() -= *matrix * *x;
   if (what.load)

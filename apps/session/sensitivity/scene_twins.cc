@@ -18,7 +18,7 @@ namespace gestell::apps
 namespace
 {
 constexpr double of_matrices = 1e-3; ///< of a value, by which frames on equal meshes are apart from the scene's
-constexpr double of_meshes   = 1e-2; ///< of frames meshed anew: what meshes scatter is smaller beside it
+constexpr double of_meshes   = 5e-2; ///< of frames meshed anew: what meshes scatter is smaller beside it
 constexpr double rough       = 0.05; ///< of a difference of frames: what it may be wrong by is told
 
 /// What a machine needs of its frame, without what is only drawn or told.
@@ -192,9 +192,9 @@ void add_twins(const SceneFileAt &file, const Scene &scene, const PreparedMachin
 {
   const VariedScene varied(file, key);
   std::string       warning;
-  const auto        of_frame = frame ? derivative_of_frame(varied, scene, *prepared.machine.model().reduced_frame(),
-                                                           progress, warning)
-                                     : std::nullopt;
+  const auto        of_frame =
+      frame ? derivative_of_frame(varied, scene, *prepared.machine.model().reduced_frame(), progress, warning)
+                   : std::nullopt;
   SceneTwin below = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, -1.),
             above = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, 1.);
   for (const SceneTwin *twin : {&below, &above})
