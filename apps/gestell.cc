@@ -1,6 +1,7 @@
 // The program gestell: one executable with subcommands.
 
 #include "apps/cli/commands.h"
+#include "apps/cli/interruption.h"
 #include "apps/cli/team.h"
 #include "apps/session/commit.h"
 #include "apps/version.h"
@@ -129,6 +130,9 @@ void add_option(CLI::App &command, const CommandOption &option)
     added->check(above_zero());
   if (option.range == CommandOption::Range::existing_file)
     added->check(CLI::ExistingFile);
+  if (std::holds_alternative<std::string *>(option.value))
+    added->check([](const std::string &text)
+                 { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); });
   if (!option.choices.empty())
     added->check(CLI::IsMember(option.choices));
   if (!option.needs.empty())
@@ -212,6 +216,12 @@ int main(int argc, char **argv)
   }
   catch (const std::exception &error)
   {
+    if (interruption()) // what was under way then fails somewhere
+    {
+      if (speaks)
+        std::cerr << "gestell: interrupted: " << error.what() << '\n';
+      return exit_interrupted;
+    }
     if (speaks)
       std::cerr << "gestell: the computation failed: " << error.what() << '\n';
     return exit_failed;

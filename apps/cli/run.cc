@@ -67,7 +67,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
-  Result result = session.run(asked.sensitivities);
+  Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
     add_budget(session.scene(), outputs, result);
   prepare_folder(folder);

@@ -23,6 +23,8 @@ struct VariedKey
 /// Entries named by a comma separated list, or "all": every number of [parameters] that is no expression of others.
 /// @throws std::invalid_argument: an entry that does not exist (nearest named), one that is no number, is zero, or says
 /// nothing about the machine
-std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list);
+/// @param left_out  gets a sentence that names the parameters that "all" leaves out for they are zero; null: nothing
+std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list,
+                                   std::vector<std::string> *left_out = nullptr);
 
 } // namespace gestell::apps
