@@ -14,13 +14,16 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double early       = 0.1; ///< of the run
-constexpr double too_far     = 10.; ///< ways that a coordinate is moved by one percent
-constexpr double believed    = 0.1; ///< of its way, up to which first order is believed
+constexpr double early      = 0.1;  ///< of the run
+constexpr double too_far    = 10.;  ///< ways that a coordinate is moved by one percent
+constexpr double at_rest    = 1e-6; ///< of the largest momentum of a way: the coordinate does not move
+constexpr double takes_part = 1e-3; ///< of the largest of the derivative
+constexpr double believed   = 0.1;  ///< of its way, up to which first order is believed
 } // namespace
 
-Growth::Growth(const Machine &machine, const Trajectory &trajectory, const std::vector<ParameterTwins> &twins)
-    : machine_(machine), twins_(twins), largest_(twins.size())
+Growth::Growth(const Machine &machine, const VectorXd &mass, const Trajectory &trajectory,
+               const std::vector<ParameterTwins> &twins)
+    : machine_(machine), twins_(twins), root_mass_(mass.cwiseMax(0.).cwiseSqrt()), largest_(twins.size())
 {
   const auto  &pieces = trajectory.pieces();
   const double begin = pieces.front().nodes.front().t, end = pieces.back().nodes.back().t;
@@ -34,14 +37,20 @@ Growth::Growth(const Machine &machine, const Trajectory &trajectory, const std::
     }
   way_ = high - low;
   way_.head(way_.size() - machine.model().n_mechanism()).setZero();
+  const VectorXd weights = root_mass_.cwiseProduct(way_);
+  for (Index i = 0; i < way_.size(); ++i)
+    if (weights[i] <= at_rest * weights.maxCoeff())
+      way_[i] = 0.;
 }
 
 void Growth::look(double t, const Eigen::MatrixXd &s)
 {
   for (std::size_t k = 0; k < largest_.size(); ++k)
+  {
+    const VectorXd weights = root_mass_.cwiseProduct(s.col(Index(k)).cwiseAbs());
     for (Index i = 0; i < way_.size(); ++i)
     {
-      if (!(way_[i] > 0.))
+      if (!(way_[i] > 0.) || !(weights[i] > takes_part * weights.maxCoeff()))
         continue;
       Largest     &most  = largest_[k];
       const double ratio = std::abs(s(i, Index(k)) * twins_[k].value) / way_[i];
@@ -54,6 +63,7 @@ void Growth::look(double t, const Eigen::MatrixXd &s)
         most.coordinate = i;
       }
     }
+  }
 }
 
 std::vector<std::string> Growth::warnings() const

@@ -12,12 +12,15 @@ namespace gestell::coupling
 /**
  * How far derivatives of a motion can be believed.  A change dx of a parameter moves coordinate i of a body by s_i dx;
  * where that is more than the whole way that the coordinate goes in the run, the motion is another one, and first order
- * says nothing.  Motions that are chaotic or unstable let s grow by orders of magnitude.
+ * says nothing.  Coordinates count that take part, by their momentum: in the motion and in its derivative.  Motions
+ * that are chaotic or unstable let s grow by orders of magnitude.
  */
 class Growth
 {
 public:
-  Growth(const Machine &machine, const Trajectory &trajectory, const std::vector<ParameterTwins> &twins);
+  /// @param mass  [n] diagonal of M
+  Growth(const Machine &machine, const Eigen::VectorXd &mass, const Trajectory &trajectory,
+         const std::vector<ParameterTwins> &twins);
 
   /// [s] a tenth of the run, from which growth is counted.
   double first_look() const { return first_; }
@@ -37,7 +40,8 @@ private:
   const Machine                     &machine_;
   const std::vector<ParameterTwins> &twins_;
   double                             first_;
-  Eigen::VectorXd                    way_; ///< [n] largest less smallest q; zero of the frame's own coordinates
+  Eigen::VectorXd                    root_mass_; ///< [n]
+  Eigen::VectorXd                    way_;       ///< [n] largest less smallest q; zero: it does not count
   std::vector<Largest>               largest_;
 };
 
