@@ -28,7 +28,7 @@ constexpr double of_fixed_steps = 1e-5;        ///< likewise, of runs by fixed s
 constexpr double little         = 0.02;        ///< of their step, over which rates in time are taken
 constexpr double same_time      = 1e-9;        ///< of the run's length
 constexpr double jump           = 1e-6;        ///< of the fastest coordinate: velocities that differ by more jump
-constexpr double touching       = 1e-6;        ///< of what a guard moves in a step, its rate: it touches its zero only
+constexpr double touching       = 1e-4;        ///< of what a guard moves in a step, its rate: it touches its zero only
 
 constexpr double expected = 0.01; ///< relative change of the motion by that of a parameter: less need not be exact
 

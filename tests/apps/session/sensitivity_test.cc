@@ -143,17 +143,6 @@ TEST_F(OfFlight, AnInterruptionKeepsTheRunAndWhatIsKnownByThen)
   EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities are known of")));
 }
 
-TEST_F(OfFlight, AForceThatJumpsAtAContactIsLargestBehindIt)
-{
-  // F = d v at the first contact, on a stop that is all damper.
-  const std::string damped =
-      test::with(test::quoted(flight), "stiffness = 'c'", "stiffness = '1 N/m'\ndamping   = '100 N s/m'");
-  const std::string path = folder_.write("damped.toml", test::quoted(damped));
-  const auto        by_v = *Session(path).run("parameters.v_0").sensitivities;
-  EXPECT_NEAR(output(by_v, "F.max").value, 80., 1e-6);
-  EXPECT_NEAR(output(by_v, "F.max").derivative[0], 100., 1e-5);
-}
-
 TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)
 {
   // Thrown up against gravity, the mass turns at the stop.
@@ -234,6 +223,16 @@ TEST(Sensitivities, OfAChaoticMotionTellHowFarTheyHold)
       Session(GESTELL_SOURCE_DIR "/apps/scenes/cam_follower.toml", {"run.end=2 s"}).run("parameters.r_0");
   EXPECT_THAT(result.warnings, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("chaotic or unstable"),
                                                                     ::testing::HasSubstr("it grew by the factor"))));
+}
+
+TEST(Sensitivities, OfATorqueThatAClutchTakesAwayAreThoseBehind)
+{
+  // It falls from some 20 kN m to zero, exactly, which is its smallest value.
+  const auto by_J =
+      *Session(GESTELL_SOURCE_DIR "/apps/scenes/press_emergency_stop.toml").run("parameters.J2").sensitivities;
+  EXPECT_EQ(output(by_J, "M_T.min").value, 0.);
+  EXPECT_EQ(output(by_J, "M_T.min").derivative[0], 0.);
+  EXPECT_NE(output(by_J, "M_T.t_min").derivative[0], 0.);
 }
 
 } // namespace

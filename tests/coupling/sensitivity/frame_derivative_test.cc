@@ -82,7 +82,7 @@ TEST(FrameDerivative, IsThatOfTheMatricesWhateverModesTheTwoFramesAreIn)
   EXPECT_LT((there.M - exact.M).norm(), 1e-4 * 0.1);
   EXPECT_LT((there.C - exact.C).norm(), 1e-4 * 0.1 * exact.C.norm());
   EXPECT_LT((there.outputs[0].on_q - exact.outputs[0].on_q).norm(), 1e-4 * 0.1);
-  EXPECT_DOUBLE_EQ(there.interfaces[0].position[2], 1.1);
+  EXPECT_NEAR(there.interfaces[0].position[2], 1.1, 1e-12);
   EXPECT_LT(found.curvature, 1e-3);
 }
 
