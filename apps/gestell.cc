@@ -1,6 +1,7 @@
 // The program gestell: one executable with subcommands.
 
 #include "apps/cli/commands.h"
+#include "apps/cli/interruption.h"
 #include "apps/cli/team.h"
 #include "apps/command_line/command_line.h"
 #include "apps/command_line/completion.h"
@@ -86,6 +87,12 @@ int main(int argc, char **argv)
   }
   catch (const std::exception &error)
   {
+    if (interruption()) // what was under way then fails somewhere
+    {
+      if (speaks)
+        std::cerr << "gestell: interrupted: " << error.what() << '\n';
+      return exit_interrupted;
+    }
     if (speaks)
       std::cerr << "gestell: the computation failed: " << error.what() << '\n';
     return exit_failed;

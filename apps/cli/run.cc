@@ -67,7 +67,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
-  Result result = session.run(asked.sensitivities);
+  Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
     add_budget(session.scene(), outputs, result);
   prepare_folder(folder);
@@ -101,7 +101,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   }
   if (asked.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
-  return result.run->interrupted ? exit_interrupted : exit_done;
+  const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
+  return interrupted ? exit_interrupted : exit_done;
 }
 
 } // namespace

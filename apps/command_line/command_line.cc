@@ -100,6 +100,9 @@ void add_option(CLI::App &command, const CommandOption &option)
     added->check(above_zero());
   if (option.range == CommandOption::Range::existing_file)
     added->check(CLI::ExistingFile);
+  if (std::holds_alternative<std::string *>(option.value))
+    added->check([](const std::string &text)
+                 { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); });
   if (!option.choices.empty())
     added->check(CLI::IsMember(option.choices));
   if (!option.needs.empty())

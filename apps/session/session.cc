@@ -260,13 +260,15 @@ Result Session::frequency_response(const FrfOptions &options)
   return finished(std::move(result));
 }
 
-Result Session::run(const std::string &sensitivities)
+Result Session::run(const std::optional<std::string> &sensitivities)
 {
   check_run();
-  const bool             differentiated = !sensitivities.empty();
-  const SceneNode        root           = differentiated ? read_scene_file(path_, overrides_) : SceneNode();
-  std::vector<VariedKey> keys           = differentiated ? varied_keys(root, sensitivities) : std::vector<VariedKey>();
-  PreparedMachine       &prepared       = machine();
+  const bool               differentiated = sensitivities.has_value();
+  const SceneNode          root           = differentiated ? read_scene_file(path_, overrides_) : SceneNode();
+  std::vector<std::string> left_out;
+  std::vector<VariedKey>   keys =
+      differentiated ? varied_keys(root, *sensitivities, &left_out) : std::vector<VariedKey>();
+  PreparedMachine &prepared = machine();
   require_stress(scene_, prepared.machine.model().reduced_frame());
   const auto signals = with_normal_forces(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
   progress()("start", -1.);
@@ -280,8 +282,10 @@ Result Session::run(const std::string &sensitivities)
   coupling::Trajectory trajectory;
   const std::clock_t   at_twins = std::clock();
   if (differentiated)
-    twins =
-        scene_twins(root, path_, scripts_, scene_, prepared, keys, sensitivities == "all" ? &result.warnings : nullptr);
+    twins = scene_twins({root, path_, scripts_}, scene_, prepared, keys, sensitivities == "all" ? &left_out : nullptr,
+                        progress());
+  for (const auto *warnings : {&left_out, &twins.warnings})
+    result.warnings.insert(result.warnings.end(), warnings->begin(), warnings->end());
   const std::clock_t at_run     = std::clock();
   result.run                    = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
                                                   : not_started(scene_.run.options, failure);
@@ -289,7 +293,8 @@ Result Session::run(const std::string &sensitivities)
   if (differentiated && result.run->failure.empty() && !result.run->interrupted)
   {
     progress()("sensitivities", -1.);
-    result.sensitivities            = sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, result);
+    result.sensitivities =
+        sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, watch_.interruption, result);
     result.sensitivities->run_cpu_s = seconds(behind_run - at_run);
     result.sensitivities->cpu_s     = seconds(at_run - at_twins + std::clock() - behind_run);
   }

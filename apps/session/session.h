@@ -68,8 +68,8 @@ public:
   /// Frequency responses of the machine linearised at an operating point.
   Result frequency_response(const FrfOptions &options);
   /// The scene simulated in time, with modes, stresses and warnings.
-  /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); empty: none
-  Result run(const std::string &sensitivities = "");
+  /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
+  Result run(const std::optional<std::string> &sensitivities = {});
 
   /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
   Result periodic(const PeriodicRequest &request = {});

@@ -8,7 +8,6 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double one_percent = 0.01;
 } // namespace
 
 std::vector<std::string> meeting_events(const std::vector<OutputDerivatives> &outputs,

@@ -26,6 +26,39 @@ Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, c
   difference.prune(0.);
   return difference.nonZeros() > 0 ? difference : Eigen::SparseMatrix<double>();
 }
+
+/// The same of a matrix that is known by its products, column by column; a product with a vector that has no zeros
+/// tells whether there is anything: equal bit by bit means equal matrices.
+template <typename Product>
+Eigen::SparseMatrix<double> quotient(const LinearSystem &minus, const LinearSystem &plus, Product product, double step)
+{
+  const Index n = minus.size();
+  VectorXd    x(n), below(n), above(n);
+  for (Index i = 0; i < n; ++i)
+    x[i] = 1. + 0.37 * std::sin(1. + double(i));
+  const auto multiply = [&]
+  {
+    (minus.*product)(x, below);
+    (plus.*product)(x, above);
+    return below != above;
+  };
+  if (!multiply())
+    return {};
+  std::vector<Eigen::Triplet<double>> entries;
+  x.setZero();
+  for (Index j = 0; j < n; ++j)
+  {
+    x[j] = 1.;
+    if (multiply())
+      for (Index i = 0; i < n; ++i)
+        if (above[i] != below[i])
+          entries.emplace_back(int(i), int(j), (above[i] - below[i]) / (2. * step));
+    x[j] = 0.;
+  }
+  Eigen::SparseMatrix<double> difference(n, n);
+  difference.setFromTriplets(entries.begin(), entries.end());
+  return difference;
+}
 } // namespace
 
 void require_variational(const Machine &machine)
@@ -50,26 +83,15 @@ MotionLinearisation::MotionLinearisation(Machine &machine, const std::vector<Par
   find_changes();
 }
 
-/// By products with a vector that has no zeros: equal bit by bit means equal matrices.
 void MotionLinearisation::find_changes()
 {
-  const Index n = machine_.size();
-  VectorXd    x(n), minus(n), plus(n);
-  for (Index i = 0; i < n; ++i)
-    x[i] = 1. + 0.37 * std::sin(1. + double(i));
   for (const ParameterTwins &twin : twins_)
   {
     const LinearSystem &below = twin.minus.machine->linear(), &above = twin.plus.machine->linear();
     Changes             change;
-    const auto          differ = [&](auto product)
-    {
-      (below.*product)(x, minus);
-      (above.*product)(x, plus);
-      return minus != plus;
-    };
-    change.mass      = differ(&LinearSystem::mass_times);
-    change.damping   = differ(&LinearSystem::damping_times);
-    change.stiffness = differ(&LinearSystem::stiffness_times);
+    change.M    = quotient(below, above, &LinearSystem::mass_times, twin.step);
+    change.B    = quotient(below, above, &LinearSystem::damping_times, twin.step);
+    change.C    = quotient(below, above, &LinearSystem::stiffness_times, twin.step);
     change.load = !below.excitation().is_constant() || below.excitation().constant() != above.excitation().constant();
     change.W = quotient(twin.minus.machine->forces().directions(), twin.plus.machine->forces().directions(), twin.step);
     changes_.push_back(std::move(change));
@@ -155,25 +177,17 @@ void MotionLinearisation::add_loads(const MotionState &state, int k, Linearised 
   const ParameterTwins &twin  = twins_[std::size_t(k)];
   const Changes        &what  = changes_[std::size_t(k)];
   const LinearSystem   &below = twin.minus.machine->linear(), &above = twin.plus.machine->linear();
-  const double          quotient = 0.5 / twin.step;
-  minus_.resize(state.q.size());
-  plus_.resize(state.q.size());
-  const auto add = [&](bool changed, auto product, const VectorXd &x)
-  {
-    if (!changed)
-      return;
-    (below.*product)(x, minus_);
-    (above.*product)(x, plus_);
-    at.r.col(k) -= quotient * (plus_ - minus_);
-  };
-  add(what.mass, &LinearSystem::mass_times, state.a);
-  add(what.damping, &LinearSystem::damping_times, state.v);
-  add(what.stiffness, &LinearSystem::stiffness_times, state.q);
+  for (const auto &[matrix, x] :
+       {std::pair(&what.M, &state.a), std::pair(&what.B, &state.v), std::pair(&what.C, &state.q)})
+    if (matrix->size() > 0)
+      at.r.col(k).noalias() -= *matrix * *x;
   if (what.load)
   {
+    minus_.resize(state.q.size());
+    plus_.resize(state.q.size());
     below.excitation().at(state.t, minus_);
     above.excitation().at(state.t, plus_);
-    at.r.col(k) += quotient * (plus_ - minus_);
+    at.r.col(k) += 0.5 / twin.step * (plus_ - minus_);
   }
   if (what.W.size() == 0)
     return;

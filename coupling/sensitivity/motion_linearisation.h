@@ -55,12 +55,12 @@ public:
   void linearise(const MotionState &state, Linearised &at);
 
 private:
-  /// What of the linear base a parameter changes.
+  /// What a parameter changes; of M, B, C, W the derivatives by it, empty: none.
   struct Changes
   {
-    bool                        mass = false, damping = false, stiffness = false, load = false;
+    bool                        load   = false;
     bool                        forces = true, joints = true; ///< on the present piece
-    Eigen::SparseMatrix<double> W;                            ///< dW/dx; empty: none
+    Eigen::SparseMatrix<double> M, B, C, W;
   };
 
   void find_changes();

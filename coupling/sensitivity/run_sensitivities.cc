@@ -1,5 +1,7 @@
 #include "coupling/sensitivity/run_sensitivities.h"
 
+#include "coupling/sensitivity/extreme_derivatives.h"
+#include "coupling/sensitivity/growth.h"
 #include "coupling/sensitivity/meeting_events.h"
 #include "coupling/sensitivity/signal_derivatives.h"
 #include "coupling/sensitivity/variational_steps.h"
@@ -7,7 +9,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -22,15 +23,14 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double finest = 1e-8, coarsest = 1e-6; ///< tolerances of a step of the variational equations
-constexpr double little    = 0.02;               ///< of their step, over which rates in time are taken
-constexpr double same_time = 1e-9;               ///< of the run's length
-constexpr double jump      = 1e-6;               ///< of the fastest coordinate: velocities that differ by more jump
-constexpr double touching  = 1e-6; ///< of what a guard moves in a step, its rate: it touches its zero only
+constexpr double finest = 1e-8, coarse = 1e-6; ///< tolerances of a step of the variational equations
+constexpr double of_fixed_steps = 1e-5;        ///< likewise, of runs by fixed steps of order 1 or 2
+constexpr double little         = 0.02;        ///< of their step, over which rates in time are taken
+constexpr double same_time      = 1e-9;        ///< of the run's length
+constexpr double jump           = 1e-6;        ///< of the fastest coordinate: velocities that differ by more jump
+constexpr double touching       = 1e-4;        ///< of what a guard moves in a step, its rate: it touches its zero only
 
 constexpr double expected = 0.01; ///< relative change of the motion by that of a parameter: less need not be exact
-
-const double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The run gone over once more, with its derivatives.
 class Passage
@@ -40,52 +40,49 @@ public:
   RunSensitivities result();
 
 private:
-  struct Extreme
-  {
-    std::size_t signal;
-    bool        largest;
-    double      t, value;
-  };
-
   void        start();
   void        expect();
   void        compare_structures(double t, const std::string &after);
   void        pass_piece(std::size_t number);
+  void        advance_to(double t);
+  void        tell_end();
   void        take_events(std::size_t number);
   void        take_transition(int guard, const MotionState &state, const MotionColumns &columns, const RowVectorXd &dt);
   void        tell_piece_begin(std::size_t number);
-  void        at_extreme(Extreme &extreme);
-  void        at_event_extreme(Extreme &extreme, const Told &told, const VectorXd &rates, const RowVectorXd &dt);
   RowVectorXd event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns);
-  OutputDerivatives &output(const Extreme &extreme, bool instant);
-  void               set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant);
 
-  const SensitivityProblem &problem_;
-  Machine                  &machine_;
-  int                       K_;
-  VariationalEquation       equation_;
-  SignalDerivatives         signals_;
-  VariationalSteps          steps_;
-  RunSensitivities          result_;
-  std::vector<Extreme>      extremes_;
-  std::size_t               event_ = 0;
-  VectorXd                  lambda_;
-  MatrixXd                  s_, s_rate_;
-  RowVectorXd               dt_; ///< of the events at the begin of the piece
-  double                    near_ = 0.;
+  const SensitivityProblem      &problem_;
+  Machine                       &machine_;
+  int                            K_;
+  VariationalEquation            equation_;
+  SignalDerivatives              signals_;
+  VariationalSteps               steps_;
+  ExtremeDerivatives             extremes_;
+  std::vector<OutputDerivatives> events_;
+  Growth                         growth_;
+  VectorXd                       lambda_;
+  MatrixXd                       s_, s_rate_;
+  RowVectorXd                    dt_; ///< of the events at the begin of the piece
+  double                         near_        = 0.;
+  bool                           interrupted_ = false;
 };
 
 /// Derivatives are no better than the motion they follow.
 double tolerance_for(const MethodOptions &method)
 {
   if (controlled(method))
-    return std::clamp(100. * method.tolerance, finest, coarsest);
-  return method.order > 2 ? finest : coarsest;
+    return std::clamp(100. * method.tolerance, finest, coarse);
+  return method.order > 2 ? finest : of_fixed_steps;
+}
+
+double length_of(const RunOptions &options)
+{
+  return options.end - options.begin;
 }
 
 double first_step(const SensitivityProblem &problem)
 {
-  const double length = problem.options.end - problem.options.begin;
+  const double length = length_of(problem.options);
   if (problem.options.method.step > 0. && !controlled(problem.options.method))
     return problem.options.method.step *
            std::exp2(std::min(4., std::floor(std::log2(length / problem.options.method.step))));
@@ -95,32 +92,11 @@ double first_step(const SensitivityProblem &problem)
 Passage::Passage(const SensitivityProblem &problem)
     : problem_(problem), machine_(problem.machine), K_(int(problem.twins.size())), equation_(machine_, problem.twins),
       signals_(machine_, problem.signals, problem.twins, equation_),
-      steps_(equation_, first_step(problem), tolerance_for(problem.options.method))
+      steps_(equation_, first_step(problem), tolerance_for(problem.options.method)),
+      extremes_(problem.run, problem.twins, same_time * length_of(problem.options), length_of(problem.options)),
+      growth_(machine_, equation_.mass_diagonal(), problem.trajectory, problem.twins),
+      near_(same_time * length_of(problem.options))
 {
-  near_ = same_time * (problem.options.end - problem.options.begin);
-  for (std::size_t i = 0; i < problem.signals.size(); ++i)
-  {
-    const SignalSummary &told = problem.run.signals[i];
-    extremes_.push_back({i, false, told.t_min, told.min});
-    extremes_.push_back({i, true, told.t_max, told.max});
-    const std::string unit = told.unit;
-    for (const auto &[name, of, value] :
-         {std::tuple(".min", unit, told.min), std::tuple(".t_min", std::string("s"), told.t_min),
-          std::tuple(".max", unit, told.max), std::tuple(".t_max", std::string("s"), told.t_max),
-          std::tuple(".final", unit, told.final)})
-      result_.outputs.push_back({told.name + name, of, value, VectorXd::Constant(K_, none)});
-  }
-}
-
-OutputDerivatives &Passage::output(const Extreme &extreme, bool instant)
-{
-  return result_.outputs[5 * extreme.signal + (extreme.largest ? 2 : 0) + (instant ? 1 : 0)];
-}
-
-void Passage::set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant)
-{
-  output(extreme, false).derivative = of_value;
-  output(extreme, true).derivative  = of_instant;
 }
 
 /// Derivatives of the start: quotients of the starts of both machines, moved to where their joints close.
@@ -275,14 +251,12 @@ void Passage::take_events(std::size_t number)
   VectorXd   y_rates;
   signals_.find_rates(state, little * steps_.step(), rates, y_rates);
   const Told told = signals_.tell(state, columns);
-  for (Extreme &extreme : extremes_)
-    if (std::abs(extreme.t - state.t) <= near_)
-      at_event_extreme(extreme, told, y_rates, dt_);
+  extremes_.at_event(state.t, told, y_rates, dt_);
   for (const int guard : piece.guards)
   {
     const ActiveGuard active = machine_.events().guard(guard);
     const std::string name   = active.name + ' ' + active.kind;
-    result_.outputs.push_back({"events." + std::to_string(++event_) + ".t", "s", state.t, dt_.transpose(), name});
+    events_.push_back({"events." + std::to_string(events_.size() + 1) + ".t", "s", state.t, dt_.transpose(), name});
     take_transition(guard, state, columns, dt_);
     compare_structures(state.t, "\"" + name + "\"");
     const VectorXd before = state.a;
@@ -321,45 +295,23 @@ void Passage::take_events(std::size_t number)
   }
 }
 
-/// At an event the signal has two values: the extreme is that of before if it is as near.
-void Passage::at_event_extreme(Extreme &extreme, const Told &told, const VectorXd &rates, const RowVectorXd &dt)
-{
-  const Index  i   = Index(extreme.signal);
-  const double off = std::abs(told.y[i] - extreme.value);
-  if (output(extreme, false).derivative.allFinite() && !(off < 1e-9 * std::abs(extreme.value)))
-    return;
-  set(extreme, told.dy.row(i).transpose() + rates[i] * dt.transpose(), dt.transpose());
-}
-
-void Passage::at_extreme(Extreme &extreme)
-{
-  const MotionState   &state        = steps_.state();
-  const MotionColumns &columns      = steps_.columns();
-  const Told           told         = signals_.tell(state, columns);
-  const auto [rate, second, d_rate] = signals_.rates(state, columns, little * steps_.step());
-  const Index    i                  = Index(extreme.signal);
-  const double   shift              = second[i] != 0. ? -rate[i] / second[i] : 0.; // to where the signal turns
-  const VectorXd slope              = d_rate.row(i).transpose();
-  set(extreme, told.dy.row(i).transpose() + shift * slope,
-      second[i] != 0. ? VectorXd(-slope / second[i]) : VectorXd::Constant(K_, none));
-}
-
 /// At the begin of a piece: behind the events that began it, or the start of the run.
 void Passage::tell_piece_begin(std::size_t number)
 {
   const MotionState &state = steps_.state();
-  const bool         any   = std::any_of(extremes_.begin(), extremes_.end(),
-                                         [&](const Extreme &e) { return std::abs(e.t - state.t) <= near_; });
-  if (!any)
+  if (!extremes_.any_at(state.t))
     return;
   const Told told = signals_.tell(state, steps_.columns());
   LocalState rates;
   VectorXd   y_rates = VectorXd::Zero(told.y.size());
   if (number > 0)
     signals_.find_rates(state, little * steps_.step(), rates, y_rates);
-  for (Extreme &extreme : extremes_)
-    if (std::abs(extreme.t - state.t) <= near_)
-      at_event_extreme(extreme, told, y_rates, dt_);
+  extremes_.at_event(state.t, told, y_rates, dt_);
+}
+
+void Passage::advance_to(double t)
+{
+  interrupted_ = interrupted_ || !steps_.advance_to(t, problem_.stop);
 }
 
 void Passage::pass_piece(std::size_t number)
@@ -368,18 +320,26 @@ void Passage::pass_piece(std::size_t number)
   steps_.begin(piece, lambda_, s_, s_rate_);
   tell_piece_begin(number);
   const double     begin = piece.nodes.front().t, end = piece.nodes.back().t;
-  std::set<double> stops;
-  for (const Extreme &extreme : extremes_)
-    if (extreme.t > begin + near_ && extreme.t < end - near_)
-      stops.insert(extreme.t);
+  std::set<double> stops = extremes_.instants(begin, end);
+  if (growth_.first_look() > begin && growth_.first_look() < end)
+    stops.insert(growth_.first_look());
   for (const double stop : stops)
   {
-    steps_.advance_to(stop);
-    for (Extreme &extreme : extremes_)
-      if (extreme.t == stop)
-        at_extreme(extreme);
+    advance_to(stop);
+    if (interrupted_)
+      return;
+    if (extremes_.any_at(stop))
+    {
+      const double way = little * steps_.step();
+      extremes_.at_turn(stop, signals_.tell(steps_.state(), steps_.columns()),
+                        signals_.rates(steps_.state(), steps_.columns(), way), way, steps_.step());
+    }
+    growth_.look(stop, steps_.columns().q);
   }
-  steps_.advance_to(end);
+  advance_to(end);
+  if (interrupted_)
+    return;
+  growth_.look(end, steps_.columns().q);
   s_      = steps_.columns().q;
   s_rate_ = steps_.columns().v;
   lambda_ = steps_.state().local.lambda;
@@ -387,14 +347,8 @@ void Passage::pass_piece(std::size_t number)
     take_events(number);
 }
 
-RunSensitivities Passage::result()
+void Passage::tell_end()
 {
-  const auto wall = std::chrono::steady_clock::now();
-  start();
-  expect();
-  lambda_ = VectorXd::Zero(machine_.joints().n_rows());
-  for (std::size_t i = 0; i < problem_.trajectory.pieces().size(); ++i)
-    pass_piece(i);
   const Told told = signals_.tell(steps_.state(), steps_.columns());
   LocalState rates;
   VectorXd   y_rates;
@@ -403,15 +357,30 @@ RunSensitivities Passage::result()
   for (int k = 0; k < K_; ++k)
     end[k] = (problem_.twins[std::size_t(k)].plus.end - problem_.twins[std::size_t(k)].minus.end) /
              (2. * problem_.twins[std::size_t(k)].step);
-  for (std::size_t i = 0; i < problem_.signals.size(); ++i)
-    result_.outputs[5 * i + 4].derivative = told.dy.row(Index(i)).transpose() + y_rates[Index(i)] * end.transpose();
-  for (Extreme &extreme : extremes_)
-    if (std::abs(extreme.t - steps_.state().t) <= near_)
-      set(extreme, result_.outputs[5 * extreme.signal + 4].derivative, end.transpose());
-  result_.warnings = meeting_events(result_.outputs, problem_.twins, near_);
-  result_.steps    = steps_.steps();
-  result_.wall_s   = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  return std::move(result_);
+  extremes_.at_end(steps_.state().t, told, y_rates, end);
+}
+
+RunSensitivities Passage::result()
+{
+  const auto wall = std::chrono::steady_clock::now();
+  start();
+  expect();
+  lambda_ = VectorXd::Zero(machine_.joints().n_rows());
+  for (std::size_t i = 0; i < problem_.trajectory.pieces().size() && !interrupted_; ++i)
+    pass_piece(i);
+  if (!interrupted_)
+    tell_end();
+  RunSensitivities found;
+  found.warnings = meeting_events(events_, problem_.twins, near_);
+  for (std::string &warning : growth_.warnings())
+    found.warnings.push_back(std::move(warning));
+  found.outputs = extremes_.take();
+  found.outputs.insert(found.outputs.end(), events_.begin(), events_.end());
+  found.interrupted = interrupted_;
+  found.reached     = steps_.state().t;
+  found.steps       = steps_.steps();
+  found.wall_s      = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  return found;
 }
 
 void refuse_unlocated(const SensitivityProblem &problem)

@@ -5,6 +5,7 @@
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/trajectory.h"
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ struct RunSensitivities
 {
   std::vector<OutputDerivatives> outputs;
   std::vector<std::string>       warnings;
-  long                           steps  = 0; ///< of the variational equations
-  double                         wall_s = 0.;
+  bool                           interrupted = false; ///< outputs behind `reached` have no derivatives
+  double                         reached     = 0.;    ///< [s]
+  long                           steps       = 0;     ///< of the variational equations
+  double                         wall_s      = 0.;
 };
 
 /// What to differentiate.
@@ -28,6 +31,7 @@ struct SensitivityProblem
   const RunResult                   &run;
   const Trajectory                  &trajectory;
   const std::vector<ParameterTwins> &twins;
+  const std::atomic<bool>           *stop = nullptr; ///< ends the pass, which keeps what it has; null: nothing does
 };
 
 /**

@@ -78,6 +78,8 @@ const VariationalEquation::Base &VariationalEquation::base(double c)
       made.inverse.col(i) = column;
       unit[i]             = 0.;
     }
+    made.B.noalias() = made.inverse * B_;
+    made.C.noalias() = made.inverse * C_;
   }
   const auto &W = machine_.forces().directions();
   solve_base(made, MatrixXd(W), made.Y);
@@ -102,10 +104,9 @@ void VariationalEquation::solve_base(const Base &base, const MatrixXd &F, Matrix
   }
 }
 
-/// f = r - B s'_0 - C (s_0 + c s'_0)
-void VariationalEquation::find_loads(const Linearised &at, double c, MotionColumns &columns)
+/// f = r - B s'_0 - C (s_0 + c s'_0), columns.q = s_0 + c s'_0
+void VariationalEquation::find_loads(const Linearised &at, const MotionColumns &columns)
 {
-  columns.q += c * columns.v;
   F_ = at.r;
   if (B_.size() > 0)
   {
@@ -122,13 +123,29 @@ void VariationalEquation::find_loads(const Linearised &at, double c, MotionColum
     }
 }
 
+/// columns.a = A^-1 f; of small systems by A^-1 B and A^-1 C, for few parameters have loads r.
+void VariationalEquation::answer_loads(const Base &base, const Linearised &at, MotionColumns &columns)
+{
+  if (base.inverse.size() == 0)
+  {
+    find_loads(at, columns);
+    solve_base(base, F_, columns.a);
+    return;
+  }
+  columns.a.noalias() = -base.B * columns.v;
+  columns.a.noalias() -= base.C * columns.q;
+  for (Index k = 0; k < n_parameters_; ++k)
+    if (!at.r.col(k).isZero(0.))
+      columns.a.col(k).noalias() += base.inverse * at.r.col(k);
+}
+
 /// u'' = x + S dp of the measures, dp = k + K u'' + G^T dlambda + dp_h: as many unknowns as there are measures.
 void VariationalEquation::solve_condensed(const Base &base, const Linearised &at, double c, MotionColumns &columns)
 {
   const auto &W    = machine_.forces().directions();
   const auto &held = machine_.forces().held();
   const Index n_u = W.cols(), n_c = machine_.joints().n_rows(), n_h = Index(held.size()), size = n_u + n_c + n_h;
-  solve_base(base, F_, columns.a);
+  answer_loads(base, at, columns);
   X_.noalias() = W.transpose() * columns.a;
   if (at.a.size() > 0)
     X_ += at.a;
@@ -165,6 +182,7 @@ void VariationalEquation::solve_whole(const Linearised &at, double c, MotionColu
   const auto &W    = machine_.forces().directions();
   const auto &held = machine_.forces().held();
   const Index n = W.rows(), n_c = machine_.joints().n_rows(), n_h = Index(held.size()), size = n + n_c + n_h;
+  find_loads(at, columns);
   if (at.a.size() > 0)
     k_ += K_ * at.a;
   matrix_.setZero(size, size);
@@ -249,7 +267,7 @@ void VariationalEquation::find_forces(const Linearised &at, MotionColumns &colum
 void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &columns)
 {
   const auto &W = machine_.forces().directions();
-  find_loads(at, c, columns);
+  columns.q += c * columns.v;
   columns.u.noalias()      = W.transpose() * columns.q;
   columns.u_rate.noalias() = W.transpose() * columns.v;
   if (at.u.size() > 0)

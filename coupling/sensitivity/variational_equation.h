@@ -53,13 +53,14 @@ private:
   struct Base
   {
     std::unique_ptr<LinearSolver> solver;
-    Eigen::MatrixXd               inverse; ///< of small systems, else empty
-    Eigen::MatrixXd               Y, S;    ///< A^-1 W, W^T A^-1 W
+    Eigen::MatrixXd               inverse, B, C; ///< A^-1, A^-1 B, A^-1 C of small systems, else empty
+    Eigen::MatrixXd               Y, S;          ///< A^-1 W, W^T A^-1 W
   };
 
   const Base &base(double c);
   void        solve_base(const Base &base, const Eigen::MatrixXd &F, Eigen::MatrixXd &X) const;
-  void        find_loads(const Linearised &at, double c, MotionColumns &columns);
+  void        find_loads(const Linearised &at, const MotionColumns &columns);
+  void        answer_loads(const Base &base, const Linearised &at, MotionColumns &columns);
   void        solve_condensed(const Base &base, const Linearised &at, double c, MotionColumns &columns);
   void        solve_whole(const Linearised &at, double c, MotionColumns &columns);
   void        find_forces(const Linearised &at, MotionColumns &columns) const;

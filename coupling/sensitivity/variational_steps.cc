@@ -166,11 +166,13 @@ void VariationalSteps::note_sizes()
   size_v_ = size_v_.cwiseMax(columns_.v.cwiseAbs());
 }
 
-void VariationalSteps::advance_to(double t)
+bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
 {
   int halvings = 0;
   while (state_.t < t - 1e-13 * std::max(std::abs(t), step_))
   {
+    if (stop && stop->load(std::memory_order_relaxed))
+      return false;
     const double from   = state_.t;
     const double left   = t - from;
     const bool   last   = left <= 1.0001 * step_;
@@ -195,6 +197,7 @@ void VariationalSteps::advance_to(double t)
     if (!last && err < growth)
       step_ *= 2.;
   }
+  return true;
 }
 
 bool VariationalSteps::try_step(double to)

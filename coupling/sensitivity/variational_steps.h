@@ -4,6 +4,7 @@
 #include "coupling/simulation/trajectory.h"
 
 #include <array>
+#include <atomic>
 
 namespace gestell::coupling
 {
@@ -53,7 +54,8 @@ public:
   /// At the begin of a piece.  @param s, s_rate  [n x K]
   void begin(const SmoothPiece &piece, const Eigen::VectorXd &lambda, const Eigen::MatrixXd &s,
              const Eigen::MatrixXd &s_rate);
-  void advance_to(double t);
+  /// @return whether it came there: `stop` ends it before; null: nothing does
+  bool advance_to(double t, const std::atomic<bool> *stop = nullptr);
 
   const MotionState   &state() const { return state_; }
   const Linearised    &linearised() const { return at_; }

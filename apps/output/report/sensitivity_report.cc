@@ -3,6 +3,7 @@
 #include "apps/output/charts/chart.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -83,6 +84,17 @@ std::string leading_sentence(const SensitivityResult &found, const SensitivityOu
          "they end.</p>\n";
 }
 
+/// How the frame's share of derivatives was found.
+std::string frame_sentences(const SensitivityResult &found)
+{
+  std::string html;
+  for (const SensitivityKey &key : found.keys)
+    if (!key.frame.empty())
+      html += "<p>" + escape_xml(short_key(key.key)) + " changes the reduced frame, whose share is found by " +
+              escape_xml(key.frame) + ".</p>\n";
+  return html;
+}
+
 } // namespace
 
 std::string sensitivity_section(const Result &result, Pictures &pictures)
@@ -114,7 +126,7 @@ std::string sensitivity_section(const Result &result, Pictures &pictures)
     html += "<p>None of these entries changes an output of this run.</p>\n";
   else
     html += table.scrolled_html();
-  return section("sensitivities", "Sensitivities", html);
+  return section("sensitivities", "Sensitivities", html + frame_sentences(found));
 }
 
 } // namespace gestell::apps

@@ -26,6 +26,12 @@ std::string in_quotes(const std::string &name)
   return quoted + '"';
 }
 
+/// Why there is no derivative, or how the frame's share was found.
+std::string note_of(const SensitivityOutput &output, const SensitivityKey &key, Eigen::Index k)
+{
+  return std::isfinite(output.derivative[k]) ? key.frame : output.note;
+}
+
 std::string number(double x)
 {
   return std::isfinite(x) ? exact_text(x) : "";
@@ -54,13 +60,14 @@ std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const Se
 
 std::string sensitivities_csv(const SensitivityResult &result)
 {
-  std::string csv = "output,key,derivative,unit,change by 1 %\n";
+  std::string csv = "output,key,derivative,unit,change by 1 %,note\n";
   for (const SensitivityOutput &output : result.outputs)
     for (Eigen::Index k = 0; k < output.derivative.size(); ++k)
     {
       const SensitivityKey &key = result.keys[std::size_t(k)];
       csv += in_quotes(output.output) + ',' + in_quotes(key.key) + ',' + number(output.derivative[k]) + ',' +
-             in_quotes(derivative_unit(output, key)) + ',' + number(output.percent(key, k)) + '\n';
+             in_quotes(derivative_unit(output, key)) + ',' + number(output.percent(key, k)) + ',' +
+             in_quotes(note_of(output, key, k)) + '\n';
     }
   return csv;
 }
@@ -69,7 +76,11 @@ Json sensitivities_json(const SensitivityResult &result)
 {
   Json json = {{"keys", Json::array()}, {"outputs", Json::object()}};
   for (const SensitivityKey &key : result.keys)
+  {
     json["keys"].push_back({{"key", key.key}, {"value", key.value}, {"unit", key.unit}});
+    if (!key.frame.empty())
+      json["keys"].back()["frame"] = key.frame;
+  }
   for (const SensitivityOutput &output : result.outputs)
   {
     Json &one = json["outputs"][output.output];

@@ -8,11 +8,13 @@
 namespace gestell::apps
 {
 
-/// `output, key, derivative, unit, change by 1 %`: a row for each output and key; the last column is the relative
-/// change of the output in percent, empty where it is zero; derivatives that do not exist are empty.
+/// `output, key, derivative, unit, change by 1 %, note`: a row for each output and key; `change by 1 %` is the relative
+/// change of the output in percent, empty where it is zero; derivatives that do not exist are empty; `note` tells why,
+/// or how the frame's share was found where a key changes it.
 std::string sensitivities_csv(const SensitivityResult &result);
 
-/// Of summary.json: `keys` with `key`, `value`, `unit`; `outputs` by name with `value`, `unit`, `note`, `derivatives`.
+/// Of summary.json: `keys` with `key`, `value`, `unit`, `frame` where the key changes it; `outputs` by name with
+/// `value`, `unit`, `note`, `derivatives`.
 Json sensitivities_json(const SensitivityResult &result);
 
 /// For a terminal: what moves each largest and smallest value most.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,16 @@ struct SensitivityKey
 struct SensitivityOutput
 {
   std::string     output, unit; ///< "F_P.max", "N"
-  std::string     note;         ///< of an event what happens
+  std::string     note;         ///< of an event what happens; or why there is no derivative
   double          value = 0.;
-  Eigen::VectorXd derivative; ///< by every key [unit / unit of the key]; nan: there is none
+  Eigen::VectorXd derivative;      ///< by every key [unit / unit of the key]; nan: there is none
+  bool            is_zero = false; ///< but for rounding
 
   /// Relative change [%] of the output by 1 % more of a key; nan where the output is zero.
-  double percent(const SensitivityKey &key, Eigen::Index k) const { return derivative[k] * key.value / value; }
+  double percent(const SensitivityKey &key, Eigen::Index k) const
+  {
+    return is_zero ? std::numeric_limits<double>::quiet_NaN() : derivative[k] * key.value / value;
+  }
 };
 
 /// Derivatives of what a run tells.
@@ -34,7 +39,8 @@ struct SensitivityResult
   std::vector<SensitivityKey>    keys;
   std::vector<SensitivityOutput> outputs;
   std::string                    failure{};                  ///< why there are none, though the run is there
-  long                           steps     = 0;              ///< of the variational equations
+  bool                           interrupted = false;        ///< some are not known
+  long                           steps       = 0;            ///< of the variational equations
   double                         run_cpu_s = 0., cpu_s = 0.; ///< of the run, and of all derivatives
 };
 

@@ -3,8 +3,13 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
+#include "coupling/sensitivity/frame_derivative.h"
 #include "coupling/sensitivity/motion_linearisation.h"
+#include "fem/values/number_text.h"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -12,6 +17,10 @@ namespace gestell::apps
 
 namespace
 {
+constexpr double of_matrices = 1e-3; ///< of a value, by which frames on equal meshes are apart from the scene's
+constexpr double of_meshes   = 5e-2; ///< of frames meshed anew: what meshes scatter is smaller beside it
+constexpr double rough       = 0.05; ///< of a difference of frames: what it may be wrong by is told
+
 /// What a machine needs of its frame, without what is only drawn or told.
 coupling::ReducedFrame without_pictures(const coupling::ReducedFrame &frame)
 {
@@ -38,26 +47,111 @@ bool same_frame(const Scene &a, const Scene &b)
   return !reduces(a) || coupling::content_key(frame_origin(a).recipe) == coupling::content_key(frame_origin(b).recipe);
 }
 
-PreparedMachine machine_of(const Scene &twin, const Scene &scene, const coupling::ReducedFrame *frame, VariedKey &key)
+/// Whether its frames differ in what is meshed.
+bool meshed_anew(const Scene &a, const Scene &b)
 {
-  if (!frame || !same_frame(twin, scene))
-  {
-    if (reduces(twin))
-      refuse(key, "this entry changes the reduced frame, whose derivative is not built; compare two runs with --set " +
-                      key.told.key + "=... (each frame is reduced once and kept)");
-    return prepare_machine(twin);
-  }
-  return prepare_machine_on(twin, *frame);
+  const auto changes = coupling::differences(frame_origin(a).recipe, frame_origin(b).recipe);
+  return std::any_of(changes.begin(), changes.end(),
+                     [](const coupling::Difference &change)
+                     {
+                       for (const std::string part : {"source", "mesh", "unit", "surface"})
+                         if (change.name.find(part) != std::string::npos)
+                           return true;
+                       return false;
+                     });
 }
 
-/// Whether two machines have the same coordinates, measures, joints and elements.
+/// Scenes with one entry at other values.
+class VariedScene
+{
+public:
+  VariedScene(const SceneFileAt &file, VariedKey &key) : file_(file), key_(key) {}
+
+  /// At its value and `by` of its step.
+  std::unique_ptr<Scene> at(double by) const
+  {
+    SceneNode varied = file_.root;
+    apply_override(varied, key_.overridden(by));
+    try
+    {
+      return std::make_unique<Scene>(read_scene(varied, file_.path, file_.scripts));
+    }
+    catch (const std::invalid_argument &refused)
+    {
+      std::ostringstream text;
+      text << "the scene is refused at a value " << 1e-4 * std::abs(by)
+           << " % away, so that this entry has no derivative: " << refused.what();
+      refuse(key_, text.str());
+    }
+  }
+  VariedKey &key() const { return key_; }
+
+private:
+  const SceneFileAt &file_;
+  VariedKey         &key_;
+};
+
+/// The frame with as many modes as another has.
+coupling::ReducedFrame frame_with_modes_of(const coupling::ReducedFrame &other, Scene scene,
+                                           const coupling::Progress &progress)
+{
+  const auto behind = other.M.rows() - other.n_interface;
+  if (scene.frame.source != FrameSource::parts && scene.reduction.options.n_modes < 0 && behind == other.n_fixed_modes)
+    scene.reduction.options.n_modes = other.n_fixed_modes;
+  bool from_cache = false;
+  return reduced_frame(scene, progress, from_cache);
+}
+
+/// Of the frame by an entry that it depends on: a quotient of two frames, each reduced once and kept.
+std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &varied, const Scene &scene,
+                                                             const coupling::ReducedFrame &frame,
+                                                             const coupling::Progress &progress, std::string &warning)
+{
+  const auto near = varied.at(1.);
+  if (!reduces(scene) || same_frame(*near, scene))
+    return {};
+  VariedKey   &key   = varied.key();
+  const bool   anew  = meshed_anew(*near, scene);
+  const double steps = (anew ? of_meshes : of_matrices) * std::abs(key.told.value) / key.step;
+  try
+  {
+    const auto below = frame_with_modes_of(frame, std::move(*varied.at(-steps)), progress),
+               above = frame_with_modes_of(frame, std::move(*varied.at(steps)), progress);
+    bool known       = false; // a study leaves out the skin, by which modes are recognised
+    auto derivative  = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress, known), below,
+                                                                         above, steps * key.step)
+                                            : coupling::frame_derivative(frame, below, above, steps * key.step);
+    key.told.frame   = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
+                     (anew ? " more and less, each meshed anew" : " more and less");
+    if (derivative.curvature > rough)
+      warning = "derivatives by " + key.told.key + " come from " + key.told.frame +
+                "; these differ from the frame between them by " + percent(derivative.curvature, 2) +
+                " of their difference, by which derivatives may be wrong" +
+                (anew ? ": a finer mesh scatters less" : "");
+    return derivative;
+  }
+  catch (const std::runtime_error &failed)
+  {
+    refuse(key, "the frame cannot be reduced at another value: " + std::string(failed.what()));
+  }
+  catch (const std::invalid_argument &refused)
+  {
+    const std::string text = refused.what();
+    if (text.rfind("--sensitivities", 0) == 0)
+      throw;
+    refuse(key, text);
+  }
+}
+
+/// Whether two machines have the same coordinates, measures, joints and elements; modes of a moved frame are named as
+/// coordinates.
 void require_same_structure(const coupling::Machine &machine, const coupling::Machine &twin, const VariedKey &key)
 {
   bool same = machine.size() == twin.size() &&
               machine.forces().directions().cols() == twin.forces().directions().cols() &&
               machine.joints().n_rows() == twin.joints().n_rows() &&
               machine.events().save_history().size() == twin.events().save_history().size();
-  for (int i = 0; same && i < machine.size(); ++i)
+  for (int i = 0; same && i < machine.size() && key.told.frame.empty(); ++i)
     same = machine.coordinate_name(i) == twin.coordinate_name(i);
   if (!same)
     refuse(key, "another value makes another machine, with other coordinates, elements or joints; a run has no "
@@ -65,23 +159,22 @@ void require_same_structure(const coupling::Machine &machine, const coupling::Ma
                     key.told.key + "=...");
 }
 
-SceneTwin twin_of(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
-                  const coupling::ReducedFrame *frame, VariedKey &key, double sign)
+SceneTwin twin_of(const VariedScene &varied, const coupling::ReducedFrame *frame,
+                  const coupling::FrameDerivative *of_frame, double by)
 {
-  SceneNode varied = root;
-  apply_override(varied, key.overridden(sign));
   SceneTwin twin;
+  twin.scene = varied.at(by);
   try
   {
-    twin.scene    = std::make_unique<Scene>(read_scene(varied, path, scripts));
-    twin.prepared = std::make_unique<PreparedMachine>(machine_of(*twin.scene, scene, frame, key));
+    twin.prepared = std::make_unique<PreparedMachine>(
+        !frame     ? prepare_machine(*twin.scene)
+        : of_frame ? prepare_machine_on(*twin.scene, coupling::moved(*frame, *of_frame, by * varied.key().step))
+                   : prepare_machine_on(*twin.scene, *frame));
   }
   catch (const std::invalid_argument &refused)
   {
-    const std::string text = refused.what();
-    if (text.rfind("--sensitivities", 0) == 0)
-      throw;
-    refuse(key, "the scene is refused at a value a millionth away, so that this entry has no derivative: " + text);
+    refuse(varied.key(), "the machine is refused at a value a millionth away, so that this entry has no derivative: " +
+                             std::string(refused.what()));
   }
   return twin;
 }
@@ -96,23 +189,32 @@ coupling::MachineTwin told(const SceneTwin &of)
   return twin;
 }
 
-void add_twins(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
-               const PreparedMachine &prepared, const coupling::ReducedFrame *frame, VariedKey &key, SceneTwins &made)
+void add_twins(const SceneFileAt &file, const Scene &scene, const PreparedMachine &prepared,
+               const coupling::ReducedFrame *frame, const coupling::Progress &progress, VariedKey &key,
+               SceneTwins &made)
 {
-  SceneTwin below = twin_of(root, path, scripts, scene, frame, key, -1.),
-            above = twin_of(root, path, scripts, scene, frame, key, 1.);
+  const VariedScene varied(file, key);
+  std::string       warning;
+  const auto        of_frame =
+      frame ? derivative_of_frame(varied, scene, *prepared.machine.model().reduced_frame(), progress, warning)
+                   : std::nullopt;
+  SceneTwin below = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, -1.),
+            above = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, 1.);
   for (const SceneTwin *twin : {&below, &above})
     require_same_structure(prepared.machine, twin->prepared->machine, key);
   coupling::ParameterTwins twins{key.told.key, key.told.unit, key.told.value, key.step, told(below), told(above)};
   made.scenes.push_back(std::move(below));
   made.scenes.push_back(std::move(above));
   made.twins.push_back(std::move(twins));
+  if (!warning.empty())
+    made.warnings.push_back(std::move(warning));
 }
 
 } // namespace
 
-SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
-                       PreparedMachine &prepared, std::vector<VariedKey> &keys, std::vector<std::string> *left_out)
+SceneTwins scene_twins(const SceneFileAt &file, const Scene &scene, PreparedMachine &prepared,
+                       std::vector<VariedKey> &keys, std::vector<std::string> *left_out,
+                       const coupling::Progress &progress)
 {
   if (prepared.companion)
     throw std::invalid_argument("--sensitivities: a machine in modes (reduction.method = \"modal\") or on an unreduced "
@@ -129,7 +231,7 @@ SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scri
   for (VariedKey &key : keys)
     try
     {
-      add_twins(root, path, scripts, scene, prepared, frame ? &*frame : nullptr, key, made);
+      add_twins(file, scene, prepared, frame ? &*frame : nullptr, progress, key, made);
       kept.push_back(key);
     }
     catch (const std::invalid_argument &none)

@@ -23,13 +23,25 @@ struct SceneTwins
 {
   std::vector<SceneTwin>                scenes; ///< of key k: 2k below, 2k + 1 above
   std::vector<coupling::ParameterTwins> twins;
+  std::vector<std::string>              warnings;
 };
 
-/// @param root      of the scene with its overrides; the frame of all is that of `prepared`
-/// @param keys      without those that are left out
+/// A scene as it was read, with its overrides.
+struct SceneFileAt
+{
+  SceneNode    root;
+  std::string  path;
+  fem::Scripts scripts;
+};
+
+/// The frame of all is that of `prepared`; with entries on which it depends it is moved by its derivative, a quotient of
+/// two reductions.
+/// @param keys      without those that are left out; those of the frame are told how its derivative was found
 /// @param left_out  gets a sentence for each key that has no derivative, and is left out; null: it is refused
+/// @param progress  of reductions
 /// @throws std::invalid_argument where a scene is refused at such a value, or its machine is of another structure
-SceneTwins scene_twins(const SceneNode &root, const std::string &path, fem::Scripts scripts, const Scene &scene,
-                       PreparedMachine &prepared, std::vector<VariedKey> &keys, std::vector<std::string> *left_out);
+SceneTwins scene_twins(const SceneFileAt &file, const Scene &scene, PreparedMachine &prepared,
+                       std::vector<VariedKey> &keys, std::vector<std::string> *left_out,
+                       const coupling::Progress &progress);
 
 } // namespace gestell::apps

@@ -2,6 +2,7 @@
 
 #include "coupling/sensitivity/frequency_sensitivities.h"
 #include "coupling/sensitivity/run_sensitivities.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,8 @@ void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &
 
 SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins,
                                      const std::vector<VariedKey> &keys, const std::vector<coupling::Signal> &signals,
-                                     const coupling::Trajectory &trajectory, Result &result)
+                                     const coupling::Trajectory &trajectory, const std::atomic<bool> *stop,
+                                     Result &result)
 {
   SensitivityResult found;
   for (const VariedKey &key : keys)
@@ -61,7 +63,7 @@ SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepar
   try
   {
     run = coupling::run_sensitivities(
-        {prepared.machine, signals, scene.run.options, *result.run, trajectory, twins.twins});
+        {prepared.machine, signals, scene.run.options, *result.run, trajectory, twins.twins, stop});
     add_frequencies(scene, prepared, twins, result, frequencies);
   }
   catch (const std::exception &none) // of this motion: what was computed of it stays
@@ -70,12 +72,19 @@ SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepar
     return found;
   }
   for (const coupling::OutputDerivatives &output : run.outputs)
-    found.outputs.push_back({output.output, output.unit, output.note, output.value, output.derivative});
+    found.outputs.push_back({output.output, output.unit, output.note, output.value, output.derivative, output.is_zero});
   found.steps = run.steps;
+  if (run.interrupted)
+  {
+    found.interrupted = true;
+    result.warnings.push_back(
+        "interrupted: sensitivities are known of what lies before t = " + short_text(run.reached) + " s of the motion");
+  }
   for (SensitivityOutput &output : frequencies.outputs)
     found.outputs.push_back(std::move(output));
   result.warnings.insert(result.warnings.end(), run.warnings.begin(), run.warnings.end());
-  warn_of_idle_keys(found, result.warnings);
+  if (!run.interrupted)
+    warn_of_idle_keys(found, result.warnings);
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include "apps/session/sensitivity/scene_twins.h"
 #include "coupling/simulation/trajectory.h"
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,10 @@ namespace gestell::apps
 /// Derivatives of all that a run tells: docs/sensitivities.md.
 /// @param result      with the run and its modes; warnings are added
 /// @param trajectory  of the run
+/// @param stop        ends it, which keeps what is known by then; null: nothing does
 SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins,
                                      const std::vector<VariedKey> &keys, const std::vector<coupling::Signal> &signals,
-                                     const coupling::Trajectory &trajectory, Result &result);
+                                     const coupling::Trajectory &trajectory, const std::atomic<bool> *stop,
+                                     Result &result);
 
 } // namespace gestell::apps

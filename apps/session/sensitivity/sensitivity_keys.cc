@@ -145,32 +145,48 @@ bool stands_alone(const SceneNode &node)
   }
 }
 
-std::vector<std::string> all_keys(const SceneNode &root, const Parameters &parameters)
+std::vector<std::string> all_keys(const SceneNode &root, const Parameters &parameters,
+                                  std::vector<std::string> *left_out)
 {
   std::vector<std::string> keys;
+  std::string              zero;
   const SceneNode         *table = root.find("parameters");
   for (std::size_t i = 0; table && i < table->entries.size(); ++i)
-    if (const auto &[name, node] = table->entries[i]; stands_alone(node) && parameters.find(name)->value != 0.)
-      keys.push_back("parameters." + name);
+    if (const auto &[name, node] = table->entries[i]; stands_alone(node))
+    {
+      if (parameters.find(name)->value != 0.)
+        keys.push_back("parameters." + name);
+      else
+        zero += (zero.empty() ? "" : ", ") + name;
+    }
   if (keys.empty())
-    refuse("all", "the scene has no [parameters]; name entries such as element.NAME.stiffness");
+    refuse("all", "the scene has no [parameters] but zeros; name entries such as element.NAME.stiffness");
+  if (left_out && !zero.empty())
+    left_out->push_back(
+        "--sensitivities all leaves out parameters that are 0, whose size tells no step for a quotient: " + zero);
   return keys;
 }
 
 } // namespace
 
-std::string VariedKey::overridden(double sign) const
+std::string VariedKey::overridden(double by) const
 {
   // A whole number of a file that stands for a real one is written as a text.
-  return told.key + "=\"(" + text + ")*(1 " + (sign * told.value > 0. ? "+" : "-") + " 1e-6)\"";
+  std::string text_of_share;
+  append_exact(text_of_share, share * std::abs(by));
+  return told.key + "=\"(" + text + ")*(1 " + (by * told.value > 0. ? "+ " : "- ") + text_of_share + ")\"";
 }
 
-std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list)
+std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list, std::vector<std::string> *left_out)
 {
+  if (trimmed(list).empty())
+    throw std::invalid_argument(
+        "--sensitivities needs entries of the scene, such as parameters.c_P,parameters.s_cl, or "
+        "all; it is empty");
   const Parameters         parameters(root.find("parameters"));
   std::vector<std::string> keys;
   if (trimmed(list) == "all")
-    keys = all_keys(root, parameters);
+    keys = all_keys(root, parameters, left_out);
   else
     for (const std::string &part : split_outside_quotes(list, ','))
       keys.push_back(trimmed(part));

@@ -61,7 +61,7 @@ Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<b
   Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
   if (frame)
     session.use_frame(*frame);
-  return session.run(sensitivities);
+  return sensitivities.empty() ? session.run() : session.run(sensitivities);
 }
 
 void StudyRunner::keep(int number, const Result &result) const

@@ -1,4 +1,5 @@
 #include "coupling/integration/bdf/bdf.h"
+#include "coupling/integration/system/acceleration_forces.h"
 
 #include <algorithm>
 #include <sstream>
@@ -118,6 +119,8 @@ void Bdf::begin_from(double t)
     first.w += product_;
     find_implied(first);
   }
+  else if (depend_on_accelerations(system_, local_)) // else the first row tells forces without accelerations
+    find_implied(first);
   virtual_rates_.settle(first.q, first.v, local_);
   first.u_rate = local_.v;
   now_known_   = false;

@@ -1,5 +1,6 @@
 #include "coupling/integration/bdf/bdf_controlled.h"
 
+#include "coupling/integration/system/acceleration_forces.h"
 #include "coupling/integration/system/hermite.h"
 
 #include <algorithm>
@@ -159,8 +160,8 @@ void BdfControlled::restart()
   implicit_.forget_contraction();
   system_.forces().force(local_, local_.p);
   ++work_.evaluations;
-  if (is_implied() && has_consistent())
-    close_joints();
+  if ((is_implied() || depend_on_accelerations(system_, local_)) && has_consistent())
+    close_joints(); // and the accelerations on which forces depend
   virtual_rates_.settle(z_.head(n_), z_.segment(n_, n_), local_);
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
   keep_forces(z_);

@@ -7,6 +7,9 @@
 namespace gestell::coupling
 {
 
+/// Whether a force depends on u'' at a motion, as those of an unbalance do at any.
+bool depend_on_accelerations(const SecondOrderSystem &system, const LocalState &at);
+
 /// Refuses forces that depend on u'' at a motion, as those of an unbalance do, for a method that does not carry
 /// accelerations; at any motion of an unbalance.
 /// @param method  for the message: "exact"

@@ -5,8 +5,10 @@
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace gestell::tests
@@ -85,6 +87,7 @@ TEST_F(OfFlight, AllMeansTheNumbersAmongTheParametersThatAreNotZero)
   EXPECT_THAT(keys, ::testing::ElementsAre("parameters.m_1", "parameters.c", "parameters.gap", "parameters.v_0",
                                            "parameters.idle"));
   EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("parameters.idle has no influence")));
+  EXPECT_THAT(warnings, ::testing::Contains(::testing::HasSubstr("leaves out parameters that are 0")));
 }
 
 TEST_F(OfFlight, DerivativesComeInSiUnits)
@@ -125,6 +128,19 @@ TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
   refused("name", "the name of the scene");
   refused("parameters.m_1,parameters.m_1", "named twice");
   refused("parameters.m_1,", "with commas between them");
+  refused("", "it is empty");
+}
+
+TEST_F(OfFlight, AnInterruptionKeepsTheRunAndWhatIsKnownByThen)
+{
+  std::atomic<bool>  stop{false};
+  const apps::Watch  watch{[&](const std::string &phase, double) { stop = stop || phase == "sensitivities"; }, &stop};
+  const apps::Result result = Session(path_, {}, fem::Scripts::harmless, watch).run("parameters.c");
+  EXPECT_FALSE(result.run->interrupted);
+  EXPECT_EQ(result.run->events.size(), 2u);
+  EXPECT_TRUE(result.sensitivities->interrupted);
+  EXPECT_TRUE(std::isnan(output(*result.sensitivities, "q.max").derivative[0]));
+  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities are known of")));
 }
 
 TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)
@@ -198,6 +214,25 @@ TEST(Sensitivities, OfThePressAreQuotientsOfConvergedRuns)
     EXPECT_NEAR(own.derivative[0], of_rod, 1e-6 * std::abs(own.value) / 9e8) << name;
     EXPECT_NEAR(own.derivative[1], of_play, 1e-6 * std::abs(own.value) / 4e-4) << name;
   }
+}
+
+TEST(Sensitivities, OfAChaoticMotionTellHowFarTheyHold)
+{
+  // The follower leaves the cam at every turn.
+  const auto result =
+      Session(GESTELL_SOURCE_DIR "/apps/scenes/cam_follower.toml", {"run.end=2 s"}).run("parameters.r_0");
+  EXPECT_THAT(result.warnings, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("chaotic or unstable"),
+                                                                    ::testing::HasSubstr("it grew by the factor"))));
+}
+
+TEST(Sensitivities, OfATorqueThatAClutchTakesAwayAreThoseBehind)
+{
+  // It falls from some 20 kN m to zero, exactly, which is its smallest value.
+  const auto by_J =
+      *Session(GESTELL_SOURCE_DIR "/apps/scenes/press_emergency_stop.toml").run("parameters.J2").sensitivities;
+  EXPECT_EQ(output(by_J, "M_T.min").value, 0.);
+  EXPECT_EQ(output(by_J, "M_T.min").derivative[0], 0.);
+  EXPECT_NE(output(by_J, "M_T.t_min").derivative[0], 0.);
 }
 
 } // namespace

@@ -236,4 +236,20 @@ TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)
   EXPECT_THAT(complaint({{"unbalance", "0.1"}, {"mass", "2"}}), HasSubstr("off its axis"));
 }
 
+TEST(UnbalanceAtTheStart, PushesByTheAccelerationThatTheMotorGives)
+{
+  const std::string motor = element(
+      "drive", "asynchronous motor",
+      {{"on", "rotor"}, {"breakdown_torque", "60 N m"}, {"breakdown_slip", "0.12"}, {"synchronous_speed", "300 rpm"}});
+  // From rest F = U phi'', J phi'' = M, beside a carrier that hardly follows; the first row tells it as those behind
+  // do.
+  for (const char *method : {"method = \"bdf\"\nstep = \"1 ms\"", "method = \"bdf\"\ntolerance = 1e-8"})
+  {
+    const SceneRun run = run_text(carrier() + rotor(0.5) + motor + run_of(method, "5 ms", "1 ms"));
+    const double   F   = run.at(1, run.column("F"));
+    EXPECT_GT(F, 0.);
+    EXPECT_NEAR(run.at(0, run.column("F")), F, 1e-2 * F) << method;
+  }
+}
+
 } // namespace gestell::tests

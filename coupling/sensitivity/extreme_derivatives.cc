@@ -1,0 +1,145 @@
+#include "coupling/sensitivity/extreme_derivatives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+using Eigen::Index;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+constexpr double rounding    = 1e-9;  ///< of the largest value of a signal: what is smaller is zero but for rounding
+constexpr double of_values   = 1e-13; ///< of the same, rounding of one value
+constexpr double distinct    = 30.;   ///< times its rounding is a second derivative at least
+
+const double none = std::numeric_limits<double>::quiet_NaN();
+} // namespace
+
+ExtremeDerivatives::ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double near,
+                                       double length)
+    : twins_(twins), near_(near), length_(length)
+{
+  const double far = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < run.signals.size(); ++i)
+  {
+    const SignalSummary &told = run.signals[i];
+    extremes_.push_back({i, false, told.t_min, told.min, far});
+    extremes_.push_back({i, true, told.t_max, told.max, far});
+    sizes_.push_back(std::max(std::abs(told.min), std::abs(told.max)));
+    for (const auto &[name, of, value] :
+         {std::tuple(".min", told.unit, told.min), std::tuple(".t_min", std::string("s"), told.t_min),
+          std::tuple(".max", told.unit, told.max), std::tuple(".t_max", std::string("s"), told.t_max),
+          std::tuple(".final", told.unit, told.final)})
+      outputs_.push_back({told.name + name, of, value, VectorXd::Constant(Index(twins.size()), none)});
+  }
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    outputs_[i].is_zero = i % 5 % 2 == 0 && std::abs(outputs_[i].value) <= rounding * sizes_[i / 5];
+  for (const Extreme &extreme : extremes_)
+    if (is_rounding(extreme))
+      for (const bool instant : {false, true})
+        leave_out(output(extreme, instant), "it is zero but for rounding");
+}
+
+std::set<double> ExtremeDerivatives::instants(double begin, double end) const
+{
+  std::set<double> found;
+  for (const Extreme &extreme : extremes_)
+    if (extreme.t > begin + near_ && extreme.t < end - near_)
+      found.insert(extreme.t);
+  return found;
+}
+
+bool ExtremeDerivatives::any_at(double t) const
+{
+  return std::any_of(extremes_.begin(), extremes_.end(),
+                     [&](const Extreme &extreme) { return std::abs(extreme.t - t) <= near_; });
+}
+
+OutputDerivatives &ExtremeDerivatives::output(const Extreme &extreme, bool instant)
+{
+  return outputs_[5 * extreme.signal + (extreme.largest ? 2 : 0) + (instant ? 1 : 0)];
+}
+
+void ExtremeDerivatives::leave_out(OutputDerivatives &output, const std::string &reason)
+{
+  output.derivative.setConstant(none);
+  output.note = "no derivative: " + reason;
+}
+
+/// A force that a law makes exactly zero is not.
+bool ExtremeDerivatives::is_rounding(const Extreme &extreme) const
+{
+  return extreme.value != 0. && std::abs(extreme.value) <= rounding * sizes_[extreme.signal];
+}
+
+void ExtremeDerivatives::set(const Extreme &extreme, const VectorXd &of_value, const VectorXd &of_instant)
+{
+  OutputDerivatives &value = output(extreme, false), &instant = output(extreme, true);
+  value.derivative   = of_value;
+  instant.derivative = of_instant;
+  value.note         = {};
+  instant.note       = {};
+}
+
+void ExtremeDerivatives::at_event(double t, const Told &told, const VectorXd &rates, const RowVectorXd &dt)
+{
+  for (Extreme &extreme : extremes_)
+  {
+    const Index  i   = Index(extreme.signal);
+    const double off = std::abs(told.y[i] - extreme.value);
+    if (std::abs(extreme.t - t) > near_ || is_rounding(extreme) ||
+        !(off < extreme.off - rounding * std::abs(extreme.value)))
+      continue;
+    extreme.off = off;
+    set(extreme, told.dy.row(i).transpose() + rates[i] * dt.transpose(), dt.transpose());
+  }
+}
+
+void ExtremeDerivatives::at_turn(double t, const Told &told, const SignalRates &rates, double way, double step)
+{
+  for (Extreme &extreme : extremes_)
+    if (extreme.t == t && !is_rounding(extreme))
+      turn(extreme, told, rates, way, step);
+}
+
+void ExtremeDerivatives::turn(Extreme &extreme, const Told &told, const SignalRates &rates, double way, double step)
+{
+  const Index    i      = Index(extreme.signal);
+  const VectorXd slope  = rates.d_rate.row(i).transpose();
+  const double   second = (extreme.largest ? -1. : 1.) * rates.second[i]; // > 0 where it turns
+  const double   shift  = -rates.rate[i] / rates.second[i];
+  const bool     turns = second > distinct * of_values * sizes_[extreme.signal] / (way * way) && std::abs(shift) < step;
+  if (!turns)
+  {
+    set(extreme, told.dy.row(i).transpose(), VectorXd::Constant(slope.size(), none));
+    leave_out(output(extreme, true), "the peak is flat");
+    return;
+  }
+  VectorXd dt  = -slope / rates.second[i];
+  bool     far = false;
+  for (Index k = 0; k < dt.size(); ++k)
+    if (std::abs(one_percent * twins_[std::size_t(k)].value * dt[k]) > length_)
+    {
+      dt[k] = none;
+      far   = true;
+    }
+  set(extreme, told.dy.row(i).transpose() + shift * slope, dt);
+  if (far)
+    output(extreme, true).note = "no derivative where one percent would move it by more than the run: the peak is flat";
+}
+
+void ExtremeDerivatives::at_end(double t, const Told &told, const VectorXd &rates, const RowVectorXd &end)
+{
+  for (std::size_t i = 0; i < sizes_.size(); ++i)
+    outputs_[5 * i + 4].derivative = told.dy.row(Index(i)).transpose() + rates[Index(i)] * end.transpose();
+  for (Extreme &extreme : extremes_)
+    if (std::abs(extreme.t - t) <= near_ && !is_rounding(extreme))
+      set(extreme, outputs_[5 * extreme.signal + 4].derivative, end.transpose());
+}
+
+} // namespace gestell::coupling

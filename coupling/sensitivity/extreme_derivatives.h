@@ -1,0 +1,67 @@
+#pragma once
+
+#include "coupling/sensitivity/output_derivatives.h"
+#include "coupling/sensitivity/signal_derivatives.h"
+#include "coupling/simulation/run_result.h"
+
+#include <set>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * Derivatives of the largest and smallest values of signals, of their instants and of the values at the end of a run.
+ *
+ * An extreme has one where its signal turns, y' = 0, or at an event.  Of the values that a signal has about an event it
+ * is the derivative of the one nearest to the extreme.  None have, and their notes tell why: extremes that are zero but
+ * for rounding; instants of a peak that is flat, whose y'' is not larger than its own rounding, whose slope asks for
+ * more than a step to where it turns, or which one percent of a parameter moves by more than the run lasts.
+ *
+ * Source: docs/sensitivities.md (9) to (11).
+ */
+class ExtremeDerivatives
+{
+public:
+  /// @param near  [s] apart, instants are one
+  ExtremeDerivatives(const RunResult &run, const std::vector<ParameterTwins> &twins, double near, double length);
+
+  /// Instants of extremes inside a piece of the motion.
+  std::set<double> instants(double begin, double end) const;
+  bool             any_at(double t) const;
+
+  /// About an event that moves by dt: before it, between two of one instant, behind it.
+  void at_event(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
+  /// Where signals turn.
+  /// @param way   [s] over which rates were found
+  /// @param step  [s] of the variational equations
+  void at_turn(double t, const Told &told, const SignalRates &rates, double way, double step);
+  /// The end of the run, which moves by `end`.
+  void at_end(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &end);
+
+  /// .min, .t_min, .max, .t_max, .final of every signal
+  std::vector<OutputDerivatives> take() { return std::move(outputs_); }
+
+private:
+  struct Extreme
+  {
+    std::size_t signal;
+    bool        largest;
+    double      t, value;
+    double      off; ///< of the value that it has a derivative of
+  };
+
+  OutputDerivatives &output(const Extreme &extreme, bool instant);
+  void               set(const Extreme &extreme, const Eigen::VectorXd &of_value, const Eigen::VectorXd &of_instant);
+  void               leave_out(OutputDerivatives &output, const std::string &reason);
+  bool               is_rounding(const Extreme &extreme) const;
+  void               turn(Extreme &extreme, const Told &told, const SignalRates &rates, double way, double step);
+
+  const std::vector<ParameterTwins> &twins_;
+  double                             near_, length_;
+  std::vector<Extreme>               extremes_;
+  std::vector<double>                sizes_; ///< largest |y| of each signal
+  std::vector<OutputDerivatives>     outputs_;
+};
+
+} // namespace gestell::coupling

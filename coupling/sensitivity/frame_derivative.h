@@ -1,0 +1,44 @@
+#pragma once
+
+#include "coupling/frame/reduced_frame.h"
+
+#include <array>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// How a reduced frame changes with an entry x of its scene, in the coordinates p of one frame: dM/dx and so on.
+struct FrameDerivative
+{
+  Eigen::MatrixXd                    M, B, C, translations_load;
+  std::vector<fem::FrameOutput>      outputs;   ///< their rows by x
+  std::vector<std::array<double, 3>> positions; ///< of the interfaces by x
+
+  /// |F+ - 2 F + F-| / |F+ - F-| of the matrices F, each entry by the size of its diagonal: what the quotient may be
+  /// wrong by.  Of a smooth F some share of the distance of the two frames; of frames meshed anew what their meshes
+  /// scatter.
+  double curvature = 0.;
+};
+
+/**
+ * Central quotient of two reduced frames, (F+ - F-)/2 step.  Each has coordinates of its own: behind the interface
+ * stand its modes, which have any sign and, where frequencies meet, any order and combination.  Theirs are turned by
+ * the orthogonal matrix R that brings their shapes nearest to those of `at`,
+ *
+ *     p± = diag(E, R) p,   R = U V^T of  X = U S V^T,   D± X = D in the mean square,
+ *
+ * D the shapes at points of the skin.  A reduced model does not depend on the basis of the space it is projected on, so
+ * that any R near E gives derivatives of the same motions.
+ *
+ * @param minus, plus  at x -+ step, with the interfaces of `at` and as many modes
+ * @throws std::invalid_argument where they are of another structure, or other modes are kept (a singular value of X
+ * below one half)
+ */
+FrameDerivative frame_derivative(const ReducedFrame &at, const ReducedFrame &minus, const ReducedFrame &plus,
+                                 double step);
+
+/// The frame at x + by; its modes are coordinates like others then (ReducedFrame::modal).
+ReducedFrame moved(const ReducedFrame &frame, const FrameDerivative &derivative, double by);
+
+} // namespace gestell::coupling

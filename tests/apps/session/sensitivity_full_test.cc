@@ -1,0 +1,52 @@
+// Derivatives of runs by entries of their FE frame, against runs on frames reduced anew.
+
+#include "apps/session/session.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::Session;
+
+const std::string scene = GESTELL_SOURCE_DIR "/apps/scenes/portal_slider_crank.toml";
+
+double value_of(const apps::Result &result, const std::string &name)
+{
+  for (const auto &signal : result.run->signals)
+    if (name == signal.name + ".max")
+      return signal.max;
+    else if (name == signal.name + ".final")
+      return signal.final;
+  return result.run->events.at(0).t;
+}
+
+TEST(FrameSensitivities, ByTheDensityOfTheFrameAreQuotientsOfRuns)
+{
+  // The quotient of runs errs by the square of the share and by rounding of the runs over it, some 1e-4.
+  const std::vector<std::string> overrides = {"material.mine={E='210 GPa',nu=0.3,rho='7850 kg/m^3'}",
+                                              "frame.material=mine", "run.tolerance=1e-9", "run.end=1.6 s"};
+  const auto                     found     = Session(scene, overrides).run("material.mine.rho");
+  EXPECT_NE(found.sensitivities->keys[0].frame.find("differences of two reductions"), std::string::npos);
+  const auto with = [&](const char *density)
+  {
+    auto more = overrides;
+    more.push_back(std::string("material.mine.rho=") + density);
+    return Session(scene, more).run();
+  };
+  const apps::Result below = with("7834.3 kg/m^3"), above = with("7865.7 kg/m^3");
+  for (const std::string name : {"events.1.t", "F_stop.max", "F_A.max", "u_right.max", "x.max", "omega.final"})
+    for (const auto &output : found.sensitivities->outputs)
+      if (output.output == name)
+      {
+        const double quotient = (value_of(above, name) - value_of(below, name)) / 31.4;
+        EXPECT_NEAR(output.derivative[0], quotient, 1e-3 * std::abs(quotient)) << name;
+      }
+}
+
+} // namespace
+} // namespace gestell::tests
