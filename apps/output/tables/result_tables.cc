@@ -1,6 +1,8 @@
 #include "apps/output/tables/result_tables.h"
 
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/tables/comparison_table.h"
+#include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/sensitivity_table.h"
@@ -340,6 +342,10 @@ std::string summary_json(const Result &result)
   json["frame_frequencies_hz"]         = frequencies_json(result.frame_modes);
   json["frame_refined_frequencies_hz"] = frequencies_json(result.frame_modes, &coupling::Mode::refined_hz);
   json["operating_poles"]              = array_of(result.poles, pole_json);
+  if (result.energy_shares)
+    json["mode_energies"] = mode_energies_json(*result.energy_shares);
+  if (result.compared_shapes)
+    json["compared_modes"] = compared_modes_json(*result.compared_shapes);
   if (result.along)
     json["modes_along"] = along_json(*result.along);
   if (result.periodic)
