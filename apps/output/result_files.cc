@@ -37,6 +37,16 @@ std::string compared_modes(const Result &result)
   return result.compared_shapes ? compared_modes_csv(*result.compared_shapes) : "";
 }
 
+std::string compared_run(const Result &result)
+{
+  return result.run && result.compared_run ? compared_run_csv(*result.run, *result.compared_run) : "";
+}
+
+std::string compared_history(const Result &result)
+{
+  return result.compared_run && !result.compared_run->run.columns.empty() ? history_csv(result.compared_run->run) : "";
+}
+
 std::string mac(const Result &result)
 {
   return result.compared_shapes ? mac_csv(*result.compared_shapes) : "";
@@ -121,6 +131,8 @@ const std::vector<ResultFile> &result_files()
       {"modes.csv", "natural frequencies, damping, effective masses", modes},
       {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", mode_energies},
       {"compared_modes.csv", "modes beside those of another scene, with `--compare`", compared_modes},
+      {"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run},
+      {"compared_history.csv", "the other run over time", compared_history},
       {"mac.csv", "how alike their shapes are, each with each", mac},
       {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
       {"modes_along_shapes.csv", "the shapes to them", along_shapes},

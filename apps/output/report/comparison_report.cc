@@ -1,11 +1,13 @@
 #include "apps/output/report/comparison_report.h"
 
 #include "apps/output/charts/mode_charts.h"
+#include "apps/output/charts/overlay_charts.h"
 #include "apps/output/charts/shape_pairs.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/text/html.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::apps
@@ -49,7 +51,41 @@ std::string mac_html(const ComparedShapes &shapes)
   return table.html();
 }
 
+std::string extremes_html(const coupling::RunResult &run, const ComparedRun &other)
+{
+  HtmlTable table({"signal", "unit", "#largest", "#there", "#change", "#smallest", "#there", "#change"});
+  for (const SharedSignal shared : shared_signals(run, other.run))
+  {
+    const coupling::SignalSummary &a = run.signals[shared.a], &b = other.run.signals[shared.b];
+    const double      size   = std::max({std::abs(a.min), std::abs(a.max), std::abs(b.min), std::abs(b.max)});
+    const DisplayUnit unit   = display_unit(a.unit, size);
+    const auto        text   = [&](double x) { return short_text(x * unit.factor, 5); };
+    const auto        change = [](double x, double y) { return x != 0. ? deviation(y / x) : std::string(); };
+    table.add({a.name, unit.unit, text(a.max), text(b.max), peak(change(a.max, b.max)), text(a.min), text(b.min),
+               peak(change(a.min, b.min))});
+  }
+  return table.html();
+}
+
 } // namespace
+
+std::string compared_run_section(const Result &result, Pictures &pictures)
+{
+  if (!result.run || !result.compared_run)
+    return "";
+  const ComparedRun &other = *result.compared_run;
+  std::string        html  = "<p>Largest and smallest values of <strong>" + escape_xml(result.scene) +
+                     "</strong> beside those of "
+                     "<strong>" +
+                     escape_xml(other.scene) + "</strong>, and its signals over the time.</p>\n" +
+                     extremes_html(*result.run, other);
+  for (const SignalChart &chart : overlay_charts(result.scene, *result.run, other))
+  {
+    pictures.emplace_back(chart.name, chart.svg);
+    html += figure(chart.svg);
+  }
+  return section("compared-run", "The run beside that of " + escape_xml(other.scene), html);
+}
 
 std::string compared_modes_section(const Result &result, Pictures &pictures)
 {

@@ -341,6 +341,7 @@ std::string contents(const std::string &body)
                                  {"energy", "Energy"},
                                  {"frf", "Frequency response"},
                                  {"along", "Frequencies along"},
+                                 {"compared-run", "Runs compared"},
                                  {"compared-modes", "Modes compared"},
                                  {"modes", "Modes"},
                                  {"numerics", "Model and work"}})
@@ -362,7 +363,7 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) + stage_section(result) +
+      periodic_section(result, report.charts) + answer_section(result, report) + compared_run_section(result, report.charts) + stage_section(result) +
       budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
       stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +

@@ -3,6 +3,7 @@
 #include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -49,7 +50,63 @@ Json pair_json(const ComparedShapes &shapes, const coupling::ModePair &pair)
           {"other_seen", shapes.match.seen_b[pair.b]}};
 }
 
+/// An extreme of a signal in both runs.
+struct ComparedExtreme
+{
+  const char *which;
+  double      value, t, other, other_t;
+
+  double ratio() const { return value != 0. ? other / value : std::numeric_limits<double>::quiet_NaN(); }
+};
+
+std::array<ComparedExtreme, 2> extremes_of(const coupling::SignalSummary &a, const coupling::SignalSummary &b)
+{
+  return {{{"max", a.max, a.t_max, b.max, b.t_max}, {"min", a.min, a.t_min, b.min, b.t_min}}};
+}
+
+std::string signal_field(const std::string &name)
+{
+  return name.find_first_of(",\"") == std::string::npos ? name : '"' + name + '"';
+}
+
 } // namespace
+
+std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &other)
+{
+  std::string csv = "signal,unit,extreme,value,t [s],other value,other t [s],ratio\n";
+  for (const SharedSignal shared : shared_signals(run, other.run))
+    for (const ComparedExtreme &own : extremes_of(run.signals[shared.a], other.run.signals[shared.b]))
+    {
+      csv += signal_field(run.signals[shared.a].name) + ',' + run.signals[shared.a].unit + ',' + own.which;
+      for (const double x : {own.value, own.t, own.other, own.other_t, own.ratio()})
+        append_exact(csv += ',', x);
+      csv += '\n';
+    }
+  return csv;
+}
+
+Json compared_run_json(const coupling::RunResult &run, const ComparedRun &other)
+{
+  Json json = {{"other", other.scene}, {"signals", Json::object()}};
+  for (const SharedSignal shared : shared_signals(run, other.run))
+    for (const ComparedExtreme &own : extremes_of(run.signals[shared.a], other.run.signals[shared.b]))
+      json["signals"][run.signals[shared.a].name][own.which] = {
+          {"value", own.value}, {"t", own.t}, {"other", own.other}, {"other_t", own.other_t}, {"ratio", own.ratio()}};
+  return json;
+}
+
+std::string compared_run_text(const coupling::RunResult &run, const ComparedRun &other)
+{
+  std::ostringstream text;
+  text << "beside " << other.scene << ": " << std::left << "\n  " << std::setw(12) << "signal" << std::right
+       << std::setw(5) << "" << std::setw(16) << "here" << std::setw(16) << "there" << std::setw(10) << "ratio" << '\n';
+  for (const SharedSignal shared : shared_signals(run, other.run))
+    for (const ComparedExtreme &own : extremes_of(run.signals[shared.a], other.run.signals[shared.b]))
+      text << "  " << std::left << std::setw(12) << run.signals[shared.a].name << std::setw(5) << own.which
+           << std::right << std::setw(16) << short_text(own.value, 6) << std::setw(16) << short_text(own.other, 6)
+           << std::setw(10) << short_text(own.ratio()) << "  " << run.signals[shared.a].unit << '\n';
+  return text.str();
+}
 
 double frequency_ratio(const ComparedShapes &shapes, const coupling::ModePair &pair)
 {

@@ -2,6 +2,7 @@
 
 #include "apps/output/text/json.h"
 #include "apps/output/values/mode_comparison.h"
+#include "apps/output/values/run_comparison.h"
 
 #include <string>
 
@@ -20,6 +21,16 @@ Json compared_modes_json(const ComparedShapes &shapes);
 
 /// For a terminal.
 std::string compared_modes_text(const ComparedShapes &shapes);
+
+/// `signal, unit, extreme, value, t [s], other value, other t [s], ratio`: two rows for each signal that both runs
+/// have.
+std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &other);
+
+/// Of summary.json: `other` and by signal both extremes of both, with their ratio.
+Json compared_run_json(const coupling::RunResult &run, const ComparedRun &other);
+
+/// For a terminal.
+std::string compared_run_text(const coupling::RunResult &run, const ComparedRun &other);
 
 /// f_b / f_a; nan where the first does not vibrate.
 double frequency_ratio(const ComparedShapes &shapes, const coupling::ModePair &pair);

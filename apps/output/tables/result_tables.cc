@@ -346,6 +346,8 @@ std::string summary_json(const Result &result)
     json["mode_energies"] = mode_energies_json(*result.energy_shares);
   if (result.compared_shapes)
     json["compared_modes"] = compared_modes_json(*result.compared_shapes);
+  if (result.run && result.compared_run)
+    json["compared_run"] = compared_run_json(*result.run, *result.compared_run);
   if (result.along)
     json["modes_along"] = along_json(*result.along);
   if (result.periodic)
