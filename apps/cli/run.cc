@@ -7,8 +7,10 @@
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
+#include "apps/output/tables/story_table.h"
 #include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
+#include "apps/session/story/run_story.h"
 #include "apps/sizing/error_budget.h"
 
 #include <algorithm>
@@ -76,6 +78,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));
   Result result = session.run(asked.sensitivities);
+  add_story(session, result);
   if (other && !result.run->interrupted)
     add_compared_run(session, result, *other);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
@@ -87,6 +90,8 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   print_answer(*result.run);
   if (result.stages)
     std::cout << stages_text(*result.stages);
+  if (result.story)
+    std::cout << story_text(*result.story);
   if (result.compared_run)
     std::cout << compared_run_text(*result.run, *result.compared_run);
   if (result.compared_shapes)

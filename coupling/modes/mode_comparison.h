@@ -29,7 +29,7 @@ struct ModePair
  * `seen` is the part of a mode's kinetic energy that the measures tell; a mode of which they tell less than
  * `least_seen` has no partner.  Partners are chosen, best for all pairs together, by MAC_ij seen_i seen_j.
  *
- * Source: docs/theory/modes_along.md (7).
+ * Source: docs/theory/modes_along.md (7), (8).
  */
 struct ModeComparison
 {

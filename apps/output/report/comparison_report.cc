@@ -28,7 +28,7 @@ std::string pairs_html(const ComparedShapes &shapes)
     table.add({std::to_string(pair.a + 1), short_text(shapes.a.modes[std::size_t(pair.a)].frequency_hz, 6),
                std::to_string(pair.b + 1), short_text(shapes.b.modes[std::size_t(pair.b)].frequency_hz, 6),
                deviation(frequency_ratio(shapes, pair)), short_text(pair.assurance, 4),
-               percent(shapes.match.seen_a[pair.a], 2), percent(shapes.match.seen_b[pair.b], 2)});
+               gestell::percent(shapes.match.seen_a[pair.a], 2), gestell::percent(shapes.match.seen_b[pair.b], 2)});
   return table.html();
 }
 

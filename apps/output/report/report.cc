@@ -12,6 +12,7 @@
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/sensitivity_report.h"
 #include "apps/output/report/stage_report.h"
+#include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/tables/energy_table.h"
 #include "apps/output/text/html.h"
@@ -337,6 +338,7 @@ std::string contents(const std::string &body)
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
                                  {"orders", "Orders"},
+                                 {"story", "Story"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
                                  {"frf", "Frequency response"},
@@ -368,7 +370,7 @@ Report make_report(const Result &full)
       stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
-      events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
+      story_section(result) + events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
       along_section(result, report.charts) + compared_modes_section(result, report.charts) +
       modes_section(result, report) + numerics_section(result);
 

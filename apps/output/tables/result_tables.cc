@@ -8,6 +8,7 @@
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/tables/stage_table.h"
+#include "apps/output/tables/story_table.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
 
@@ -369,6 +370,8 @@ std::string summary_json(const Result &result)
     json["lift_off"] = lift_off_json(*result.stages);
     json["ringing"]  = ringing_json(result.stages->ringing);
   }
+  if (result.story)
+    json["story"] = story_json(*result.story);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   json["signals"]  = signals_json(run.signals);

@@ -6,6 +6,7 @@
 #include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
 #include "apps/output/values/run_comparison.h"
+#include "apps/output/values/run_story.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
@@ -91,6 +92,7 @@ struct Result
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
   std::optional<ComparedShapes>               compared_shapes;  ///< with those of another scene
   std::optional<ComparedRun>                  compared_run;     ///< of another scene
+  std::optional<RunStory>                     story;            ///< of a run with events
   std::optional<StageResult>                  stages;           ///< of a run with stages or wheels that lift off
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
