@@ -14,7 +14,7 @@ namespace
 
 constexpr double      acts = 0.01, high = 0.9, low = 0.1; ///< of the peak
 constexpr double      short_gap = 0.1;                    ///< of the duration behind it
-constexpr double      slow = 10., fast = 4.; ///< modes: periods up to so many runs, so many periods within the fall
+constexpr double      slow = 100., fast = 4.; ///< modes: periods up to so many durations, so many within the fall
 constexpr std::size_t most_modes = 12;
 
 /// Whether |F| reaches a share of the peak.
@@ -92,10 +92,11 @@ LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &p
   return on;
 }
 
-void add_modes(const coupling::ElementPlacement &placement, const Result &result, double run, LoadDuration &load)
+void add_modes(const coupling::ElementPlacement &placement, const Result &result, LoadDuration &load)
 {
   for (std::size_t j = 0; j < result.coupled_modes.size() && load.modes.size() < most_modes; ++j)
-    if (const double f = result.coupled_modes[j].frequency_hz; f * slow * run > 1. && f * load.fall < fast)
+    if (const double f = result.coupled_modes[j].frequency_hz;
+        f * slow * (load.t_fall - load.begin) > 1. && f * load.fall < fast)
       load.modes.push_back(on_mode(load, placement, result, j));
 }
 
@@ -163,7 +164,7 @@ std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &si
       load->signal  = signal.name;
       load->element = placement.name;
       load->unit    = signal.unit;
-      add_modes(placement, result, t.back() - t.front(), *load);
+      add_modes(placement, result, *load);
       loads.push_back(*load);
     }
   }

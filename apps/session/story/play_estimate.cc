@@ -20,6 +20,7 @@ namespace
 constexpr std::size_t most_cycles = 8;
 constexpr double      mostly_open = 0.3;  ///< kappa below which the motion is far from harmonic
 constexpr double      decays      = 0.3;  ///< share of the amplitude lost until the next cycle
+constexpr double      bent        = 0.05; ///< of its way, that a deflection may deviate from a straight one
 constexpr double      step        = 1e-7; ///< [m, rad] of a difference quotient
 
 /// An element with play, where the modes are found.
@@ -77,16 +78,28 @@ double deflection(const PlayedElement &played, const coupling::Signal &signal, c
   return signal.scale * played.placement->element->quantity(signal.quantity, motion, history.data()) + signal.offset;
 }
 
-/// k_eq over the engaged stiffness for the amplitude A [m] of the deflection about its mean.
+/// d(deflection)/d(x) along u + x d; nan where the deflection is bent over the amplitude, as the distance of a pin that
+/// may touch all round.
+double deflection_rate(const PlayedElement &played, const coupling::Signal &signal, const Eigen::VectorXd &u,
+                       const Eigen::VectorXd &d, double amplitude)
+{
+  const double at = deflection(played, signal, u), x = step / d.norm();
+  const double rate = (deflection(played, signal, u + x * d) - at) / x, far = amplitude / std::abs(rate);
+  const double up = deflection(played, signal, u + far * d) - at, down = deflection(played, signal, u - far * d) - at;
+  return std::abs(up + down) <= bent * std::abs(up - down) ? rate : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// k_eq over the engaged stiffness for the amplitude A [m] of the deflection about its mean; nan: it has none.
 double stiffness_share(const coupling::Machine &machine, const PlayedElement &played, const coupling::Signal &signal,
                        const Eigen::VectorXd &u, const Eigen::VectorXd &d, const PlayEstimate &cycle)
 {
   const auto            k    = d.size();
   const Eigen::VectorXd own  = u.segment(played.first, k);
-  const double          at   = deflection(played, signal, own);
-  const double          rate = (deflection(played, signal, own + step * d / d.norm()) - at) / (step / d.norm());
-  Eigen::VectorXd       u_0 = u, direction = Eigen::VectorXd::Zero(u.size());
-  u_0.segment(played.first, k) += (cycle.mean - at) / rate * d;
+  const double          rate = deflection_rate(played, signal, own, d, cycle.amplitude);
+  if (!std::isfinite(rate) || rate == 0.)
+    return std::numeric_limits<double>::quiet_NaN();
+  Eigen::VectorXd u_0 = u, direction = Eigen::VectorXd::Zero(u.size());
+  u_0.segment(played.first, k) += (cycle.mean - deflection(played, signal, own)) / rate * d;
   direction.segment(played.first, k) = d;
   coupling::DescribedForces forces(machine, direction);
   const double              omega = two_pi * cycle.closed_hz;
@@ -187,7 +200,8 @@ void estimate(const coupling::Machine &machine, const PlayedElement &played, con
   cycle.closed_hz = result.coupled_modes[std::size_t(closed.mode)].frequency_hz;
   add_amplitude(HistoryRows(*result.run), played.signal, cycle);
   cycle.stiffness_share = stiffness_share(machine, played, signal, u, closed.d, cycle);
-  cycle.frequency_hz    = softened_hz(result, closed.K_modes, cycle.stiffness_share, closed.mode);
+  if (std::isfinite(cycle.stiffness_share))
+    cycle.frequency_hz = softened_hz(result, closed.K_modes, cycle.stiffness_share, closed.mode);
 }
 
 } // namespace
@@ -208,6 +222,9 @@ std::vector<PlayEstimate> play_estimates(const std::vector<coupling::Signal> &si
     std::vector<PlayEstimate> cycles = cycles_of(*result.run, played);
     for (PlayEstimate &cycle : cycles)
       estimate(machine, played, signals[played.signal], u, {mode, K_modes, moved.col(mode)}, result, cycle);
+    cycles.erase(std::remove_if(cycles.begin(), cycles.end(),
+                                [](const PlayEstimate &cycle) { return !std::isfinite(cycle.stiffness_share); }),
+                 cycles.end());
     for (std::size_t c = 0; c < cycles.size(); ++c)
       cycles[c].limits = limits_of(cycles[c], c + 1 < cycles.size() ? &cycles[c + 1] : nullptr);
     all.insert(all.end(), cycles.begin(), cycles.end());
