@@ -4,7 +4,10 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/comparison_table.h"
+#include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
+#include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
@@ -90,6 +93,16 @@ void print_along(const AlongResult &along)
               << position_text(coordinate, meeting.x) << ", " << short_text(meeting.frequency_hz, 5) << " Hz\n";
 }
 
+void print_energies(const Result &result)
+{
+  if (!result.energy_shares)
+    return;
+  std::cout << "energy of the coupled modes\n  mode   strain | kinetic\n";
+  for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
+    std::cout << "  " << std::setw(4) << j + 1 << "   " << strain_text(*result.energy_shares, j) << " | "
+              << kinetic_text(*result.energy_shares, j) << '\n';
+}
+
 void print_answer(const Result &result, const std::optional<coupling::MeshConvergence> &convergence, double tolerance)
 {
   for (const std::string &line : frame_text(result.model))
@@ -99,9 +112,12 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
   print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
   print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
               result.model.frequency_limit);
+  print_energies(result);
   print_poles(result.poles);
   if (result.along)
     print_along(*result.along);
+  if (result.compared_shapes)
+    std::cout << compared_modes_text(*result.compared_shapes);
 }
 
 /// Of the command line.
@@ -109,7 +125,15 @@ struct Asked
 {
   ModesOptions    modes;
   ConvergeOptions mesh;
+  std::string     compare; ///< file of another scene; empty: none
 };
+
+void compare_with(const std::string &file, const CommonOptions &options, Session &session, Result &result)
+{
+  Session      other(file, {}, options.scripts, {session.progress()});
+  const Result of_other = other.modes();
+  add_compared_modes(session, result, other, of_other);
+}
 
 int find_modes(const CommonOptions &options, const Asked &asked)
 {
@@ -126,6 +150,8 @@ int find_modes(const CommonOptions &options, const Asked &asked)
     session.use_frame(convergence->frame);
   }
   Result result = session.modes(asked.modes);
+  if (!asked.compare.empty())
+    compare_with(asked.compare, options, session, result);
   if (convergence)
     for (const std::string &warning : convergence_warnings(*convergence, asked.mesh.converge))
       result.warnings.push_back(warning);
@@ -162,7 +188,8 @@ Command modes_command()
   return {
       "modes",
       "natural frequencies and shapes of the frame and of the coupled machine",
-      {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank"},
+      {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank",
+       "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
       CommandInput::scene,
       {{"--along", &own->modes.along, "follow them along a coordinate: a body, a measure or a driven joint"},
        CommandOption{"--from", &own->modes.from,
@@ -199,6 +226,9 @@ Command modes_command()
        CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
            .above_zero()
            .with("--converge"),
+       CommandOption{"--compare", &own->compare,
+                     "another scene, whose modes are matched with these by what both call by the same name"}
+           .existing_file(),
        CommandOption{"--geometric", &own->modes.geometric,
                      "on (default) or off: geometric stiffness of forces that turn"}
            .one_of({"on", "off"})},

@@ -4,15 +4,20 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
+#include "apps/output/tables/story_table.h"
+#include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
+#include "apps/session/story/run_story.h"
 #include "apps/sizing/error_budget.h"
 
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -42,6 +47,7 @@ struct BudgetOptions
   bool        budget = false;
   std::string outputs;
   std::string sensitivities;
+  std::string compare; ///< file of another scene; empty: none
 };
 
 /// What stops a budget leaves the run that it is of.
@@ -67,7 +73,14 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   require_writable(folder);
+  std::optional<Session> other;
+  if (!asked.compare.empty())
+    require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
+                                                   Watch{progress.callback(), &interruption()}));
   Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
+  add_story(session, result);
+  if (other && !result.run->interrupted)
+    add_compared_run(session, result, *other);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
     add_budget(session.scene(), outputs, result);
   prepare_folder(folder);
@@ -77,6 +90,12 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   print_answer(*result.run);
   if (result.stages)
     std::cout << stages_text(*result.stages);
+  if (result.story)
+    std::cout << story_text(*result.story);
+  if (result.compared_run)
+    std::cout << compared_run_text(*result.run, *result.compared_run);
+  if (result.compared_shapes)
+    std::cout << compared_modes_text(*result.compared_shapes);
   if (result.budget)
     std::cout << budget_text(*result.budget);
   if (result.sensitivities && result.sensitivities->failure.empty())
@@ -113,9 +132,14 @@ Command run_command()
   return {
       "run",
       "simulate a scene in time",
-      {"gestell run apps/scenes/press.toml -o results/press"},
+      {"gestell run apps/scenes/press.toml -o results/press",
+       "gestell run apps/scenes/press_minimal.toml --compare apps/scenes/press_minimal_light.toml"},
       CommandInput::scene,
-      {{"--budget", &asked->budget,
+      {CommandOption{"--compare", &asked->compare,
+                     "another scene, which runs as it stands in its file: its signals in the same charts, extremes "
+                     "and modes beside each other"}
+           .existing_file(),
+       {"--budget", &asked->budget,
         "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
        {"--outputs",
         &asked->outputs,

@@ -1,6 +1,8 @@
 #include "apps/output/result_files.h"
 
 #include "apps/output/tables/basins_table.h"
+#include "apps/output/tables/comparison_table.h"
+#include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/order_table.h"
@@ -23,6 +25,31 @@ std::string history(const Result &result)
 std::string modes(const Result &result)
 {
   return result.frame_modes.empty() && result.coupled_modes.empty() ? "" : modes_csv(result);
+}
+
+std::string mode_energies(const Result &result)
+{
+  return result.energy_shares ? mode_energies_csv(result) : "";
+}
+
+std::string compared_modes(const Result &result)
+{
+  return result.compared_shapes ? compared_modes_csv(*result.compared_shapes) : "";
+}
+
+std::string compared_run(const Result &result)
+{
+  return result.run && result.compared_run ? compared_run_csv(*result.run, *result.compared_run) : "";
+}
+
+std::string compared_history(const Result &result)
+{
+  return result.compared_run && !result.compared_run->run.columns.empty() ? history_csv(result.compared_run->run) : "";
+}
+
+std::string mac(const Result &result)
+{
+  return result.compared_shapes ? mac_csv(*result.compared_shapes) : "";
 }
 
 std::string along(const Result &result)
@@ -102,6 +129,11 @@ const std::vector<ResultFile> &result_files()
   static const std::vector<ResultFile> files = {
       {"history.csv", "to plot: every signal over time", history},
       {"modes.csv", "natural frequencies, damping, effective masses", modes},
+      {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", mode_energies},
+      {"compared_modes.csv", "modes beside those of another scene, with `--compare`", compared_modes},
+      {"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run},
+      {"compared_history.csv", "the other run over time", compared_history},
+      {"mac.csv", "how alike their shapes are, each with each", mac},
       {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
       {"modes_along_shapes.csv", "the shapes to them", along_shapes},
       {"solutions.csv", "periodic motions with their stability and signals, of `periodic`", solutions},

@@ -1,6 +1,7 @@
 #include "apps/output/result_folder.h"
 
 #include "apps/output/paraview/paraview.h"
+#include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
@@ -175,6 +176,12 @@ void write_modes(const fs::path &folder, const Result &result)
   };
   if (result.along)
     write_pictures(along_pictures(*result.along));
+  if (result.compared_shapes)
+  {
+    Pictures pictures;
+    compared_modes_section(result, pictures);
+    write_pictures(pictures);
+  }
   if (result.frf)
     write_pictures(frequency_response_pictures(*result.frf));
 }

@@ -326,6 +326,8 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   const coupling::Linearisation how{scene.modes.open, geometric};
   const Eigen::VectorXd         q = modes_configuration(scene, small);
   result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
+  if (!result.coupled_modes.empty())
+    result.energy_shares = coupling::energy_shares(small, q, scene.modes.open, result.coupled_modes);
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;

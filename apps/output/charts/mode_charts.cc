@@ -100,6 +100,11 @@ double arm(const Scenery &scenery)
 
 } // namespace
 
+double angle_arm(const Result &result)
+{
+  return arm(result.scenery);
+}
+
 std::string frame_mode_svg(const Result &result, std::size_t j)
 {
   const coupling::Mode &mode = result.frame_modes[j];

@@ -21,4 +21,7 @@ std::string coupled_mode_svg(const Result &result, std::size_t j);
 /// The same of any shape in the machine's coordinates.
 std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode);
 
+/// What angles are multiplied with to stand beside displacements [m]: a crank, or half of the machine.
+double angle_arm(const Result &result);
+
 } // namespace gestell::apps

@@ -4,6 +4,7 @@
 #include "apps/output/charts/signal_charts.h"
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/report/budget_report.h"
+#include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
@@ -11,7 +12,9 @@
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/sensitivity_report.h"
 #include "apps/output/report/stage_report.h"
+#include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
+#include "apps/output/tables/energy_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
@@ -203,6 +206,18 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
   return table.html() + (refined ? "<p>" + std::string(refined_words) + "</p>\n" : "");
 }
 
+/// Where the energy of each mode lies, in words.
+std::string energy_shares_table(const Result &result)
+{
+  if (!result.energy_shares)
+    return "";
+  HtmlTable table({"#mode", "#f [Hz]", "strain energy in", "kinetic energy in"});
+  for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
+    table.add({std::to_string(j + 1), short_text(result.coupled_modes[j].frequency_hz, 6),
+               strain_text(*result.energy_shares, j), kinetic_text(*result.energy_shares, j)});
+  return table.html();
+}
+
 std::string pole_table(const std::vector<coupling::Pole> &poles)
 {
   HtmlTable table({"#damped [Hz]", "#damping ratio", "#goes by", "moves most"});
@@ -228,7 +243,7 @@ std::string modes_section(const Result &result, Report &report)
   std::string html;
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
-            pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
+            energy_shares_table(result) + pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
   if (!result.poles.empty())
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
@@ -323,10 +338,13 @@ std::string contents(const std::string &body)
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
                                  {"orders", "Orders"},
+                                 {"story", "Story"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
                                  {"frf", "Frequency response"},
                                  {"along", "Frequencies along"},
+                                 {"compared-run", "Runs compared"},
+                                 {"compared-modes", "Modes compared"},
                                  {"modes", "Modes"},
                                  {"numerics", "Model and work"}})
     if (body.find("<section id=\"" + std::string(id) + "\"") != std::string::npos)
@@ -347,14 +365,14 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) + stage_section(result) +
+      periodic_section(result, report.charts) + answer_section(result, report) + compared_run_section(result, report.charts) + stage_section(result) +
       budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
-      stress_section(result, report.charts) +
-      chart_section(charts, ChartTopic::force, "forces", "Forces") +
+      stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
-      events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
-      along_section(result, report.charts) + modes_section(result, report) + numerics_section(result);
+      story_section(result) + events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
+      along_section(result, report.charts) + compared_modes_section(result, report.charts) +
+      modes_section(result, report) + numerics_section(result);
 
   report.html = page_html(
       {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,

@@ -1,11 +1,14 @@
 #include "apps/output/tables/result_tables.h"
 
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/tables/comparison_table.h"
+#include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/tables/stage_table.h"
+#include "apps/output/tables/story_table.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
 
@@ -340,6 +343,12 @@ std::string summary_json(const Result &result)
   json["frame_frequencies_hz"]         = frequencies_json(result.frame_modes);
   json["frame_refined_frequencies_hz"] = frequencies_json(result.frame_modes, &coupling::Mode::refined_hz);
   json["operating_poles"]              = array_of(result.poles, pole_json);
+  if (result.energy_shares)
+    json["mode_energies"] = mode_energies_json(*result.energy_shares);
+  if (result.compared_shapes)
+    json["compared_modes"] = compared_modes_json(*result.compared_shapes);
+  if (result.run && result.compared_run)
+    json["compared_run"] = compared_run_json(*result.run, *result.compared_run);
   if (result.along)
     json["modes_along"] = along_json(*result.along);
   if (result.periodic)
@@ -361,6 +370,8 @@ std::string summary_json(const Result &result)
     json["lift_off"] = lift_off_json(*result.stages);
     json["ringing"]  = ringing_json(result.stages->ringing);
   }
+  if (result.story)
+    json["story"] = story_json(*result.story);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   json["signals"]  = signals_json(run.signals);

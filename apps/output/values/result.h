@@ -2,13 +2,17 @@
 
 #include "apps/output/values/error_budget.h"
 #include "apps/output/values/frequency_response.h"
+#include "apps/output/values/mode_comparison.h"
 #include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
+#include "apps/output/values/run_comparison.h"
+#include "apps/output/values/run_story.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
 #include "apps/output/values/stage_result.h"
 #include "apps/output/values/stress_result.h"
+#include "coupling/modes/energy_shares.h"
 #include "coupling/modes/excitation_orders.h"
 #include "coupling/modes/modes.h"
 #include "coupling/simulation/simulation.h"
@@ -84,7 +88,11 @@ struct Result
   std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
+  std::optional<coupling::EnergyShares>       energy_shares;    ///< of the coupled modes
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
+  std::optional<ComparedShapes>               compared_shapes;  ///< with those of another scene
+  std::optional<ComparedRun>                  compared_run;     ///< of another scene
+  std::optional<RunStory>                     story;            ///< of a run with events
   std::optional<StageResult>                  stages;           ///< of a run with stages or wheels that lift off
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run

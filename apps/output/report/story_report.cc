@@ -1,0 +1,71 @@
+#include "apps/output/report/story_report.h"
+
+#include "apps/output/tables/energy_table.h"
+#include "apps/output/tables/story_table.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+std::string milliseconds(double t)
+{
+  return short_text(1e3 * t, 4) + " ms";
+}
+
+std::string load_html(const LoadDuration &load, const Result &result)
+{
+  const DisplayUnit unit = display_unit(load.unit, std::abs(load.peak));
+  HtmlTable table({"#mode", "#f [Hz]", "#T [ms]", "#duration/T", "#rise/T", "#fall/T", "#left of a step", "#energy [J]",
+                   "", "strain energy in"});
+  for (const LoadOnMode &on : load.modes)
+    table.add({std::to_string(on.mode + 1), short_text(on.frequency_hz, 4), short_text(1e3 / on.frequency_hz, 4),
+               short_text(on.duration, 3), short_text(on.rise, 3), peak(short_text(on.fall, 3), on.fall < 0.25),
+               short_text(on.fall_factor, 3), short_text(on.energy, 3), excitation_words(on),
+               result.energy_shares ? strain_text(*result.energy_shares, std::size_t(on.mode)) : ""});
+  return "<p><strong>" + escape_xml(load.signal) + "</strong> (" + escape_xml(load.element) + ") acts for " +
+         milliseconds(load.t_fall - load.begin) + " from " + short_text(load.begin, 6) + " s on, rises within " +
+         milliseconds(load.rise) + ", is largest with " + short_text(unit.factor * load.peak, 5) + " " + unit.unit +
+         " at " + short_text(load.t_peak, 6) + " s and falls within " + milliseconds(load.fall) +
+         ". A fall within a quarter of a period acts on that mode like a step. The energy is what the fall leaves in "
+         "the mode, undamped and linear, where the modes are found.</p>\n" +
+         table.html();
+}
+
+std::string plays_html(const std::vector<PlayEstimate> &plays)
+{
+  if (plays.empty())
+    return "";
+  HtmlTable table({"element", "#from t [s]", "#to t [s]", "#amplitude", "#mean", "#equivalent stiffness",
+                   "#f estimated [Hz]", "#f seen [Hz]", "#f closed [Hz]", "limits"});
+  for (const PlayEstimate &play : plays)
+    table.add({play.element, short_text(play.begin, 5), short_text(play.end, 5), short_text(play.amplitude, 3),
+               short_text(play.mean, 3), gestell::percent(play.stiffness_share, 3), short_text(play.frequency_hz, 4),
+               short_text(play.seen_hz, 4), short_text(play.closed_hz, 4), play.limits});
+  return "<h3>Play by its describing function</h3><p>Cycles between two events of one kind: frequency seen, and "
+         "that of the closed machine with the stiffness of the first harmonic at the amplitude of the cycle.</p>\n" +
+         table.html();
+}
+
+} // namespace
+
+std::string story_section(const Result &result)
+{
+  if (!result.story)
+    return "";
+  HtmlTable table({"#t [s]", "what happens"});
+  for (const StorySentence &sentence : result.story->sentences)
+    table.add({short_text(sentence.t, 6), peak(sentence.text, sentence.stands_out)});
+  std::string html = table.is_empty() ? "" : table.scrolled_html();
+  if (!result.story->loads.empty())
+    html += "<h3>Loads against the periods</h3>";
+  for (const LoadDuration &load : result.story->loads)
+    html += load_html(load, result);
+  return section("story", "The run told by its events", html + plays_html(result.story->plays));
+}
+
+} // namespace gestell::apps

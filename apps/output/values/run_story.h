@@ -1,0 +1,58 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A force that acts for a time, beside the period T of a mode.
+struct LoadOnMode
+{
+  int    mode         = 0;                    ///< from 0 on, of the coupled machine
+  double frequency_hz = 0.;                   ///< undamped, 1/T
+  double duration = 0., rise = 0., fall = 0.; ///< each over T
+  double fall_factor = 0.;                    ///< amplitude the fall leaves, over that of a sudden one
+  double energy      = std::numeric_limits<double>::quiet_NaN(); ///< [J] that the fall leaves in the mode
+};
+
+/// A technological force from its first contact to its fall.
+struct LoadDuration
+{
+  std::string             signal, element, unit;
+  double                  begin = 0., end = 0.;              ///< [s] between them it is above a hundredth of its peak
+  double                  peak = 0., t_peak = 0.;            ///< with its sign
+  double                  rise = 0., t_fall = 0., fall = 0.; ///< [s] to 0.9 of the peak; from there down, see load_duration()
+  std::vector<LoadOnMode> modes;
+};
+
+/// What happened at an instant.
+struct StorySentence
+{
+  double      t = 0.; ///< [s]
+  std::string text;
+  bool        stands_out = false; ///< the largest or smallest value of the run
+};
+
+/// An element with play by its describing function, beside what the run shows.
+struct PlayEstimate
+{
+  std::string element, signal;
+  double      begin = 0., end = 0.;      ///< [s] of the oscillation that is looked at
+  double      amplitude = 0., mean = 0.; ///< [m] or [rad] of the element's measure
+  double      stiffness_share = 0.;      ///< equivalent over engaged stiffness
+  double      frequency_hz = 0., seen_hz = 0., closed_hz = 0.;
+  int         mode = -1;
+  std::string limits; ///< where it does not hold; empty: it does
+};
+
+/// What a run tells beside its numbers.
+struct RunStory
+{
+  std::vector<LoadDuration>  loads;
+  std::vector<StorySentence> sentences; ///< in the order of time
+  std::vector<PlayEstimate>  plays;
+};
+
+} // namespace gestell::apps

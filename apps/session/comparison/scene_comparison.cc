@@ -1,0 +1,79 @@
+#include "apps/session/comparison/scene_comparison.h"
+
+#include "apps/session/comparison/shared_measures.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+MachineAt at_modes(Session &session)
+{
+  coupling::Machine &machine = session.machine().small();
+  return {&machine, modes_configuration(session.scene(), machine)};
+}
+
+std::string names_of(const std::vector<coupling::Signal> &signals)
+{
+  std::string names;
+  for (const coupling::Signal &signal : signals)
+    names += (names.empty() ? "" : ", ") + signal.name + " [" + signal.unit + "]";
+  return names.empty() ? "none" : names;
+}
+
+void require_shared_signal(Session &session, Session &other)
+{
+  const auto a    = scene_signals(session.scene(), session.machine().machine);
+  const auto b    = scene_signals(other.scene(), other.machine().machine);
+  const auto in_b = [&](const coupling::Signal &own)
+  {
+    return std::any_of(b.begin(), b.end(),
+                       [&](const auto &his) { return his.name == own.name && his.unit == own.unit; });
+  };
+  if (std::none_of(a.begin(), a.end(), in_b))
+    throw std::invalid_argument("--compare: \"" + session.scene().name + "\" and \"" + other.scene().name +
+                                "\" have no signal of one name and unit; the first has " + names_of(a) +
+                                ", the second " + names_of(b) + ": name them alike in [output.signals]");
+}
+
+void add_warnings(const Result &of_other, Result &result)
+{
+  for (const auto *warnings : {&of_other.warnings, &of_other.run->warnings})
+    for (const std::string &warning : *warnings)
+      result.warnings.push_back(of_other.scene + ": " + warning);
+  if (!of_other.run->failure.empty())
+    result.warnings.push_back(of_other.scene + " stopped early: " + of_other.run->failure);
+}
+
+} // namespace
+
+void require_comparable_runs(Session &session, Session &other)
+{
+  other.check_run();
+  require_shared_signal(session, other);
+}
+
+void add_compared_run(Session &session, Result &result, Session &other)
+{
+  Result of_other = other.run();
+  add_warnings(of_other, result);
+  try
+  {
+    add_compared_modes(session, result, other, of_other);
+  }
+  catch (const std::invalid_argument &)
+  {
+    // runs may be compared without a motion in common
+  }
+  result.compared_run = ComparedRun{of_other.scene, std::move(*of_other.run)};
+}
+
+void add_compared_modes(Session &session, Result &result, Session &other, const Result &of_other)
+{
+  result.compared_shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
+}
+
+} // namespace gestell::apps

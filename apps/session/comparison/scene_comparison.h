@@ -1,0 +1,17 @@
+#pragma once
+
+#include "apps/session/session.h"
+
+namespace gestell::apps
+{
+
+/// Adds to the result of a session its modes beside those of another one, see compared_shapes().
+void add_compared_modes(Session &session, Result &result, Session &other, const Result &of_other);
+
+/// @throws std::invalid_argument if two scenes do not run, or have no signal of one name and unit
+void require_comparable_runs(Session &session, Session &other);
+
+/// Runs another scene and adds its run, and its modes where both share a motion, to the result of a run.
+void add_compared_run(Session &session, Result &result, Session &other);
+
+} // namespace gestell::apps

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "apps/output/values/mode_comparison.h"
+#include "apps/session/prepared_machine.h"
+
+namespace gestell::apps
+{
+
+/// A machine in the configuration of [modes].
+struct MachineAt
+{
+  const coupling::Machine *machine;
+  Eigen::VectorXd          q;
+};
+
+/**
+ * Modes of two scenes at the measures that both have under the same name and with the same unit: coordinates of
+ * bodies, motions of interfaces, [measure]; where there are none of these the displacements of elements.  Modes above
+ * the frequency up to which a reduced frame holds are left out.
+ *
+ * @throws std::invalid_argument if they share none that moves; it names some of both
+ */
+ComparedShapes compared_shapes(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b);
+
+} // namespace gestell::apps

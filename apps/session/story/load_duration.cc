@@ -1,0 +1,174 @@
+#include "apps/session/story/load_duration.h"
+
+#include "apps/session/stages/history_rows.h"
+#include "mechanism/facets.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double      acts = 0.01, high = 0.9, low = 0.1; ///< of the peak
+constexpr double      short_gap = 0.1;                    ///< of the duration behind it
+constexpr double      slow = 100., fast = 4.; ///< modes: periods up to so many durations, so many within the fall
+constexpr std::size_t most_modes = 12;
+
+/// Whether |F| reaches a share of the peak.
+class Above
+{
+public:
+  Above(const std::vector<double> &F, double peak) : F_(F), peak_(std::abs(peak)) {}
+
+  bool operator()(std::size_t i, double share) const { return std::abs(F_[i]) >= share * peak_; }
+
+private:
+  const std::vector<double> &F_;
+  double                     peak_;
+};
+
+std::size_t first_of_piece(const Above &above, std::size_t i)
+{
+  while (i > 0 && above(i - 1, acts))
+    --i;
+  return i;
+}
+
+/// Goes back over short gaps.
+std::size_t begin_of_load(const Above &above, const std::vector<double> &t, std::size_t peak, double end)
+{
+  std::size_t begin = first_of_piece(above, peak);
+  for (;;)
+  {
+    std::size_t before = begin;
+    while (before > 0 && !above(before - 1, acts))
+      --before;
+    if (before == 0 || t[begin] - t[before - 1] > short_gap * (end - t[begin]))
+      return begin;
+    begin = first_of_piece(above, before - 1);
+  }
+}
+
+bool changes_sign(const std::vector<double> &F, double peak)
+{
+  const double other = peak > 0. ? *std::min_element(F.begin(), F.end()) : *std::max_element(F.begin(), F.end());
+  return peak * other < 0. && std::abs(other) > acts * std::abs(peak);
+}
+
+/// Whether it has no stiffness where the modes are found: tools and loads, not springs and contacts that hold.
+bool is_tool(const mechanism::Element &element)
+{
+  if (!element.force_law() || element.work() == mechanism::Work::input)
+    return false;
+  const auto          k = std::size_t(element.n_measures());
+  std::vector<double> u(k, 0.), K(k * k, 0.), D(k * k, 0.);
+  mechanism::engaged(element, u.data(), K.data(), D.data());
+  const auto zero = [](double x) { return x == 0.; };
+  return std::all_of(K.begin(), K.end(), zero) && std::all_of(D.begin(), D.end(), zero);
+}
+
+/// w . v of the single measure of an element; nan of several.
+double moved(const coupling::ElementPlacement &placement, const coupling::Mode &mode)
+{
+  if (placement.measures.size() != 1)
+    return std::numeric_limits<double>::quiet_NaN();
+  double u = 0.;
+  for (const auto &[i, weight] : placement.measures.front())
+    u += weight * mode.shape[i];
+  return u;
+}
+
+LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &placement, const Result &result,
+                   std::size_t j)
+{
+  const coupling::Mode &mode = result.coupled_modes[j];
+  const double          f    = mode.frequency_hz;
+  LoadOnMode            on{int(j), f, (load.t_fall - load.begin) * f, load.rise * f, load.fall * f, 0.};
+  on.fall_factor = fall_factor(on.fall);
+  on.energy      = 0.5 * std::pow(on.fall_factor * moved(placement, mode) * load.peak / (2. * M_PI * f), 2);
+  return on;
+}
+
+void add_modes(const coupling::ElementPlacement &placement, const Result &result, LoadDuration &load)
+{
+  for (std::size_t j = 0; j < result.coupled_modes.size() && load.modes.size() < most_modes; ++j)
+    if (const double f = result.coupled_modes[j].frequency_hz;
+        f * slow * (load.t_fall - load.begin) > 1. && f * load.fall < fast)
+      load.modes.push_back(on_mode(load, placement, result, j));
+}
+
+} // namespace
+
+double fall_factor(double fall_over_period)
+{
+  const double x = M_PI * fall_over_period;
+  return x < 1e-8 ? 1. : std::abs(std::sin(x) / x);
+}
+
+std::optional<LoadDuration> load_duration(const std::vector<double> &t, const std::vector<double> &F)
+{
+  if (F.size() < 3)
+    return {};
+  const auto largest =
+      std::max_element(F.begin(), F.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const std::size_t peak = std::size_t(largest - F.begin()), n = F.size();
+  const Above       above(F, *largest);
+  if (*largest == 0. || changes_sign(F, *largest))
+    return {};
+  std::size_t end = peak, fall = peak, down = peak;
+  while (end + 1 < n && above(end, acts))
+    ++end;
+  while (down + 1 < n && above(down, low))
+    fall = above(down, high) ? down : fall, ++down;
+  const std::size_t begin = begin_of_load(above, t, peak, t[end]);
+  if (begin == 0 || above(end, acts))
+    return {};
+  std::size_t risen = begin;
+  while (!above(risen, high))
+    ++risen;
+  LoadDuration load;
+  load.begin  = t[begin];
+  load.end    = t[end];
+  load.peak   = *largest;
+  load.t_peak = t[peak];
+  load.rise   = t[risen] - t[begin];
+  load.t_fall = t[fall];
+  load.fall   = (t[down] - t[fall]) / (high - low);
+  return load;
+}
+
+std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine,
+                                         const Result &result)
+{
+  std::vector<LoadDuration> loads;
+  const HistoryRows         rows(*result.run);
+  std::vector<double>       t;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    t.push_back(rows.t(i));
+  for (std::size_t s = 0; s < signals.size() && !t.empty(); ++s)
+  {
+    const coupling::Signal &signal = signals[s];
+    if (signal.element < 0 || (signal.unit != "N" && signal.unit != "N m"))
+      continue;
+    const coupling::ElementPlacement &placement = machine.model().elements()[std::size_t(signal.element)];
+    if (!is_tool(*placement.element))
+      continue;
+    std::vector<double> F;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      F.push_back(rows.at(i, s + 1));
+    if (auto load = load_duration(t, F))
+    {
+      load->signal  = signal.name;
+      load->element = placement.name;
+      load->unit    = signal.unit;
+      add_modes(placement, result, *load);
+      loads.push_back(*load);
+    }
+  }
+  return loads;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,248 @@
+#include "apps/session/story/run_story.h"
+
+#include "apps/session/joint_opening.h"
+#include "apps/session/stages/history_rows.h"
+#include "apps/session/story/load_duration.h"
+#include "apps/session/story/play_estimate.h"
+#include "apps/session/story/turning_points.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr int         told_twice     = 2;
+constexpr std::size_t most_sentences = 60;
+constexpr double      near_mode      = 0.25; ///< relative difference of frequencies up to which a mode carries
+constexpr double      no_momentum    = 1e-3; ///< of the largest force times the time it acts
+
+/// In the unit in which a signal reads well at its largest.
+std::string shown(double x, const coupling::SignalSummary &signal)
+{
+  const DisplayUnit own = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
+  return short_text(x * own.factor, 4) + ' ' + own.unit;
+}
+
+std::string milliseconds(double t)
+{
+  return short_text(1e3 * t, 3) + " ms";
+}
+
+std::string spoken(std::string kind)
+{
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  return kind;
+}
+
+/// The part with most of a mode's strain energy: "rod by 75 %".
+std::string strains_most(const Result &result, std::size_t mode)
+{
+  if (!result.energy_shares || result.energy_shares->strain.rows() == 0)
+    return "";
+  Eigen::Index most  = 0;
+  const double share = result.energy_shares->strain.col(Eigen::Index(mode)).maxCoeff(&most);
+  return share > 0. ? result.energy_shares->springs[std::size_t(most)] + " by " + short_text(100. * share, 3) + " %"
+                    : "";
+}
+
+class Story
+{
+public:
+  Story(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine, const Result &result)
+      : signals_(signals), machine_(machine), result_(result), rows_(*result.run)
+  {
+  }
+
+  std::vector<StorySentence> told()
+  {
+    add_events();
+    add_extremes();
+    std::stable_sort(sentences_.begin(), sentences_.end(), [](const auto &a, const auto &b) { return a.t < b.t; });
+    if (sentences_.size() > most_sentences)
+      sentences_.resize(most_sentences);
+    return std::move(sentences_);
+  }
+
+private:
+  void        add_events();
+  std::string event_text(std::size_t e) const;
+  std::string momentum_text(std::size_t e, std::size_t s) const;
+  std::size_t next_of(std::size_t e) const; ///< the next event of its object; the number of events: none
+  void        add_extremes();
+  void        add_extreme(std::size_t s, bool largest);
+  std::string carried_by(std::size_t s, double t) const;
+  std::size_t row_before(double t) const;
+  bool        belongs_to(std::size_t s, const std::string &object) const;
+
+  const std::vector<coupling::Signal> &signals_;
+  const coupling::Machine             &machine_;
+  const Result                        &result_;
+  HistoryRows                          rows_;
+  std::vector<StorySentence>           sentences_;
+};
+
+std::size_t Story::row_before(double t) const
+{
+  std::size_t low = 0, high = rows_.size();
+  while (high - low > 1)
+    (rows_.t((low + high) / 2) <= t ? low : high) = (low + high) / 2;
+  return low;
+}
+
+bool Story::belongs_to(std::size_t s, const std::string &object) const
+{
+  const int element = signals_[s].element;
+  return element >= 0 && machine_.model().elements()[std::size_t(element)].name == object;
+}
+
+std::size_t Story::next_of(std::size_t e) const
+{
+  const auto &events = result_.run->events;
+  for (std::size_t k = e + 1; k < events.size(); ++k)
+    if (events[k].name == events[e].name)
+      return k;
+  return events.size();
+}
+
+/// What the force passes on from an event to the next one of its object.
+std::string Story::momentum_text(std::size_t e, std::size_t s) const
+{
+  const auto       &events = result_.run->events;
+  const std::size_t next   = next_of(e);
+  if (next == events.size())
+    return "";
+  double sum = 0., peak = 0.;
+  for (std::size_t i = row_before(events[e].t) + 1; i < rows_.size() && rows_.t(i) < events[next].t; ++i)
+  {
+    sum += rows_.at(i, s + 1) * (rows_.t(i) - rows_.t(i - 1));
+    peak = std::abs(rows_.at(i, s + 1)) > std::abs(peak) ? rows_.at(i, s + 1) : peak;
+  }
+  const coupling::SignalSummary &whole = result_.run->signals[s];
+  const double                   size  = std::max(std::abs(whole.min), std::abs(whole.max));
+  if (std::abs(peak) < 0.1 * size || std::abs(sum) < no_momentum * size * (events[next].t - events[e].t))
+    return "";
+  return "until its next event " + milliseconds(events[next].t - events[e].t) + " later it passes on " +
+         short_text(sum, 4) + " " + signals_[s].unit + " s and reaches " + shown(peak, result_.run->signals[s]);
+}
+
+std::string Story::event_text(std::size_t e) const
+{
+  const coupling::Event &event = result_.run->events[e];
+  std::string            text  = event.name + ": " + spoken(event.kind);
+  const std::size_t      i     = row_before(event.t);
+  for (std::size_t s = 0; s < signals_.size() && rows_.size() > 2; ++s)
+  {
+    const std::string &unit = signals_[s].unit;
+    if (!belongs_to(s, event.name))
+      continue;
+    if ((unit == "m" || unit == "rad") && i > 0)
+      text += ", " + signals_[s].name + " changes by " +
+              short_text((rows_.at(i, s + 1) - rows_.at(i - 1, s + 1)) / (rows_.t(i) - rows_.t(i - 1)), 3) + " " +
+              unit + "/s";
+    if (unit != "N" && unit != "N m")
+      continue;
+    text += ", " + signals_[s].name + " is " + shown(rows_.at(i, s + 1), result_.run->signals[s]);
+    if (const std::string momentum = momentum_text(e, s); !momentum.empty())
+      text += "; " + momentum;
+  }
+  return text;
+}
+
+void Story::add_events()
+{
+  const auto                                        &events = result_.run->events;
+  std::map<std::pair<std::string, std::string>, int> told, all;
+  for (const coupling::Event &event : events)
+    ++all[{event.name, event.kind}];
+  for (std::size_t e = 0; e < events.size(); ++e)
+  {
+    const std::pair key{events[e].name, events[e].kind};
+    if (++told[key] > told_twice)
+      continue;
+    std::string text = event_text(e);
+    if (const int more = all[key] - told[key]; told[key] == told_twice && more > 0)
+      text += "; so " + std::to_string(more) + (more == 1 ? " more time" : " more times");
+    sentences_.push_back({events[e].t, text, false});
+  }
+}
+
+/// The vibration about an instant, and the mode next to it.
+std::string Story::carried_by(std::size_t s, double t) const
+{
+  std::vector<double> time, y;
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+  {
+    time.push_back(rows_.t(i));
+    y.push_back(rows_.at(i, s + 1));
+  }
+  const double half = half_period_at(time, y, t);
+  if (!(half > 0.))
+    return "";
+  const double f     = 0.5 / half;
+  std::string  text  = ", half a swing of " + milliseconds(half);
+  const auto  &modes = result_.coupled_modes;
+  const auto   off   = [&](const coupling::Mode &mode)
+  { return mode.frequency_hz > 0. ? std::abs(std::log(mode.frequency_hz / f)) : 1e9; };
+  const auto nearest =
+      std::min_element(modes.begin(), modes.end(), [&](const auto &a, const auto &b) { return off(a) < off(b); });
+  if (nearest == modes.end() || off(*nearest) > 1e8)
+    return text;
+  const auto        j      = std::size_t(nearest - modes.begin());
+  const std::string strain = strains_most(result_, j);
+  return text + " (" + short_text(f, 3) + " Hz)" +
+         (off(*nearest) < near_mode ? ", carried by mode " : ", not a period of a mode; nearest is mode ") +
+         std::to_string(j + 1) + " at " + short_text(nearest->frequency_hz, 4) + " Hz" +
+         (strain.empty() ? "" : ", which strains the " + strain);
+}
+
+void Story::add_extreme(std::size_t s, bool largest)
+{
+  const coupling::SignalSummary &own = result_.run->signals[s];
+  const double                   x = largest ? own.max : own.min, t = largest ? own.t_max : own.t_min;
+  const bool                     inside = rows_.size() > 2 && t > rows_.t(0) && t < rows_.t(rows_.size() - 1);
+  if (inside && x != 0. && own.max - own.min > 0.)
+    sentences_.push_back(
+        {t, own.name + " is " + (largest ? "largest" : "smallest") + " of the run: " + shown(x, own) + carried_by(s, t),
+         true});
+}
+
+void Story::add_extremes()
+{
+  for (std::size_t s = 0; s < signals_.size(); ++s)
+    if (const std::string &unit = signals_[s].unit; unit == "N" || unit == "N m")
+    {
+      add_extreme(s, true);
+      add_extreme(s, false);
+    }
+}
+
+} // namespace
+
+std::vector<StorySentence> story_sentences(const std::vector<coupling::Signal> &signals,
+                                           const coupling::Machine &machine, const Result &result)
+{
+  return Story(signals, machine, result).told();
+}
+
+void add_story(Session &session, Result &result)
+{
+  const Scene       &scene   = session.scene();
+  coupling::Machine &machine = session.machine().small();
+  const auto         signals =
+      with_normal_forces(scene, session.machine().machine, scene_signals(scene, session.machine().machine));
+  if (!result.run || result.run->events.empty() || result.run->signals.size() != signals.size())
+    return;
+  RunStory story;
+  story.loads     = load_durations(signals, machine, result);
+  story.sentences = story_sentences(signals, machine, result);
+  story.plays     = play_estimates(signals, machine, modes_configuration(scene, machine), result);
+  result.story    = std::move(story);
+}
+
+} // namespace gestell::apps

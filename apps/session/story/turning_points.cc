@@ -1,0 +1,62 @@
+#include "apps/session/story/turning_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double small_turn = 0.2; ///< of the range
+
+/// Instants at which y turns by more than a threshold, each at its extreme.
+std::vector<double> turning_points(const std::vector<double> &t, const std::vector<double> &y, double threshold)
+{
+  std::vector<double> turns;
+  std::size_t         high = 0, low = 0;
+  int                 goes = 0; // 1 up, -1 down, 0 unknown
+  for (std::size_t i = 1; i < y.size(); ++i)
+  {
+    high = y[i] > y[high] ? i : high;
+    low  = y[i] < y[low] ? i : low;
+    if (goes >= 0 && y[high] - y[i] > threshold)
+    {
+      turns.push_back(t[high]);
+      goes = -1;
+      low  = i;
+    }
+    else if (goes <= 0 && y[i] - y[low] > threshold)
+    {
+      turns.push_back(t[low]);
+      goes = 1;
+      high = i;
+    }
+  }
+  return turns;
+}
+
+} // namespace
+
+double half_period_at(const std::vector<double> &t, const std::vector<double> &y, double at)
+{
+  if (y.size() < 3)
+    return 0.;
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  const auto turns       = turning_points(t, y, small_turn * (*high - *low));
+  if (turns.empty())
+    return 0.;
+  const auto nearest = std::min_element(turns.begin(), turns.end(),
+                                        [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
+  double     half    = std::numeric_limits<double>::infinity();
+  if (nearest != turns.begin())
+    half = *nearest - *(nearest - 1);
+  if (nearest + 1 != turns.end())
+    half = std::min(half, *(nearest + 1) - *nearest);
+  return std::isfinite(half) ? half : 0.;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+namespace gestell::apps
+{
+
+/**
+ * Half a period of the vibration of samples y(t) about an instant: the time between turning points beside the one at
+ * `at`, of both sides the shorter one: a slow rise is no swing.  Turns smaller than a fifth of the range of y are
+ * passed over.
+ * @return 0 if it does not turn again on either side
+ */
+double half_period_at(const std::vector<double> &t, const std::vector<double> &y, double at);
+
+} // namespace gestell::apps

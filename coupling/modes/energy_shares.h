@@ -1,0 +1,41 @@
+#pragma once
+
+#include "coupling/modes/modes.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * Where the energies of modes lie.  A mode v with v^T M v = 1 and v^T K v = omega^2 has in a spring p, of stiffness
+ * K_p, and in the coordinates I of a body
+ *
+ *     strain:   v^T K_p v / omega^2,     kinetic:   sum_{i in I} v_i (M v)_i,
+ *
+ * each of which sums up to 1.  Springs are the frame on its supports, linear elements, and nonlinear ones as they are
+ * engaged; what forces that turn with the motion do (geometric stiffness) is one more and may be negative.  The mass of
+ * a body that moves with a marker of the frame counts as the frame's.  Strain shares of a mode without frequency are
+ * nan.
+ */
+struct EnergyShares
+{
+  std::vector<std::string> springs; ///< "frame", elements by name, "turning forces"; those without any share left out
+  Eigen::MatrixXd          strain;  ///< [springs x modes]
+  std::vector<std::string> masses;  ///< "frame", bodies by name
+  Eigen::MatrixXd          kinetic; ///< [masses x modes]
+};
+
+/// What of a linear element a path of a signal tells: c u, with its own sign, and u.
+struct LinearSpring
+{
+  std::string name;
+  Measure     force, displacement; ///< weights [N/m or N m/rad], [1] of the coordinates
+};
+
+/// The springs and dampers that join the base system, in the order of their names.
+std::vector<LinearSpring> linear_springs(const MachineModel &model);
+
+/// Of modes that linearised_modes() found at q with the elements `open` not engaged.
+EnergyShares energy_shares(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
+                           const std::vector<Mode> &modes);
+
+} // namespace gestell::coupling

@@ -1,0 +1,52 @@
+// Scenes beside each other, and the story of a run, by the program.
+
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+namespace gestell::tests
+{
+namespace
+{
+
+TEST(CompareOption, OfModesWritesPairsAndTheirPicture)
+{
+  const Folder folder("compare_modes");
+  expect_answer(gestell("modes " + scene("press_minimal.toml") + " --compare " + scene("press_minimal_light.toml") +
+                        folder.option()),
+                0, {"matched by 5 shared measures", "84.6758", "97.9343", "energy of the coupled modes"});
+  for (const char *file : {"compared_modes.csv", "mac.csv", "mode_energies.csv", "charts/modes-compared.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder.results() / file)) << file;
+  EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"compared-modes\""), std::string::npos);
+}
+
+TEST(CompareOption, OfARunDrawsBothAndTellsTheStory)
+{
+  const Folder      folder("compare_run");
+  const std::string press = scene("press_minimal.toml");
+  expect_answer(gestell("run " + press + " --set run.step='\"50 us\"' --compare " + press + folder.option()), 0,
+                {"beside press_minimal", "F_u acts from 0.194", "rod with play swings"});
+  const std::string report = read(folder.results() / "report.html");
+  for (const char *id : {"compared-run", "compared-modes", "story"})
+    EXPECT_NE(report.find("<section id=\"" + std::string(id) + "\""), std::string::npos) << id;
+  EXPECT_TRUE(std::filesystem::exists(folder.results() / "compared_history.csv"));
+  EXPECT_NEAR(json_number(read(folder.results() / "summary.json"), {"compared_run", "F_P", "ratio"}), 1., 1e-3);
+}
+
+TEST(CompareOption, RefusesOddInputWithTheWayOut)
+{
+  const Folder      folder("compare_odd");
+  const std::string press = scene("press_minimal.toml"), crane = scene("crane_minimal.toml");
+  const auto        refused = [&](const std::string &ask, const std::vector<std::string> &words)
+  {
+    expect_answer(gestell(ask + folder.option()), 2, words);
+    EXPECT_FALSE(std::filesystem::exists(folder.results() / "summary.json"));
+  };
+  refused("modes " + press + " --compare " + crane, {"share no motion", "crank.angle", "boom.angle", "the same name"});
+  refused("run " + press + " --compare " + crane, {"no signal of one name and unit", "F_P [N]", "[output.signals]"});
+  refused("modes " + press + " --compare nowhere.toml", {"--compare", "nowhere.toml"});
+  refused("modes " + press + " --compare " + folder.file("odd.toml", "name = 3"), {"odd.toml"});
+}
+
+} // namespace
+} // namespace gestell::tests

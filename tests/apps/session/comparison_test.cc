@@ -1,0 +1,123 @@
+// Where energies of modes lie, and scenes beside each other: against the reference of the press.
+
+#include "apps/session/comparison/scene_comparison.h"
+#include "apps/session/session.h"
+#include "tests/support/refusal.h"
+#include "tests/support/scene_run.h"
+#include "tests/support/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::Session;
+
+double strain_share(const coupling::EnergyShares &shares, const std::string &spring, int mode)
+{
+  const auto found = std::find(shares.springs.begin(), shares.springs.end(), spring);
+  return found == shares.springs.end() ? 0. : shares.strain(found - shares.springs.begin(), mode);
+}
+
+// modes.csv of the reference, 20 degrees before bottom dead centre: c_T, c_P, c_G + c_F.
+TEST(EnergyShares, OfThePressAreThoseOfTheReference)
+{
+  const apps::Result result = Session(shipped("press_minimal.toml")).modes();
+  ASSERT_TRUE(result.energy_shares);
+  const auto  &shares        = *result.energy_shares;
+  const double expected[][3] = {
+      {0.9985800144622903, 0.0002448658625610168, 9.760552256425609e-05 + 0.0010640435990911118},
+      {0.0012347374940570237, 0.007918999871551024, 0.033078906180601456 + 0.9577672721344265},
+      {0.000163910240536552, 0.7535392818916129, 0.21862822575264856 + 0.027652223355180975},
+      {8.384538608081514e-06, 0.23827464637147, 0.7481952625434314 + 0.013516460905496313}};
+  for (int j = 1; j < 5; ++j)
+  {
+    EXPECT_NEAR(strain_share(shares, "clutch", j), expected[j - 1][0], 2e-5); // the reference leaves out c_CB
+    EXPECT_NEAR(strain_share(shares, "rod", j), expected[j - 1][1], 2e-5);
+    EXPECT_NEAR(strain_share(shares, "frame", j), expected[j - 1][2], 2e-5);
+  }
+}
+
+// Strain: v^T K v = omega^2; without forces that turn with the motion the springs alone make it up.
+TEST(EnergyShares, SumUpToOne)
+{
+  for (const char *file : {"press_minimal.toml", "crane_minimal.toml"})
+  {
+    const apps::Result result = Session(shipped(file)).modes();
+    const auto        &shares = *result.energy_shares;
+    for (Eigen::Index j = 0; j < shares.kinetic.cols(); ++j)
+    {
+      EXPECT_NEAR(shares.kinetic.col(j).sum(), 1., 1e-10);
+      if (result.coupled_modes[std::size_t(j)].frequency_hz > 0.)
+        EXPECT_NEAR(shares.strain.col(j).sum(), 1., 1e-5); // springs below 1e-6 are left out
+    }
+  }
+  const auto press = *Session(shipped("press_minimal.toml")).modes().energy_shares;
+  EXPECT_EQ(std::count(press.springs.begin(), press.springs.end(), "turning forces"), 0);
+}
+
+apps::Result compared(const std::string &a, const std::string &b, const std::vector<std::string> &overrides = {})
+{
+  Session      session(a, overrides), other(b);
+  apps::Result result = session.modes();
+  add_compared_modes(session, result, other, other.modes());
+  return result;
+}
+
+TEST(ComparedModes, OfASceneWithItselfAreTheIdentity)
+{
+  const std::string  press  = shipped("press_minimal.toml");
+  const apps::Result result = compared(press, press);
+  ASSERT_TRUE(result.compared_shapes);
+  EXPECT_EQ(result.compared_shapes->measures.size(), 5u); // its five coordinates
+  EXPECT_LT((result.compared_shapes->match.mac - Eigen::MatrixXd::Identity(5, 5)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+// With rigid columns crown and table move as one: f5 is gone to high frequencies, the others stay what they are.
+TEST(ComparedModes, OfARigidFrameFindTheirPartners)
+{
+  const apps::Result result =
+      compared(shipped("press_minimal.toml"), shipped("press_minimal.toml"), {"parameters.c_G=\"3.2e6 kN/mm\""});
+  const auto &shapes = *result.compared_shapes;
+  ASSERT_GE(shapes.match.pairs.size(), 4u);
+  for (int j = 0; j < 4; ++j)
+  {
+    EXPECT_EQ(shapes.match.pairs[std::size_t(j)].b, j);
+    EXPECT_GT(shapes.match.pairs[std::size_t(j)].assurance, 0.9);
+  }
+  EXPECT_GT(shapes.a.modes[3].frequency_hz, shapes.b.modes[3].frequency_hz); // stiffer
+}
+
+TEST(ComparedModes, NeedSomethingInCommon)
+{
+  EXPECT_THAT(refusal([] { compared(shipped("press_minimal.toml"), shipped("crane_minimal.toml")); }),
+              ::testing::HasSubstr("share no motion"));
+}
+
+// The light variant of the reference: F_P_min from -601.647 to -501.089 kN.
+TEST(ComparedRun, OfTheLightVariantTellsItsGain)
+{
+  Session session(shipped("press_minimal.toml")), other(shipped("press_minimal_light.toml"));
+  require_comparable_runs(session, other);
+  apps::Result result = session.run();
+  add_compared_run(session, result, other);
+  ASSERT_TRUE(result.compared_run && result.compared_shapes);
+  const auto shared = apps::shared_signals(*result.run, result.compared_run->run);
+  EXPECT_EQ(shared.size(), result.run->signals.size());
+  EXPECT_NEAR(result.compared_run->run.signals[shared[0].b].min / result.run->signals[shared[0].a].min,
+              501.089 / 601.647, 1e-4);
+}
+
+TEST(ComparedRun, NeedsASignalInCommon)
+{
+  Session session(shipped("press_minimal.toml")), other(shipped("crane_minimal.toml"));
+  EXPECT_THAT(refusal([&] { require_comparable_runs(session, other); }),
+              ::testing::HasSubstr("no signal of one name and unit"));
+}
+
+} // namespace
+} // namespace gestell::tests

@@ -1,0 +1,198 @@
+// What a run tells beside its numbers: loads against periods, play by its describing function, the stroke's story.
+
+#include "apps/session/session.h"
+#include "apps/session/story/load_duration.h"
+#include "apps/session/story/run_story.h"
+#include "apps/session/story/turning_points.h"
+#include "tests/support/scene_run.h"
+#include "tests/support/scene_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::Session;
+
+apps::Result told(const std::string &file, const std::vector<std::string> &overrides = {})
+{
+  Session      session(file, overrides);
+  apps::Result result = session.run();
+  add_story(session, result);
+  return result;
+}
+
+/// A force that touches from 1.0 to 1.05, rises from 1.1 to 2, stays at 8 to 3 and falls to zero at 3.4 s.
+double trapezoid(double t)
+{
+  if (t > 1. && t < 1.05)
+    return 1.;
+  return t < 1.1 || t > 3.4 ? 0. : t < 2. ? 8. * (t - 1.1) / 0.9 : t < 3. ? 8. : 8. * (3.4 - t) / 0.4;
+}
+
+TEST(LoadDuration, IsThatOfATrapezoidWithABounceBeforeIt)
+{
+  std::vector<double> t, F;
+  for (int i = 0; i <= 50000; ++i)
+  {
+    t.push_back(1e-4 * i);
+    F.push_back(-trapezoid(t.back())); // the sign does not matter
+  }
+  const auto load = apps::load_duration(t, F);
+  ASSERT_TRUE(load);
+  EXPECT_NEAR(load->begin, 1., 3e-4);
+  EXPECT_NEAR(load->peak, -8., 1e-12);
+  EXPECT_NEAR(load->rise, 0.91, 3e-4);        // 0.9 of the peak at 1.91 s
+  EXPECT_NEAR(load->t_fall, 3. + 0.04, 3e-4); // down to 0.9 of the peak
+  EXPECT_NEAR(load->fall, 0.4, 4e-4);
+  EXPECT_NEAR(load->end, 3.4 - 0.004, 3e-4);
+}
+
+TEST(LoadDuration, IsNoneOfForcesThatDoNotEndOrSwing)
+{
+  std::vector<double> t, steady, swings;
+  for (int i = 0; i <= 100; ++i)
+  {
+    t.push_back(i);
+    steady.push_back(5.);
+    swings.push_back(std::sin(0.3 * i));
+  }
+  EXPECT_FALSE(apps::load_duration(t, steady));
+  EXPECT_FALSE(apps::load_duration(t, swings));
+  EXPECT_FALSE(apps::load_duration(t, std::vector<double>(t.size(), 0.)));
+}
+
+// A ramp that lasts one period leaves nothing, one of half a period 2/pi of a step.
+TEST(LoadDuration, LeavesOfAStepWhatTheRampLeaves)
+{
+  EXPECT_EQ(apps::fall_factor(0.), 1.);
+  EXPECT_NEAR(apps::fall_factor(0.25), 0.9003163161571, 1e-12);
+  EXPECT_NEAR(apps::fall_factor(0.5), 2. / M_PI, 1e-15);
+  EXPECT_NEAR(apps::fall_factor(1.), 0., 1e-15);
+}
+
+TEST(TurningPoints, LieHalfAPeriodApart)
+{
+  std::vector<double> t, y;
+  for (int i = 0; i <= 4000; ++i)
+  {
+    t.push_back(1e-3 * i);
+    y.push_back(std::cos(2. * M_PI * 1.6 * t.back()) + 0.02 * std::sin(500. * t.back())); // a ripple does not turn it
+  }
+  EXPECT_NEAR(apps::half_period_at(t, y, 1.25), 0.5 / 1.6, 0.005);
+  EXPECT_EQ(apps::half_period_at({0., 1.}, {0., 1.}, 0.5), 0.);
+}
+
+const char *const bead = R"(
+name = "bead"
+[body.bead]
+type = "slider"
+axis = [1, 0, 0]
+mass = "1 kg"
+[element.stops]
+type      = "clearance"
+from      = "bead"
+direction = [1, 0, 0]
+gap       = "1 mm"
+stiffness = "10 N/mm"
+[start]
+rule = "given"
+q    = { bead = "3 mm" }
+[modes]
+at = { bead = "3 mm" }
+[run]
+method = "bdf"
+order  = 2
+step   = "20 us"
+end    = "0.6 s"
+[output.signals]
+x = "stops.displacement"
+F = "stops.force"
+)";
+
+// Through a play of gap b and amplitude A the period is T_0 + 4 b/(omega (A - b)): f/f_0 = 1/(1 + 1/pi) for A = 3 b.
+// The describing function, k_eq = k [1 - (2/pi) (asin s + s sqrt(1 - s^2))], s = 1/3, is 0.7 % above.
+TEST(PlayEstimates, OfAnUndampedSliderAreNearItsPeriod)
+{
+  const test::SceneFolder folder;
+  const apps::Result      result = told(folder.write("bead.toml", bead));
+  ASSERT_TRUE(result.story);
+  ASSERT_GE(result.story->plays.size(), 3u);
+  const double f_0 = 100. / (2. * M_PI), s = 1. / 3.;
+  const double share = 1. - 2. / M_PI * (std::asin(s) + s * std::sqrt(1. - s * s));
+  for (const apps::PlayEstimate &play : result.story->plays)
+  {
+    EXPECT_NEAR(play.closed_hz, f_0, 1e-9);
+    EXPECT_NEAR(play.amplitude, 3e-3, 2e-6);
+    EXPECT_NEAR(play.seen_hz, f_0 / (1. + 1. / M_PI), 2e-3);
+    EXPECT_NEAR(play.stiffness_share, share, 1e-3);
+    EXPECT_NEAR(play.frequency_hz, f_0 * std::sqrt(share), 0.01);
+    EXPECT_EQ(play.limits, "");
+  }
+}
+
+// The cutting shock of the reference: the fall takes 6.2 ms, a quarter of the periods of f2 and f3 and half of f4's.
+TEST(Story, OfThePressTellsItsCuttingShock)
+{
+  const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  ASSERT_TRUE(result.story);
+  ASSERT_EQ(result.story->loads.size(), 1u);
+  const apps::LoadDuration &load = result.story->loads.front();
+  EXPECT_EQ(load.element, "sheet");
+  EXPECT_NEAR(load.begin, 0.194923, 2e-4);
+  ASSERT_GE(load.modes.size(), 4u);
+  EXPECT_LT(load.modes[1].fall, 0.25);                   // f2
+  EXPECT_LT(load.modes[2].fall, 0.25);                   // f3
+  EXPECT_GT(load.modes[3].fall, 0.25);                   // f4
+  EXPECT_GT(load.modes[3].energy, load.modes[2].energy); // it is f4, not the frame, that the sheet throws
+  std::string text;
+  double      before = 0.;
+  for (const apps::StorySentence &sentence : result.story->sentences)
+  {
+    EXPECT_GE(sentence.t, before);
+    before = sentence.t;
+    text += sentence.text + '\n';
+  }
+  for (const char *words : {"sheet: tool contact", "rod: conrod open", "F_P is largest of the run: 1057 kN",
+                            "F_P is smallest of the run: -601.6 kN", "more times"})
+    EXPECT_THAT(text, ::testing::HasSubstr(words));
+}
+
+// The motor gives in a stroke what cut and losses take: between two passages of top dead centre the stored energy is
+// the same, and so is the speed.
+TEST(Strokes, OfThePressSettleOnTheWorkOfTheirCut)
+{
+  const apps::Result result = Session(shipped("press_strokes.toml"), {"run.step=\"80 us\"", "run.end=\"7.4 s\""}).run();
+  const auto        &run    = *result.run;
+  const auto         column = [&](const std::string &name)
+  { return std::size_t(std::find(run.columns.begin(), run.columns.end(), name) - run.columns.begin()); };
+  const std::size_t width = run.columns.size(), phi = column("phi2"), speed = column("w_fly"),
+                    in = column("energy input"), out = column("energy dissipated");
+  std::vector<std::array<double, 2>> at_top; // motor work and what is taken [J]
+  std::vector<double>                slowest{10.};
+  for (std::size_t i = width; i < run.rows.size(); i += width)
+  {
+    const double *row = run.rows.data() + i, *last = row - width;
+    slowest.back() = std::min(slowest.back(), row[speed]);
+    if (std::floor(row[phi] / (2. * M_PI)) > std::floor(last[phi] / (2. * M_PI)))
+    {
+      at_top.push_back({row[in], row[out]});
+      slowest.push_back(10.);
+    }
+  }
+  ASSERT_GE(at_top.size(), 4u);
+  const double given = at_top[3][0] - at_top[2][0], taken = at_top[3][1] - at_top[2][1];
+  EXPECT_NEAR(given, taken, 1e-3 * given);
+  EXPECT_NEAR(given, 5344.7, 5.); // docs/press.md
+  EXPECT_NEAR(slowest[2], slowest[3], 1e-4 * slowest[2]);
+  EXPECT_LT(slowest[2], 0.94 * 3.2188); // it falls by 7 % of its largest speed
+}
+
+} // namespace
+} // namespace gestell::tests
