@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -87,6 +88,27 @@ bool is_unit(const std::string &name)
   }
 }
 
+/// What an expression of these quantities is in, whatever their values.
+Quantity unit_alone(const std::string &text, const NameLookup &look_up, const std::vector<std::string> &names)
+{
+  std::vector<Variable> variables;
+  std::set<std::string> among;
+  for (const Token &token : tokens_of(text))
+    if (token.kind == Token::name && !is_reserved_name(token.text) && among.insert(token.text).second)
+      if (const auto known = look_up(token.text); known && known->checked)
+        variables.push_back({token.text, "of the study", known->dimension, known->counts});
+  if (variables.size() > mechanism::Formula::max_variables)
+    return {1., {}, false, Counts::nothing};
+  const auto others = [&](const std::string &name)
+  {
+    const bool varies =
+        std::any_of(variables.begin(), variables.end(), [&](const Variable &one) { return one.name == name; });
+    return varies ? std::nullopt : look_up(name);
+  };
+  const Expression e = parse_expression(text, variables, others, names);
+  return {1., e.dimension, e.checked, e.counts};
+}
+
 std::string unit_of(const Quantity &quantity)
 {
   static const std::vector<std::pair<Kind, std::string>> names = {{kind::force, "N"},
@@ -110,6 +132,7 @@ struct OutputFormulas::Known
   const Parameters               &parameters;
   const Eigen::VectorXd          &levels;
   std::vector<AnswerValue>        entries;
+  bool                            units_alone = false;
   std::map<std::size_t, Quantity> outputs{};
   std::vector<std::size_t>        open{};
 };
@@ -248,7 +271,8 @@ Quantity OutputFormulas::quantity_of(std::size_t output, Known &known) const
         return in_unit(known.levels[Eigen::Index(i)], variables_[i].variable.unit);
     return known.parameters.find(name);
   };
-  const Quantity quantity = parse_quantity(formulas_[output].text, look_up, names);
+  const Quantity quantity = known.units_alone ? unit_alone(formulas_[output].text, look_up, names)
+                                              : parse_quantity(formulas_[output].text, look_up, names);
   known.open.pop_back();
   return known.outputs[output] = quantity;
 }
@@ -285,7 +309,17 @@ std::vector<AnswerValue> OutputFormulas::entries_of(const Result &result) const
 std::vector<AnswerValue> OutputFormulas::values_of(const std::vector<AnswerValue> &entries,
                                                    const Parameters &parameters, const Eigen::VectorXd &levels) const
 {
-  Known                    known{parameters, levels, entries};
+  return values_of(Known{parameters, levels, entries});
+}
+
+void OutputFormulas::check_units(const std::vector<AnswerValue> &entries, const Parameters &parameters,
+                                 const Eigen::VectorXd &levels) const
+{
+  values_of(Known{parameters, levels, entries, true});
+}
+
+std::vector<AnswerValue> OutputFormulas::values_of(Known known) const
+{
   std::vector<AnswerValue> values;
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     try

@@ -1,9 +1,5 @@
 #include "apps/study/runs/study_answer.h"
 
-#include "apps/scene/build/build_machine.h"
-#include "apps/session/prepared_machine.h"
-#include "coupling/frame/frame_recipe.h"
-
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -12,12 +8,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-std::string frame_key(const StudyRunner &runner, const Eigen::MatrixXd &levels)
-{
-  const Scene scene = runner.variants().at(levels.row(0).transpose());
-  return frame_path(scene) == FramePath::reduce ? coupling::content_key(frame_origin(scene).recipe) : "";
-}
 
 /// The row of a run in the table.
 void enter(const RunRow &row, StudyTable &table)
@@ -66,12 +56,13 @@ bool StudyAnswer::complete() const
 
 StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyRunner &runner, const StudyCall &call)
 {
-  StudyAnswer       answer{empty_table(study, points), points.design, 0, false};
-  StudyTable       &table = answer.table;
-  const RowsText    text(study);
-  const StudyRecord record = record_of(study, runner.variants(), table.n_runs(), frame_key(runner, table.levels));
-  StudyFolder       folder(call.folder, record, text, table.levels);
-  for (const RunRow &row : folder.open(call.begin, call.share))
+  StudyAnswer               answer{empty_table(study, points), points.design, 0, false};
+  StudyTable               &table = answer.table;
+  const RowsText            text(study);
+  const StudyRecord         record = record_of(study, runner.variants(), table.n_runs());
+  StudyFolder               folder(call.folder, record, text, table.levels);
+  const std::vector<RunRow> there = folder.open(call.begin, call.share);
+  for (const RunRow &row : there)
     enter(row, table);
   for (std::size_t i = 0; i < folder.units().size(); ++i)
     table.outputs.at(i).unit = folder.units()[i];
@@ -91,7 +82,17 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
       if (call.progress)
         call.progress(answer.n_made, int(orders.size()));
     };
-    make_runs(runner, text, orders, call.jobs, *call.stop, take);
+    const FirstRun first = table.n_done() > 0 ? FirstRun::is_one_of_many : FirstRun::decides;
+    try
+    {
+      make_runs(runner, text, orders, call.jobs, first, *call.stop, take);
+    }
+    catch (const std::invalid_argument &) // the study itself is wrong
+    {
+      if (there.empty() && table.n_done() == 0)
+        std::filesystem::remove(folder.rows_file(call.share));
+      throw;
+    }
   }
   if (call.waits_for_shares)
     wait_for(folder, table.n_runs(), *call.stop);

@@ -99,27 +99,37 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
   }
   if (derivatives)
     *derivatives = derivatives_or_none(*result, levels);
+  row.cpu_s = spent();
+  read_outputs(*result, levels, row);
+  return row;
+}
+
+/// What is wrong for all runs is told apart from a formula that has no value in this one.
+void StudyRunner::read_outputs(const Result &result, const Eigen::VectorXd &levels, RunRow &row)
+{
+  const Parameters parameters = variants_.parameters_at(levels);
+  row.lacks_output            = true;
   try
   {
-    for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
+    const std::vector<AnswerValue> entries = outputs_.entries_of(result);
+    if (!units_checked_)
+      outputs_.check_units(entries, parameters, levels);
+    units_checked_   = true;
+    row.lacks_output = false;
+    for (const AnswerValue &value : outputs_.values_of(entries, parameters, levels))
     {
       row.values.push_back(value.value);
       row.units.push_back(value.unit);
     }
+    row.status = RunStatus::done;
   }
   catch (const std::invalid_argument &error)
   {
-    if (!any_done_)
-      throw;
     row.values.clear();
     row.units.clear();
-    row.cpu_s = spent();
-    return failed(row, error.what());
+    row.status  = RunStatus::failed;
+    row.message = error.what();
   }
-  any_done_  = true;
-  row.status = RunStatus::done;
-  row.cpu_s  = spent();
-  return row;
 }
 
 Eigen::MatrixXd StudyRunner::derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const

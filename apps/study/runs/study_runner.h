@@ -28,8 +28,7 @@ public:
   /**
    * @param levels  values of the variables
    * @param stop    ends the run, whose row then is `waiting`; may be null
-   * @return a row that is `failed` where the scene refuses the levels or the computation fails
-   * @throws std::invalid_argument where the first run has no such output; of a later one the row has failed
+   * @return a row that is `failed` where the scene refuses the levels, the computation fails, or an output has no value
    */
   RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
   {
@@ -43,6 +42,7 @@ public:
 private:
   Result result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
   void   leave_out_unread(Scene &scene) const;
+  void   read_outputs(const Result &result, const Eigen::VectorXd &levels, RunRow &row);
   void   keep(int number, const Result &result) const;
 
   std::vector<VariableRequest> variables_;
@@ -53,7 +53,7 @@ private:
 
   OutputFormulas        outputs_;
   std::filesystem::path kept_;
-  bool                  any_done_ = false; ///< outputs could be read
+  bool                  units_checked_ = false; ///< outputs make sense, as a run told
 };
 
 /// Folder of a run's own results, from that of the study: "run_12".

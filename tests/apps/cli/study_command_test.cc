@@ -15,12 +15,18 @@ int lines_of(const std::filesystem::path &file)
   return count(read(file), "\n");
 }
 
+/// Shell words that wait for rows of a study that was begun in the background as $p.
+std::string wait_for_rows(const Folder &folder, int rows)
+{
+  return "& p=$!; while [ $(wc -l < '" + (folder.results() / "runs.csv").string() + "' 2>/dev/null || echo 0) -lt " +
+         std::to_string(rows + 1) + " ]; do sleep 0.01; done; ";
+}
+
 TEST(StudyCommand, LeavesItsRowsAndGoesOnAfterAnInterruption)
 {
   const Folder      folder("study_interrupted");
   const std::string study = "study " + folder.file("s.toml", text) + folder.option();
-  const Answer      cut   = gestell(study + "& p=$!; while [ $(wc -l < '" + (folder.results() / "runs.csv").string() +
-                                    "' 2>/dev/null || echo 0) -lt 4 ]; do sleep 0.02; done; kill -INT $p; wait $p");
+  const Answer      cut   = gestell(study + wait_for_rows(folder, 3) + "kill -INT $p; wait $p");
   expect_answer(cut, 130, {"runs made", "to be made"});
   const std::string before = read(folder.results() / "runs.csv");
   EXPECT_LT(lines_of(folder.results() / "runs.csv"), 41);
@@ -30,6 +36,48 @@ TEST(StudyCommand, LeavesItsRowsAndGoesOnAfterAnInterruption)
   expect_answer(gestell(study + "--resume --jobs 2"), 0, {"report: "});
   EXPECT_EQ(lines_of(folder.results() / "runs.csv"), 41);
   EXPECT_EQ(read(folder.results() / "runs.csv").substr(0, before.size()), before);
+}
+
+// A cluster tells all processes of a job that its time is over.
+TEST(StudyCommand, HasNoFailedRowOfRunsThatEndedWithIt)
+{
+  const Folder      folder("study_term");
+  const std::string study = "study " + folder.file("s.toml", text) + folder.option() + "--jobs 3 ";
+  const Answer      cut =
+      shell("GESTELL_CACHE='" GESTELL_BINARY_DIR "/tests/cache' setsid '" GESTELL_BINARY_DIR "/bin/gestell' " + study +
+            wait_for_rows(folder, 3) + "kill -TERM -$p; wait $p");
+  expect_answer(cut, 130, {"runs made", "to be made"});
+  EXPECT_EQ(count(read(folder.results() / "runs.csv"), "failed"), 0);
+  expect_answer(gestell(study + "--resume"), 0, {"report: "});
+  EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 40);
+}
+
+TEST(StudyCommand, IsNotBegunTwiceInOneFolderAtOnce)
+{
+  const Folder      folder("study_twice");
+  const std::string study  = "study " + folder.file("s.toml", text) + folder.option() + "--set design.runs=12 ";
+  const std::string second = "'" GESTELL_BINARY_DIR "/bin/gestell' " + study;
+  const Answer      both   = gestell(study + wait_for_rows(folder, 1) + "kill -STOP $p; (" + second + "; " + second +
+                                     "--resume --share 1/2) 2>&1; " + "echo first is $p; kill -CONT $p; wait $p");
+  const std::size_t at     = both.text.rfind("first is ");
+  const std::string first  = both.text.substr(at + 9, both.text.find('\n', at) - at - 9);
+  EXPECT_EQ(both.exit_code, 0) << both.text;
+  EXPECT_EQ(count(both.text, "process " + first + " is making a study there; wait until it has ended"), 2) << both.text;
+  EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
+}
+
+TEST(StudyCommand, DoesNotMergeSharesThatAreBeingMade)
+{
+  const Folder      folder("study_shares");
+  const std::string study = "study " + folder.file("s.toml", text) + folder.option() + "--set design.runs=12 ";
+  const std::string rows  = "'" + (folder.results() / "runs_share_1_of_2.csv").string() + "'";
+  const Answer      both =
+      gestell(study + "--share 1/2 & p=$!; while ! [ -s " + rows + " ]; do sleep 0.01; done; kill -STOP $p; '" +
+              GESTELL_BINARY_DIR "/bin/gestell' " + study + "2>&1; kill -CONT $p; wait $p");
+  expect_answer(both, 0, {"is making a share of a study there", "6 runs made"});
+  expect_answer(gestell(study), 0, {"6 runs made"});
+  EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
+  expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study already"});
 }
 
 TEST(StudyCommand, FindsTheOptimumAndWritesItAsAScene)

@@ -125,6 +125,68 @@ TEST(StudyRuns, ThatFailAreToldAndTheOthersGoOn)
   EXPECT_THAT(rows_of(folder), ::testing::HasSubstr("takes the root of a negative number"));
 }
 
+TEST(StudyRuns, WithoutAValueInTheFirstAreFailedOnesInEveryProcess)
+{
+  const Folder folder("study_first_failed");
+  for (const int jobs : {1, 3})
+  {
+    const StudyAnswer answer = answered(small(folder), folder, {"outputs.root=\"sqrt(s_cl - 0.3 mm)\""}, jobs);
+    EXPECT_EQ(answer.table.n_done(), 6) << jobs;
+    EXPECT_EQ(answer.table.runs[0].status, RunStatus::failed) << jobs;
+  }
+  for (const int jobs : {1, 3})
+    for (const char *formula : {"signals.F_P.max + 1 kg", "model.frame_mas"})
+    {
+      const Folder lacking("study_lacking");
+      EXPECT_NE(
+          refusal([&] { answered(small(lacking), lacking, {std::string("outputs.F=\"") + formula + '"'}, jobs); }), "")
+          << formula;
+      EXPECT_FALSE(std::filesystem::exists(lacking.results() / "runs.csv"));
+    }
+}
+
+TEST(StudyRuns, OfAFinishedStudyAreBegunAnewByRanksTogether)
+{
+  const Folder folder("study_anew");
+  answered(small(folder), folder);
+  EXPECT_EQ(answered(small(folder), folder, {}, 1, {1, 2, true}).n_made, 5);
+  EXPECT_EQ(answered(small(folder), folder, {}, 1, {2, 2, true}).n_made, 4);
+  EXPECT_EQ(answered(small(folder), folder).table.n_done(), 9);
+}
+
+TEST(StudyRuns, HaveTheUnitsOfTheirOwnStudy)
+{
+  const Folder folder("study_units");
+  answered(small(folder), folder);
+  std::filesystem::remove(folder.results() / "runs.csv");
+  const StudyAnswer share = answered(small(folder), folder, {"outputs.F=\"signals.F_P.t_max\""}, 1, {1, 2});
+  EXPECT_EQ(share.table.outputs[0].unit, "s");
+}
+
+TEST(StudyRuns, AreNotGoneOnWithAfterAFileOfAnyVariantWasChanged)
+{
+  const Folder folder("study_files");
+  for (const char *file : {"thin.geo", "thick.geo", "part.geo"})
+    folder.file(file, std::string("// ") + file);
+  folder.file("thick.geo", "Include \"part.geo\";");
+  folder.file("s.toml", "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/press.toml'\n"
+                        "[variables.frame]\nkey = 'frame.cad'\n"
+                        "choices = { thin = 'thin.geo', thick = 'thick.geo' }\n"
+                        "[variables.c_P]\nfrom = '1 N/m'\nto = '2 N/m'\nscatter = 'normal'\nwidth = '1 N/m'\n"
+                        "[outputs]\nF = 'signals.F_P.max'\n[design]\ntype = 'full factorial'\n");
+  const auto record = [&](const std::vector<std::string> &set)
+  {
+    const StudyFile study = read_study((folder / "s.toml").string(), set);
+    return record_of(study, SceneVariants(study, fem::Scripts::harmless), 4);
+  };
+  const StudyRecord before = record({});
+  EXPECT_THAT(differences(before, record({"variables.c_P.width=2 N/m"})),
+              ::testing::IsEmpty()); // rows stay as they are
+  EXPECT_THAT(differences(before, record({"variables.c_P.to=3 N/m"})), ::testing::SizeIs(1));
+  folder.file("part.geo", "// other plates");
+  EXPECT_THAT(differences(before, record({})), ::testing::ElementsAre(::testing::HasSubstr("content of part.geo was")));
+}
+
 /// The press by a controlled step, and what it makes of stiffness and play.
 const std::string fine_study =
     "[scene]\nfile = '" + press +
