@@ -85,6 +85,7 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   StudyRunner     runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
   ProgressLine    progress(options.quiet || !speaks);
   call.progress            = [&](int done, int n) { progress.show("runs", double(done) / n); };
+  call.learned             = [&](const std::vector<StudyOutput> &outputs) { check_units(analysis.claims, outputs); };
   const StudyAnswer answer = make_study(study, points, runner, call);
   progress.done();
   if (!speaks)
@@ -99,8 +100,12 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
     std::cerr << "gestell: the computation failed: no run of the study ended well\n";
     return exit_failed;
   }
-  const StudyFindings findings = StudyAnalysis(study, analysis, runner, call.folder, interruption()).of(answer);
+  const StudyFindings findings = StudyAnalysis(study, analysis, runner, call).of(answer);
+  if (findings.optimum && !interruption())
+    runner.settle(levels_of(findings), call.stop);
   write_findings(call.folder, study, runner.variants(), findings);
+  for (const std::string &warning : findings.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << findings_text(findings) << "report: " << (call.folder / "report.html").string() << '\n';
   return interruption() ? exit_interrupted : exit_done;
 }

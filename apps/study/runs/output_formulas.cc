@@ -3,6 +3,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/tokens.h"
+#include "apps/study/file/unit_quantity.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -49,30 +50,6 @@ std::string table_at(const std::string &text, std::size_t at)
     if (text.compare(at, table.size() + 1, table + '.') == 0)
       return table;
   return "";
-}
-
-/// A value in its unit as expressions know it; of any dimension if the unit is none they know.
-Quantity in_unit(double value, const std::string &unit)
-{
-  static std::map<std::string, Quantity> units;
-  const auto                             known = units.find(unit);
-  if (known == units.end())
-  {
-    Quantity one{1., {}, true, Counts::nothing};
-    try
-    {
-      if (!unit.empty())
-        one = parse_quantity("1 " + unit, [](const std::string &) { return std::optional<Quantity>(); });
-    }
-    catch (const std::invalid_argument &)
-    {
-      one.checked = false;
-    }
-    return in_unit(value, units.emplace(unit, one).first->first);
-  }
-  Quantity quantity = known->second;
-  quantity.value *= value;
-  return quantity;
 }
 
 bool is_unit(const std::string &name)
@@ -262,13 +239,13 @@ Quantity OutputFormulas::quantity_of(std::size_t output, Known &known) const
   {
     for (std::size_t i = 0; i < entries_.size(); ++i)
       if (entries_[i].name == name)
-        return in_unit(known.entries[i].value, known.entries[i].unit);
+        return quantity_in_unit(known.entries[i].value, known.entries[i].unit);
     for (std::size_t i = 0; i < outputs_.size(); ++i)
       if (outputs_[i].name == name)
         return quantity_of(i, known);
     for (std::size_t i = 0; i < variables_.size(); ++i)
       if (variables_[i].variable.name == name && variables_[i].variable.words.empty())
-        return in_unit(known.levels[Eigen::Index(i)], variables_[i].variable.unit);
+        return quantity_in_unit(known.levels[Eigen::Index(i)], variables_[i].variable.unit);
     return known.parameters.find(name);
   };
   const Quantity quantity = known.units_alone ? unit_alone(formulas_[output].text, look_up, names)

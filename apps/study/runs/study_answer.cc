@@ -66,6 +66,8 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
     enter(row, table);
   for (std::size_t i = 0; i < folder.units().size(); ++i)
     table.outputs.at(i).unit = folder.units()[i];
+  if (call.learned && !folder.units().empty())
+    call.learned(table.outputs);
   std::vector<RunOrder> orders;
   for (int run = 1; run <= table.n_runs(); ++run)
     if (call.share.has(run) && table.runs[std::size_t(run) - 1].status == RunStatus::waiting)
@@ -77,7 +79,11 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
       rows.append(text.line(row, table.levels.row(row.run - 1).transpose()));
       enter(row, table);
       if (folder.units().empty() && !row.units.empty())
+      {
         folder.keep_units(row.units);
+        if (call.learned)
+          call.learned(table.outputs);
+      }
       ++answer.n_made;
       if (call.progress)
         call.progress(answer.n_made, int(orders.size()));

@@ -52,7 +52,10 @@ StudyShare share_of(const std::string &text)
   }
   catch (const std::logic_error &)
   {
-    throw std::invalid_argument("--share " + text + ": needs a part and their number, from 1/10 to 10/10");
+    throw std::invalid_argument(
+        "--share " + text +
+        ": needs the number of a part and how many there are, such as 3/10; the first is not above the "
+        "second, none is below 1");
   }
   return share;
 }

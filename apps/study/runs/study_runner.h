@@ -39,7 +39,14 @@ public:
 
   const SceneVariants &variants() const { return variants_; }
 
+  /// Sets what runs of the scene tell of its own parameters, [scene.measure], to what holds at these levels.
+  void settle(const Eigen::VectorXd &levels, const std::atomic<bool> *stop);
+
 private:
+  /// One run with the parameters as they are measured so far.
+  Result single_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
+  bool   measure(const Result &result, const Eigen::VectorXd &levels);
+  Result settled_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
   Result result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
   void   leave_out_unread(Scene &scene) const;
   void   read_outputs(const Result &result, const Eigen::VectorXd &levels, RunRow &row);
@@ -51,9 +58,11 @@ private:
   /// None where the machine or an output has none: the search then takes differences of runs.
   Eigen::MatrixXd derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const;
 
-  OutputFormulas        outputs_;
-  std::filesystem::path kept_;
-  bool                  units_checked_ = false; ///< outputs make sense, as a run told
+  OutputFormulas            outputs_;
+  std::vector<RunParameter> measures_;
+  std::vector<AnswerValue>  guesses_; ///< of the measures, at the middle of all ranges
+  std::filesystem::path     kept_;
+  bool                      units_checked_ = false; ///< outputs make sense, as a run told
 };
 
 /// Folder of a run's own results, from that of the study: "run_12".

@@ -80,6 +80,57 @@ TEST(StudyCommand, DoesNotMergeSharesThatAreBeingMade)
   expect_answer(gestell(study + "--share 2/2"), 2, {"holds 12 rows of this study already"});
 }
 
+/// A search on runs of the press, and draws about what it finds.
+const std::string search = "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml'\n"
+                           "set = { run = { method = 'bdf', tolerance = 1e-5, end = '50 ms' } }\n"
+                           "[variables.c_P]\nfrom = '720 kN/mm'\nto = '1080 kN/mm'\n"
+                           "scatter = 'normal'\nwidth = '10 kN/mm'\n"
+                           "[outputs]\nF = 'signals.F_P.max'\nnever = 'events.sheet.tool_contact.first'\n"
+                           "[design]\ntype = 'list'\nrows = [['900 kN/mm']]\n"
+                           "[optimise]\non = 'runs'\nmethod = 'derivative-free'\ngoals = { F = { scale = '1 MN' } }\n"
+                           "robust = { on = 'runs', draws = 12 }\n";
+
+TEST(StudyCommand, SearchesAndDrawsSideBySideAsOneAfterAnother)
+{
+  const Folder one("study_search_one"), two("study_search_two");
+  for (const auto &[folder, jobs] : {std::pair(&one, "1"), {&two, "3"}})
+    expect_answer(gestell("study " + folder->file("s.toml", search) + folder->option() + "--jobs " + jobs), 0,
+                  {"optimum on ", "scatter: F"});
+  EXPECT_EQ(read(two.results() / "optimum.toml"), read(one.results() / "optimum.toml"));
+  EXPECT_EQ(read(two.results() / "robust.csv"), read(one.results() / "robust.csv"));
+  EXPECT_EQ(count(read(one.results() / "robust.csv"), "runs,F [N],12,0,,"), 0); // the nominal value is told
+  const Folder slopes("study_search_slopes");
+  const Answer warned = gestell("study " + slopes.file("s.toml", search) + slopes.option() +
+                                "--set optimise.method=gradient --set optimise.starts=1");
+  expect_answer(warned, 0, {"gestell: warning: the search on runs took derivatives from differences of runs"});
+  EXPECT_EQ(count(read(slopes.results() / "findings.txt"), "warning: the search on runs took derivatives"), 1);
+}
+
+TEST(StudyCommand, IsInterruptedInSearchesAndKeepsTheirRows)
+{
+  for (const char *jobs : {"1", "2"})
+  {
+    const Folder      folder("study_search_cut");
+    const std::string rows = "'" + (folder.results() / "optimum_runs.csv").string() + "'";
+    const Answer      cut  = gestell("study " + folder.file("s.toml", search) + folder.option() + "--jobs " + jobs +
+                                     " --set optimise.robust.draws=5000 2>&1 & p=$!; while [ $(cat " + rows +
+                                     " 2>/dev/null | wc -l) -lt 5 ]; do sleep 0.01; done; kill -INT $p; wait $p");
+    expect_answer(cut, 130, {"interrupted: what was not found yet is missing"});
+    EXPECT_GE(count(read(folder.results() / "optimum_runs.csv"), ",done,"), 4);
+  }
+}
+
+TEST(StudyCommand, RefusesALimitInAnotherUnitAtItsFirstRunAndGoesOnOnceThatIsCured)
+{
+  const Folder      folder("study_unit");
+  const std::string study = "study " + folder.file("s.toml", text) + folder.option() +
+                            "--set design.runs=6 --set optimise.goals.F.scale=\"1 kN\" ";
+  expect_answer(gestell(study + "--set optimise.limits.F.most=\"5 mm\""), 2,
+                {"optimise.limits.F.most: is in m, but output F is in N"});
+  EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 1);
+  expect_answer(gestell(study + "--resume"), 0, {"5 runs made", "optimum on the surface"});
+}
+
 TEST(StudyCommand, FindsTheOptimumAndWritesItAsAScene)
 {
   const Folder folder("study_optimum");
