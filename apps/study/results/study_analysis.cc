@@ -2,6 +2,7 @@
 
 #include "apps/study/optimum/side_by_side.h"
 #include "apps/version.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,18 @@ std::vector<ResponseSurface> chosen(const std::vector<ResponseSurface> &surfaces
         (names.empty() || std::find(names.begin(), names.end(), surface.output.name) != names.end()))
       some.push_back(surface);
   return some;
+}
+
+/// Surfaces that hold for the runs they went through, and for no other.
+void warn_of_poor_fits(StudyFindings &findings)
+{
+  constexpr double least_told = 0.5; ///< of the variance of runs that are left out of the fit
+  for (const ResponseSurface &surface : findings.surfaces)
+    if (surface.quality.predicted_r2 < least_told)
+      findings.warnings.push_back(
+          "the surface of " + surface.output.name + " foretells runs that it was not fitted to " +
+          (surface.quality.predicted_r2 > 0. ? "badly" : "no better than their mean") + " (predicted R2 " +
+          short_text(surface.quality.predicted_r2, 2) + "); narrow the ranges, make more runs, or search on runs");
 }
 
 /// The run of the design at the middle of all ranges.
@@ -253,7 +266,8 @@ void StudyAnalysis::find(const StudyAnswer &answer, StudyFindings &findings)
     surfaces = fit_surfaces(answer.table, request_.surface->options, &without);
     findings.warnings.insert(findings.warnings.end(), without.begin(), without.end());
     findings.surfaces = chosen(surfaces, request_.surface->outputs);
-    model             = [this, fitted = model_of(surfaces)](const Eigen::VectorXd &xi, Derivatives derivatives)
+    warn_of_poor_fits(findings);
+    model = [this, fitted = model_of(surfaces)](const Eigen::VectorXd &xi, Derivatives derivatives)
     {
       go_on();
       return fitted(xi, derivatives);

@@ -45,7 +45,8 @@ void write_findings(const fs::path &folder, const StudyFile &study, const SceneV
   std::string warnings;
   for (const std::string &warning : findings.warnings)
     warnings += "warning: " + warning + '\n';
-  write_file(folder / "findings.txt", warnings + findings_text(findings));
+  const std::string text = warnings + findings_text(findings);
+  write_or_remove(folder / "findings.txt", !text.empty(), text);
   const StudyReport report = make_study_report(findings);
   fs::remove_all(folder / "charts");
   if (!report.pictures.empty())

@@ -2,7 +2,7 @@
 
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/text/json.h"
-#include "apps/study/runs/event_kinds.h"
+#include "apps/study/file/event_kinds.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>

@@ -131,6 +131,17 @@ TEST(StudyCommand, RefusesALimitInAnotherUnitAtItsFirstRunAndGoesOnOnceThatIsCur
   expect_answer(gestell(study + "--resume"), 0, {"5 runs made", "optimum on the surface"});
 }
 
+// A cosine of 44 000 turns over the range, 5509.2 from one run to the next, is noise to a parabola.
+TEST(StudyCommand, WarnsOfASurfaceThatForetellsNothing)
+{
+  const Folder folder("study_poor");
+  const Answer answer = gestell("study " + folder.file("s.toml", text) + folder.option() +
+                                "--set design.runs=7 --set run.end=\"5 ms\" --set surface={} "
+                                "--set 'outputs.n=\"cos(c_P/(1.3 N/mm))\"'");
+  expect_answer(answer, 0, {"gestell: warning: the surface of n foretells runs that it was not fitted to"});
+  EXPECT_EQ(count(read(folder.results() / "findings.txt"), "the surface of n foretells"), 1);
+}
+
 TEST(StudyCommand, FindsTheOptimumAndWritesItAsAScene)
 {
   const Folder folder("study_optimum");

@@ -1,4 +1,4 @@
-#include "apps/study/runs/event_kinds.h"
+#include "apps/study/file/event_kinds.h"
 
 #include <algorithm>
 
