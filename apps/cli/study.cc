@@ -6,6 +6,7 @@
 #include "apps/study/results/findings_text.h"
 #include "apps/study/results/study_analysis.h"
 #include "apps/study/results/study_files.h"
+#include "apps/study/runs/study_lock.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
     return;
   if (!call.share.is_whole())
     throw std::invalid_argument("--share: ranks of mpirun share the runs among them; leave one of both out");
-  call.share            = {ranks.rank + 1, ranks.size};
+  call.share            = {ranks.rank + 1, ranks.size, true};
   call.waits_for_shares = ranks.rank == 0;
 }
 
@@ -80,9 +81,11 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   const bool speaks = team_left().rank == 0;
   share_among_ranks(team_left(), call);
   require_writable(call.folder);
-  StudyRunner  runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
-  ProgressLine progress(options.quiet || !speaks);
+  const StudyLock lock(call.folder, call.share);
+  StudyRunner     runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
+  ProgressLine    progress(options.quiet || !speaks);
   call.progress            = [&](int done, int n) { progress.show("runs", double(done) / n); };
+  call.learned             = [&](const std::vector<StudyOutput> &outputs) { check_units(analysis.claims, outputs); };
   const StudyAnswer answer = make_study(study, points, runner, call);
   progress.done();
   if (!speaks)
@@ -97,8 +100,12 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
     std::cerr << "gestell: the computation failed: no run of the study ended well\n";
     return exit_failed;
   }
-  const StudyFindings findings = StudyAnalysis(study, analysis, runner, call.folder, interruption()).of(answer);
+  const StudyFindings findings = StudyAnalysis(study, analysis, runner, call).of(answer);
+  if (findings.optimum && !interruption())
+    runner.settle(levels_of(findings), call.stop);
   write_findings(call.folder, study, runner.variants(), findings);
+  for (const std::string &warning : findings.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << findings_text(findings) << "report: " << (call.folder / "report.html").string() << '\n';
   return interruption() ? exit_interrupted : exit_done;
 }

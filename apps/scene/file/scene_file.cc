@@ -38,15 +38,22 @@ void remove(SceneNode &table, const std::string &key)
   e.erase(std::remove_if(e.begin(), e.end(), [&](const auto &entry) { return entry.first == key; }), e.end());
 }
 
-/// Takes one entry "joint.cylinder" out of what is inherited.
+/// Takes one entry "joint.cylinder", or one inside of it, out of what is inherited.
 void leave_out(SceneNode &base, const SceneNode &path)
 {
   const auto        refuse = [&](const std::string &why) { path.place.fail("without: '" + path.text + "': " + why); };
   const std::size_t dot    = path.text.find('.');
   if (path.type != Type::text || dot == std::string::npos)
     refuse("needs the table and the name of one entry, such as \"joint.cylinder\"");
-  SceneNode        *table = base.find(path.text.substr(0, dot));
-  const std::string name  = path.text.substr(dot + 1);
+  SceneNode  *table = base.find(path.text.substr(0, dot));
+  std::string name  = path.text.substr(dot + 1);
+  if (table && !table->find(name)) // inside of an entry, "joint.cylinder.motion"
+  {
+    const auto segments = key_segments(name, path.place);
+    name                = segments.back();
+    for (std::size_t i = 0; table && i + 1 < segments.size(); ++i)
+      table = table->find(segments[i]);
+  }
   if (!table || !table->find(name))
   {
     std::vector<std::string> valid;

@@ -33,13 +33,25 @@ int output_named(const StudyFile &study, const SceneTable &table, const std::str
   return int(found - names.begin());
 }
 
+/// Surfaces and searches go between the levels of a variable.
+void refuse_variables_of_words(const StudyFile &study, const SceneTable &table, const std::string &asks)
+{
+  for (const VariableRequest &variable : study.variables)
+    if (!variable.variable.words.empty())
+      throw table.error("variable " + variable.variable.name +
+                        " takes words, between which there is nothing; leave it out of the study, or leave out " +
+                        asks);
+}
+
 SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)
 {
   SurfaceRequest request;
   request.options.order = surface_order(table.choice("order"));
-  request.options.level = table.has("confidence") ? table.share("confidence") : request.options.level;
-  if (!(request.options.level < 1.))
-    throw table.error("confidence", "needs a share below 1, got " + short_text(request.options.level));
+  request.options.level = table.value("confidence");
+  if (!(request.options.level > 0. && request.options.level < 1.))
+    throw table.error("confidence", "needs a number above 0 and below 1, such as 0.95 or \"95 %\", got " +
+                                        short_text(request.options.level));
+  refuse_variables_of_words(study, table, "[surface]");
   if (table.has("outputs"))
     request.outputs = table.texts("outputs");
   for (const std::string &name : request.outputs)
@@ -47,8 +59,17 @@ SurfaceRequest read_surface(const StudyFile &study, const SceneTable &table)
   return request;
 }
 
-void read_goals(const StudyFile &study, const SceneTable &table, std::vector<Goal> &goals)
+/// SI value of an entry that is to be in the unit of an output.
+double claimed(const SceneTable &table, const std::string &key, int output, OutputClaims &claims)
 {
+  const Quantity value = table.quantity(key);
+  claims.values.push_back({output, value, table.error(key, "").what()});
+  return value.value;
+}
+
+void read_goals(const StudyFile &study, const SceneTable &table, std::vector<Goal> &goals, OutputClaims &claims)
+{
+  std::vector<SummedGoal> sum;
   for (const SceneTable &given : table.tables("goals"))
   {
     const SceneTable goal = given.declared(study_goal_keys());
@@ -56,16 +77,18 @@ void read_goals(const StudyFile &study, const SceneTable &table, std::vector<Goa
     read.output = output_named(study, given, given.name());
     read.sense  = goal.choice("sense") == "maximise" ? Sense::maximise : Sense::minimise;
     read.weight = goal.value("weight");
-    read.scale  = goal.has("scale") ? goal.quantity("scale").value : 1.;
+    read.scale  = goal.has("scale") ? claimed(goal, "scale", read.output, claims) : 1.;
+    sum.push_back({read.output, goal.has("scale"), given.error("").what()});
     if (!(read.scale > 0.))
       throw goal.error("scale", "needs a value above 0, got " + short_text(read.scale));
     goals.push_back(read);
   }
   if (goals.empty())
     throw table.error("goals", "needs a goal, such as goals = { F_max = { weight = 1, scale = \"100 kN\" } }");
+  claims.sums.push_back(sum);
 }
 
-void read_limits(const StudyFile &study, const SceneTable &table, std::vector<Limit> &limits)
+void read_limits(const StudyFile &study, const SceneTable &table, std::vector<Limit> &limits, OutputClaims &claims)
 {
   for (const SceneTable &given : table.tables("limits"))
   {
@@ -73,9 +96,9 @@ void read_limits(const StudyFile &study, const SceneTable &table, std::vector<Li
     Limit            read;
     read.output = output_named(study, given, given.name());
     if (limit.has("least"))
-      read.least = limit.quantity("least").value;
+      read.least = claimed(limit, "least", read.output, claims);
     if (limit.has("most"))
-      read.most = limit.quantity("most").value;
+      read.most = claimed(limit, "most", read.output, claims);
     if (!limit.has("least") && !limit.has("most"))
       throw limit.error("needs 'least' or 'most'");
     if (!(read.least < read.most))
@@ -97,15 +120,15 @@ RobustRequest read_robust(const StudyFile &study, const SceneTable &table)
   return request;
 }
 
-OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table)
+OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table, OutputClaims &claims)
 {
   OptimiseRequest request;
   const auto      n = Eigen::Index(study.variables.size());
   request.on        = table.choice("on") == "runs" ? AnalysisOn::runs : AnalysisOn::surface;
   request.task.low  = Eigen::VectorXd::Constant(n, -1.);
   request.task.high = Eigen::VectorXd::Constant(n, 1.);
-  read_goals(study, table, request.task.goals);
-  read_limits(study, table, request.task.limits);
+  read_goals(study, table, request.task.goals, claims);
+  read_limits(study, table, request.task.limits, claims);
   OptimumOptions &options  = request.options;
   const bool      runs     = request.on == AnalysisOn::runs;
   options.method           = search_method(table.choice("method"));
@@ -119,19 +142,15 @@ OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table)
     throw table.error("pareto", "a front needs two goals or more");
   if (const auto robust = table.optional_table("robust"))
     request.robust = read_robust(study, *robust);
-  for (const VariableRequest &variable : study.variables)
-    if (!variable.variable.words.empty())
-      throw table.error("variable " + variable.variable.name +
-                        " takes words, between which nothing can be searched; "
-                        "leave it out of the study, or give the study a list of runs without [optimise]");
+  refuse_variables_of_words(study, table, "[optimise]");
   return request;
 }
 
-RowChoiceTask read_choose(const StudyFile &study, const SceneTable &table)
+RowChoiceTask read_choose(const StudyFile &study, const SceneTable &table, OutputClaims &claims)
 {
   RowChoiceTask task;
-  read_goals(study, table, task.goals);
-  read_limits(study, table, task.limits);
+  read_goals(study, table, task.goals, claims);
+  read_limits(study, table, task.limits, claims);
   if (table.has("over"))
     task.over = output_named(study, table, table.text("over"));
   std::vector<std::string> names;
@@ -167,6 +186,15 @@ bool AnalysisRequest::needs_surfaces() const
                                   (optimise->robust && optimise->robust->on == AnalysisOn::surface)));
 }
 
+int AnalysisRequest::most_side_by_side(int jobs) const
+{
+  if (!optimise)
+    return 1;
+  const int searches = optimise->on == AnalysisOn::runs ? optimise->options.starts : 1;
+  const int draws    = optimise->robust && optimise->robust->on == AnalysisOn::runs ? optimise->robust->draws : 1;
+  return std::min(jobs, std::max(searches, draws));
+}
+
 AnalysisRequest read_analysis(const StudyFile &study, int n_runs)
 {
   const Parameters none;
@@ -181,13 +209,13 @@ AnalysisRequest read_analysis(const StudyFile &study, int n_runs)
   if (optimise)
   {
     const SceneTable table = SceneTable(*optimise, none, "optimise").declared(study_optimise_keys());
-    request.optimise       = read_optimise(study, table);
+    request.optimise       = read_optimise(study, table, request.claims);
     table.finish();
   }
   if (const SceneNode *choose = study.root.find("choose"))
   {
     const SceneTable table = SceneTable(*choose, none, "choose").declared(study_choose_keys());
-    request.choose         = read_choose(study, table);
+    request.choose         = read_choose(study, table, request.claims);
     table.finish();
   }
   if (request.needs_surfaces())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/study/file/output_units.h"
 #include "apps/study/file/study_file.h"
 #include "apps/study/optimum/optimum.h"
 #include "apps/study/optimum/row_choice.h"
@@ -45,8 +46,11 @@ struct AnalysisRequest
   std::optional<SurfaceRequest>  surface{};
   std::optional<OptimiseRequest> optimise{};
   std::optional<RowChoiceTask>   choose{};
+  OutputClaims                   claims{};
 
   bool needs_surfaces() const;
+  /// Of so many processes those that its runs can make use of: a search each, or draws.
+  int most_side_by_side(int jobs) const;
 };
 
 /// [surface], [optimise] and [choose].

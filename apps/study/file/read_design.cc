@@ -5,6 +5,7 @@
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -123,12 +124,26 @@ void refuse_others(const SceneTable &table, const std::string &type)
       throw table.error(key, "is a key of " + listed(types) + ", but the type is '" + type + "'; leave it out");
 }
 
-/// Coded values and back leave an error in the last digits.
-double rounded_level(double level)
+/// Coded values and back leave an error in the last digits of the larger end of a range: 0.1 of -1 to 1 has 14
+/// decimals.
+double rounded_level(double level, const StudyVariable &variable)
 {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.15g", level);
-  return std::strtod(text, nullptr);
+  constexpr int digits   = 14;
+  const double  largest  = std::max(std::abs(variable.from), std::abs(variable.to));
+  const int     decimals = digits - int(std::ceil(std::log10(largest)));
+  if (decimals < 0 || decimals > 300)
+    return level;
+  char text[700];
+  std::snprintf(text, sizeof text, "%.*f", decimals, level);
+  return std::strtod(text, nullptr) + 0.; // no -0
+}
+
+Eigen::MatrixXd rounded_levels(const Eigen::MatrixXd &points, const std::vector<StudyVariable> &variables)
+{
+  Eigen::MatrixXd levels = physical_points(points, variables);
+  for (Eigen::Index j = 0; j < levels.cols(); ++j)
+    levels.col(j) = levels.col(j).unaryExpr([&](double x) { return rounded_level(x, variables[std::size_t(j)]); });
+  return levels;
 }
 
 } // namespace
@@ -161,9 +176,7 @@ StudyPoints read_design(const StudyFile &study)
     Design     design    = make_design(request, variables);
     if (std::size_t(design.n_runs()) > most_runs)
       throw table.error("asks for " + std::to_string(design.n_runs()) + " runs; a million are the most");
-    const Eigen::MatrixXd levels = request.list.size() > 0
-                                       ? request.list
-                                       : physical_points(design.points, variables).unaryExpr(&rounded_level).eval();
+    const Eigen::MatrixXd levels = request.list.size() > 0 ? request.list : rounded_levels(design.points, variables);
     return {design, levels};
   }
   catch (const std::invalid_argument &error)

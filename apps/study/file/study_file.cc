@@ -43,6 +43,20 @@ void check_name(const std::string &name, const SceneTable &table, std::vector<st
   names.push_back(name);
 }
 
+void read_measures(const SceneTable &table, const SceneNode &measures, StudyFile &study)
+{
+  if (measures.type != Type::table)
+    throw table.error("measure",
+                      "needs a table of parameters, { t_0 = \"events.limiter.first\" }, got " + described(measures));
+  for (const auto &[parameter, entry] : measures.entries)
+  {
+    if (entry.type != Type::text)
+      entry.place.fail("scene.measure." + parameter +
+                       ": needs an entry of a run's answer, such as \"events.limiter.first\", got " + described(entry));
+    study.measures.push_back({parameter, entry.text, entry.place});
+  }
+}
+
 void read_scene_table(const SceneTable &root, const SceneNode &node, StudyFile &study)
 {
   if (!root.has("scene"))
@@ -50,6 +64,8 @@ void read_scene_table(const SceneTable &root, const SceneNode &node, StudyFile &
   const SceneTable table = root.table("scene").declared(study_scene_keys());
   study.scene            = table.file("file");
   study.scene_place      = table.place("file");
+  if (table.has("measure"))
+    read_measures(table, *node.find("scene")->find("measure"), study);
   if (!table.has("set"))
     return;
   const SceneNode &set = *node.find("scene")->find("set");

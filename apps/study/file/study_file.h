@@ -16,6 +16,13 @@ struct OutputRequest
   Place       place{};
 };
 
+/// A parameter of the scene that a run tells, such as the time of an event.
+struct RunParameter
+{
+  std::string parameter{}, entry{};
+  Place       place{};
+};
+
 /// A study file as it is read, its variables checked; what design, surface and optimise say is read by those who do it.
 struct StudyFile
 {
@@ -23,7 +30,8 @@ struct StudyFile
   std::string                   scene{};       ///< path of the scene
   std::string                   scene_place{}; ///< where the study names it
   std::vector<SceneNode::Entry> settings{};    ///< entries of the scene that hold in place of its own
-  std::vector<std::string>      overrides{};   ///< of the scene, from the command line
+  std::vector<RunParameter>     measures{};
+  std::vector<std::string>      overrides{}; ///< of the scene, from the command line
   std::vector<VariableRequest>  variables{};
   std::vector<OutputRequest>    outputs{};
   SceneNode                     root{}; ///< the whole file

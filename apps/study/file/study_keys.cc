@@ -28,6 +28,11 @@ const std::vector<Key> &study_scene_keys()
 {
   static const std::vector<Key> keys = {
       key::plain("file", Key::Form::file, "the scene, relative to the study"),
+      key::plain(
+          "measure", Key::Form::map,
+          "parameters of the scene that its run tells, `t_0 = \"events.limiter.first\"`; the value of the scene is "
+          "a first guess")
+          .by_default("none"),
       key::plain("set", Key::Form::map, "entries of the scene that hold in place of its own, `\"run.step\" = \"5 us\"`")
           .by_default("none")};
   return keys;
@@ -81,7 +86,8 @@ const std::vector<Key> &study_surface_keys()
 {
   static const std::vector<Key> keys = {
       key::choice("order", {"quadratic", "interactions", "linear"}, true, "which terms the surfaces have"),
-      key::number("confidence", kind::number, "of the intervals about coefficients").as_share().by_default(0.95),
+      key::number("confidence", kind::number, "of the intervals about coefficients, above 0 and below 1")
+          .by_default(0.95),
       key::plain("outputs", Key::Form::texts, "that get a surface").by_default("all")};
   return keys;
 }

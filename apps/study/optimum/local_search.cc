@@ -1,6 +1,6 @@
 #include "apps/study/optimum/local_search.h"
 
-#include "fem/values/nearest_name.h"
+#include "apps/study/values/word_choice.h"
 
 #include <nlopt.h>
 
@@ -123,11 +123,7 @@ void set_limits(nlopt_opt optimiser, const LocalSearch &search)
 
 SearchMethod search_method(const std::string &word)
 {
-  const auto found = std::find(method_words.begin(), method_words.end(), word);
-  if (found == method_words.end())
-    throw std::invalid_argument("study: search method \"" + word + "\" does not exist" +
-                                suggestion(word, method_words));
-  return static_cast<SearchMethod>(found - method_words.begin());
+  return static_cast<SearchMethod>(word_choice(word, method_words, "search method"));
 }
 
 const std::string &method_word(SearchMethod method)

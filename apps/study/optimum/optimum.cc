@@ -2,6 +2,7 @@
 
 #include "apps/study/designs/space_filling.h"
 #include "apps/study/optimum/scaled_task.h"
+#include "apps/study/optimum/side_by_side.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -60,18 +61,25 @@ Eigen::MatrixXd starts_in(const OptimumTask &task, const OptimumOptions &options
 SearchTrack searched(RememberedModel &model, const OptimumTask &task, const Eigen::VectorXd &start,
                      const OptimumOptions &options)
 {
-  const int        before = model.n_evaluations();
-  const ScaledTask scaled(task, model.at(start, derivatives_for(options.method)), options.method);
+  int        evaluations = 0;
+  const auto outputs_at  = [&](const Eigen::VectorXd &xi, Derivatives derivatives)
+  {
+    bool        is_new = false;
+    OutputPoint point  = model.at(xi, derivatives, &is_new);
+    evaluations += is_new;
+    return point;
+  };
+  const ScaledTask scaled(task, outputs_at(start, derivatives_for(options.method)), options.method);
   const auto       functions = [&](const Eigen::VectorXd &xi, Derivatives derivatives)
-  { return scaled.functions(model.at(xi, derivatives)); };
+  { return scaled.functions(outputs_at(xi, derivatives)); };
   const SearchEnd end =
       local_search(functions, scaled.n_constraints(), start,
                    {options.method, task.low, task.high, options.tolerance, options.most_evaluations, options.stop});
 
-  const Eigen::VectorXd values = model.at(end.x, Derivatives::none).values;
+  const Eigen::VectorXd values = outputs_at(end.x, Derivatives::none).values;
   SearchTrack           track{start, end.x, objective_of(task.goals, values), violation_of(task.limits, values)};
   track.feasible    = track.violation <= limit_tolerance && std::isfinite(track.objective);
-  track.evaluations = model.n_evaluations() - before;
+  track.evaluations = evaluations;
   track.reason      = end.reason;
   return track;
 }
@@ -87,9 +95,17 @@ Optimum find_optimum(const OutputModel &model, const OptimumTask &asked, const O
   check_task(asked, static_cast<int>(first.size()));
   const OptimumTask task = sized_task(asked, first);
 
-  std::vector<SearchTrack> searches;
-  for (Eigen::Index row = 0; row < starts.rows() && !is_stopped(options); ++row)
-    searches.push_back(searched(remembered, task, starts.row(row).transpose(), options));
+  std::vector<SearchTrack> searches(static_cast<std::size_t>(starts.rows()));
+  side_by_side(options.starts, options.side_by_side,
+               [&](int row)
+               {
+                 if (!is_stopped(options))
+                   searches[static_cast<std::size_t>(row)] =
+                       searched(remembered, task, starts.row(row).transpose(), options);
+               });
+  searches.erase(
+      std::remove_if(searches.begin(), searches.end(), [](const SearchTrack &search) { return search.to.size() == 0; }),
+      searches.end());
   if (searches.empty())
     refuse_search("it was stopped before its first search");
   const auto best = std::min_element(searches.begin(), searches.end(), is_better);

@@ -16,6 +16,7 @@ struct OptimumOptions
   double                   tolerance        = 1e-6; ///< of the variables, per width of the box
   int                      most_evaluations = 1000; ///< of a search
   const std::atomic<bool> *stop             = nullptr;
+  int                      side_by_side     = 1; ///< searches in threads of their own, for a model that allows it
 };
 
 /// One search.
@@ -41,7 +42,8 @@ struct Optimum
 
 /**
  * The best of several local searches: of those that end within the limits the one of least objective, else the one that
- * breaks them least, marked as not feasible.  Each point of the model is computed once.
+ * breaks them least, marked as not feasible.  Each point of the model is computed once, but
+ * for those that two searches ask for at the same moment.
  *
  * @throws std::invalid_argument for a task without goals, with outputs that the model lacks, weights, scales or limits
  * that make no sense, an empty box; derivatives that are missing

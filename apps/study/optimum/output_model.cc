@@ -37,15 +37,22 @@ RememberedModel::PointKey RememberedModel::key_of(const Eigen::VectorXd &xi)
   return key;
 }
 
-const OutputPoint &RememberedModel::at(const Eigen::VectorXd &xi, Derivatives derivatives)
+OutputPoint RememberedModel::at(const Eigen::VectorXd &xi, Derivatives derivatives, bool *is_new)
 {
-  const PointKey key   = key_of(xi);
-  const auto     found = known_.find(key);
-  if (found != known_.end() && (derivatives == Derivatives::none || found->second.derivatives.size() > 0))
-    return found->second;
-
-  OutputPoint &point = known_[key];
-  point              = model_(xi, derivatives);
+  const PointKey key = key_of(xi);
+  {
+    const std::lock_guard<std::mutex> alone(mutex_);
+    const auto                        found = known_.find(key);
+    const bool                        known =
+        found != known_.end() && (derivatives == Derivatives::none || found->second.derivatives.size() > 0);
+    if (is_new)
+      *is_new = !known;
+    if (known)
+      return found->second;
+  }
+  const OutputPoint                 point = model_(xi, derivatives);
+  const std::lock_guard<std::mutex> alone(mutex_);
+  known_[key] = point;
   ++n_evaluations_;
   n_failed_ += !point.values.allFinite();
   return point;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
 #include <vector>
 
 namespace gestell::apps
@@ -34,16 +35,18 @@ class RememberedModel
 public:
   explicit RememberedModel(OutputModel model) : model_(std::move(model)) {}
 
-  /// The reference holds until the same point is asked for with derivatives that it lacked.
-  const OutputPoint &at(const Eigen::VectorXd &xi, Derivatives derivatives);
-  int                n_evaluations() const { return n_evaluations_; }
-  int                n_failed() const { return n_failed_; } ///< points with a value that is not finite
+  /// Threads may ask side by side.
+  /// @param is_new  becomes whether the model was asked; may be null
+  OutputPoint at(const Eigen::VectorXd &xi, Derivatives derivatives, bool *is_new = nullptr);
+  int         n_evaluations() const { return n_evaluations_; }
+  int         n_failed() const { return n_failed_; } ///< points with a value that is not finite
 
 private:
   using PointKey = std::vector<long long>;
   static PointKey key_of(const Eigen::VectorXd &xi);
 
   OutputModel                     model_;
+  std::mutex                      mutex_;
   std::map<PointKey, OutputPoint> known_;
   int                             n_evaluations_ = 0, n_failed_ = 0;
 };

@@ -90,14 +90,17 @@ Eigen::MatrixXd scattered_points(const Eigen::VectorXd &nominal, const std::vect
 }
 
 RobustResult robust_figures(const Eigen::MatrixXd &values, const std::vector<StudyOutput> &outputs,
-                            const std::vector<Limit> &limits)
+                            const std::vector<Limit> &limits, const Eigen::VectorXd &undisturbed)
 {
-  std::vector<Eigen::Index> finite;
-  int                       kept = 0;
+  std::vector<Eigen::Index> told, finite;
+  for (Eigen::Index i = 0; i < values.cols(); ++i)
+    if (values.col(i).array().isFinite().any())
+      told.push_back(i);
+  int kept = 0;
   for (Eigen::Index row = 0; row < values.rows(); ++row)
   {
     const Eigen::VectorXd one = values.row(row).transpose();
-    if (!one.allFinite())
+    if (told.empty() || !one(told).allFinite())
       continue;
     finite.push_back(row);
     kept += violation_of(limits, one) <= 0.;
@@ -111,8 +114,12 @@ RobustResult robust_figures(const Eigen::MatrixXd &values, const std::vector<Stu
   result.failed     = result.draws - static_cast<int>(finite.size());
   result.kept       = static_cast<double>(kept) / result.draws;
   result.kept_error = std::sqrt(result.kept * (1. - result.kept) / result.draws);
-  for (Eigen::Index i = 0; i < values.cols(); ++i)
+  for (const Eigen::Index i : told)
+  {
     result.figures.push_back(figures_of(outputs.at(i), values(finite, i)));
+    if (undisturbed.size() > 0)
+      result.figures.back().nominal = undisturbed[i];
+  }
   return result;
 }
 
@@ -125,14 +132,11 @@ RobustResult robust_on(const OutputModel &model, const Eigen::VectorXd &nominal,
   for (Eigen::Index row = 0; row < points.rows(); ++row)
     values.row(row) = model(points.row(row).transpose(), Derivatives::none).values.transpose();
 
-  RobustResult result               = robust_figures(values, outputs, limits);
-  result.source                     = "surface";
-  result.nominal                    = nominal;
-  result.seed                       = seed;
-  result.outside                    = share_outside(points);
-  const Eigen::VectorXd undisturbed = model(nominal, Derivatives::none).values;
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    result.figures[i].nominal = undisturbed(static_cast<Eigen::Index>(i));
+  RobustResult result = robust_figures(values, outputs, limits, model(nominal, Derivatives::none).values);
+  result.source       = "surface";
+  result.nominal      = nominal;
+  result.seed         = seed;
+  result.outside      = share_outside(points);
   return result;
 }
 

@@ -51,12 +51,14 @@ struct RobustResult
  *
  *     error of the mean = s / sqrt(n),      error of s = sqrt((m4 - s^4 (n - 3)/(n - 1)) / n) / (2 s)
  *
- * and quantiles by order statistics, whose intervals need no law of distribution.
+ * and quantiles by order statistics, whose intervals need no law of distribution.  Outputs that no draw has a value of
+ * are left out.
+ * @param undisturbed  outputs without scatter; empty: not known
  * @throws std::invalid_argument if fewer than two draws have finite values
  * Source: Conover, Practical Nonparametric Statistics, 3.2; docs/theory/response_surfaces.md (13) and (14)
  */
 RobustResult robust_figures(const Eigen::MatrixXd &values, const std::vector<StudyOutput> &outputs,
-                            const std::vector<Limit> &limits = {});
+                            const std::vector<Limit> &limits = {}, const Eigen::VectorXd &undisturbed = {});
 
 /// The figures of scattered_points on a model; nominal, seed and the share outside are filled in, the source is
 /// "surface".

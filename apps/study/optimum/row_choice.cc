@@ -21,12 +21,12 @@ bool keeps(const StudyTable &table, const RowChoiceTask &task, int row)
          violation_of(task.limits, values) <= kept_to;
 }
 
-/// Those of a family on both sides of the best one, up to the first that breaks a limit.
-std::vector<int> window_about(const std::vector<int> &family, const RowChoice &choice)
+/// Those of a family on both sides of its best one, up to the first that breaks a limit.
+std::vector<int> window_about(int best_row, const std::vector<int> &family, const RowChoice &choice)
 {
   const auto kept = [&](int row)
   { return std::find(choice.kept.begin(), choice.kept.end(), row) != choice.kept.end(); };
-  const auto best  = std::find(family.begin(), family.end(), choice.best);
+  const auto best  = std::find(family.begin(), family.end(), best_row);
   auto       first = best, last = best;
   while (first != family.begin() && kept(*(first - 1)))
     --first;
@@ -35,13 +35,37 @@ std::vector<int> window_about(const std::vector<int> &family, const RowChoice &c
   return {first, last + 1};
 }
 
+/// The row of least objective among those that keep all limits; -1: none does.
+int best_of(const StudyTable &table, const RowChoice &choice, const std::vector<int> &rows)
+{
+  int    best  = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int row : rows)
+    if (std::find(choice.kept.begin(), choice.kept.end(), row) != choice.kept.end())
+      if (const double objective = objective_of(choice.task.goals, table.values.row(row).transpose());
+          objective < least)
+      {
+        least = objective;
+        best  = row;
+      }
+  return best;
+}
+
+/// A word as it names a family: a truth by its variable.
+std::string family_word(const StudyVariable &variable, double level)
+{
+  const std::string word = variable.text(level);
+  return word == "true" ? variable.name : word == "false" ? "not " + variable.name : word;
+}
+
 } // namespace
 
 std::string family_of(const StudyTable &table, const RowChoiceTask &task, int row)
 {
   std::string name;
   for (const int variable : task.by)
-    name += (name.empty() ? "" : ", ") + table.variables[std::size_t(variable)].text(table.levels(row, variable));
+    name +=
+        (name.empty() ? "" : ", ") + family_word(table.variables[std::size_t(variable)], table.levels(row, variable));
   return name;
 }
 
@@ -77,22 +101,19 @@ std::vector<std::vector<int>> families_of(const StudyTable &table, const RowChoi
 RowChoice choose_row(const StudyTable &table, const RowChoiceTask &task)
 {
   RowChoice choice{task};
-  double    least = std::numeric_limits<double>::infinity();
   for (int row = 0; row < table.n_runs(); ++row)
     if (keeps(table, task, row))
-    {
       choice.kept.push_back(row);
-      const double objective = objective_of(task.goals, table.values.row(row).transpose());
-      if (objective < least)
-      {
-        least       = objective;
-        choice.best = row;
-      }
-    }
-  if (choice.best >= 0 && task.over >= 0)
-    for (const std::vector<int> &family : families_of(table, task))
-      if (std::find(family.begin(), family.end(), choice.best) != family.end())
-        choice.window = window_about(family, choice);
+  choice.best = best_of(table, choice, choice.kept);
+  for (const std::vector<int> &rows : families_of(table, task))
+  {
+    FamilyChoice family{rows, best_of(table, choice, rows)};
+    if (family.best >= 0 && task.over >= 0)
+      family.window = window_about(family.best, rows, choice);
+    if (family.best >= 0 && std::find(rows.begin(), rows.end(), choice.best) != rows.end())
+      choice.window = family.window;
+    choice.families.push_back(family);
+  }
   return choice;
 }
 

@@ -15,19 +15,28 @@ struct RowChoiceTask
   std::vector<int>   by{};      ///< variables whose words part the runs into families
 };
 
+/// The best of a family.
+struct FamilyChoice
+{
+  std::vector<int> rows{};
+  int              best = -1; ///< row; -1: none keeps all limits
+  std::vector<int> window{};  ///< rows next to it that keep them, too, by `over`
+};
+
 /// The best of runs that were made: the one of least objective among those that keep all limits.
 struct RowChoice
 {
-  RowChoiceTask    task{};
-  int              best = -1; ///< row; -1: no run keeps all limits
-  std::vector<int> kept{};    ///< rows that keep them
-  std::vector<int> window{};  ///< rows of the best one's family next to it that keep them, too, by `over`
+  RowChoiceTask             task{};
+  int                       best = -1;  ///< row; -1: no run keeps all limits
+  std::vector<int>          kept{};     ///< rows that keep them
+  std::vector<int>          window{};   ///< rows of the best one's family next to it that keep them, too, by `over`
+  std::vector<FamilyChoice> families{}; ///< in the order of their first rows
 };
 
 /// Of rows with a finite value of every goal and limit.
 RowChoice choose_row(const StudyTable &table, const RowChoiceTask &task);
 
-/// The words of a row's family, "linear, true"; empty without `by`.
+/// The words of a row's family, "linear, not tyres_pull" where that is a truth; empty without `by`.
 std::string family_of(const StudyTable &table, const RowChoiceTask &task, int row);
 
 /// Rows of each family, by ascending `over`; families in the order of their first rows.

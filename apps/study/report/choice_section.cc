@@ -39,13 +39,26 @@ bool keeps_limits(const RowChoice &choice, int row)
   return std::find(choice.kept.begin(), choice.kept.end(), row) != choice.kept.end();
 }
 
-/// Filled markers keep all limits.
+/// Words of a variable that parts families, as the place of its colour or line.
+int word_at(const StudyTable &table, const RowChoiceTask &task, int row, std::size_t by)
+{
+  return by < task.by.size() ? int(std::lround(table.levels(row, task.by[by]))) : 0;
+}
+
+/// Colour and marker by the first word, the line by the second.  Filled markers keep all limits.
 Curve curve_of(const StudyTable &table, const RowChoice &choice, const std::vector<int> &family, int output)
 {
+  static constexpr Marker    markers[] = {Marker::disc, Marker::square, Marker::triangle, Marker::diamond};
+  static constexpr LineStyle lines[] = {LineStyle::full, LineStyle::dashed, LineStyle::dotted, LineStyle::dash_dotted};
+
   const ShownAxis x = axis_of(table, choice.task.over), y = axis_of(table, output);
-  Curve           curve;
+  const int       first = word_at(table, choice.task, family.front(), 0),
+            second      = word_at(table, choice.task, family.front(), 1);
+  Curve curve;
   curve.name   = family_of(table, choice.task, family.front());
-  curve.marker = Marker::disc;
+  curve.colour = first;
+  curve.marker = markers[first % 4];
+  curve.line   = lines[second % 4];
   for (const int row : family)
     if (table.runs[std::size_t(row)].status == RunStatus::done)
     {
@@ -54,6 +67,16 @@ Curve curve_of(const StudyTable &table, const RowChoice &choice, const std::vect
                              !keeps_limits(choice, row)});
     }
   return curve;
+}
+
+/// The best run, on top of the others.
+Curve best_curve(const StudyTable &table, const RowChoice &choice, int output)
+{
+  const ShownAxis   x = axis_of(table, choice.task.over), y = axis_of(table, output);
+  const std::string family = family_of(table, choice.task, choice.best);
+  Curve best = rings("best: run " + std::to_string(choice.best + 1) + (family.empty() ? "" : ", ") + family, 1);
+  best.add(x.shown(table.values(choice.best, choice.task.over)), y.shown(table.values(choice.best, output)));
+  return best;
 }
 
 /// Ends of a column's values, in the unit shown.
@@ -69,39 +92,84 @@ std::pair<double, double> ends_of(const StudyTable &table, int output, const Sho
   return {low, high};
 }
 
-/// A bar along the abscissa.
+/// A bar along the abscissa, and its ends through the chart.
 void mark_window(const StudyTable &table, const RowChoice &choice, Chart &chart)
 {
   constexpr double bar_height = 0.025; ///< of the chart
   if (choice.window.size() < 2)
     return;
-  const ShownAxis x    = axis_of(table, choice.task.over);
-  const double    from = x.shown(table.values(choice.window.front(), choice.task.over));
-  const double    to   = x.shown(table.values(choice.window.back(), choice.task.over));
-  chart.panels.front().tiles.push_back({from, to, chart.y.begin,
-                                        chart.y.begin + bar_height * (chart.y.end - chart.y.begin), 2,
-                                        family_of(table, choice.task, choice.best) + ": all limits are kept"});
+  const ShownAxis x      = axis_of(table, choice.task.over);
+  const double    from   = x.shown(table.values(choice.window.front(), choice.task.over));
+  const double    to     = x.shown(table.values(choice.window.back(), choice.task.over));
+  const int       colour = 6;
+  Panel          &panel  = chart.panels.front();
+  for (const double end : {from, to})
+  {
+    Curve edge{"", {}, {}, colour, LineStyle::dotted, Marker::none};
+    edge.add(end, chart.y.begin);
+    edge.add(end, chart.y.end);
+    panel.curves.push_back(edge);
+  }
+  panel.curves.push_back(
+      tile_name("its window, " + short_text(from, 3) + " to " + short_text(to, 3) + ' ' + x.unit, colour));
+  panel.tiles.push_back({from, to, chart.y.begin, chart.y.begin + bar_height * (chart.y.end - chart.y.begin), colour,
+                         family_of(table, choice.task, choice.best) + ": all limits are kept"});
 }
 
 std::string chart_of(const StudyTable &table, const RowChoice &choice, int output)
 {
   const ShownAxis y = axis_of(table, output);
   Chart           chart;
-  chart.title = y.head() + " over " + axis_of(table, choice.task.over).head();
-  chart.note  = "filled: all limits are kept; bar: the window about the best run, run " +
-               (choice.best < 0 ? std::string("none") : std::to_string(choice.best + 1));
+  chart.title            = y.head() + " over " + axis_of(table, choice.task.over).head();
+  chart.note             = choice.best < 0 ? "no run keeps all limits" : "filled: all limits are kept";
   chart.x.label          = axis_of(table, choice.task.over).head();
   const auto [low, high] = ends_of(table, output, y);
   chart.y                = fitted(ChartAxis{y.head()}, low, high, 0.05);
   chart.height           = 320.;
-  mark_window(table, choice, chart);
   for (const std::vector<int> &family : families_of(table, choice.task))
-    chart.panels.front().add(curve_of(table, choice, family, output));
+    chart.panels.front().curves.push_back(curve_of(table, choice, family, output));
+  if (choice.best >= 0)
+    chart.panels.front().curves.push_back(best_curve(table, choice, output));
+  mark_window(table, choice, chart);
   for (const Limit &limit : choice.task.limits)
     for (const double bound : {limit.least, limit.most})
       if (limit.output == output && std::isfinite(bound))
         chart.levels.push_back({y.shown(bound), "limit"});
   return chart_svg(chart);
+}
+
+/// "0.5 to 2.04"
+std::string window_text(const StudyTable &table, const RowChoiceTask &task, const FamilyChoice &family)
+{
+  const ShownAxis x = axis_of(table, task.over);
+  return x.text(table.values(family.window.front(), task.over), 3) + " to " +
+         x.text(table.values(family.window.back(), task.over), 3);
+}
+
+/// The best of each family, and where it keeps the limits.
+std::string families_table(const StudyTable &table, const RowChoice &choice)
+{
+  if (choice.families.size() < 2)
+    return "";
+  const bool               over = choice.task.over >= 0;
+  std::vector<std::string> titles{"family", "#best run"};
+  for (const int output : outputs_of(choice.task))
+    titles.push_back("#" + escape_xml(axis_of(table, output).head()));
+  if (over)
+    titles.push_back("#limits are kept, " + escape_xml(axis_of(table, choice.task.over).head()));
+  HtmlTable families(titles);
+  for (const FamilyChoice &family : choice.families)
+  {
+    const bool                   any = family.best >= 0;
+    std::vector<HtmlTable::Cell> row{family_of(table, choice.task, family.rows.front()),
+                                     any ? std::to_string(family.best + 1) : "none"};
+    for (const int output : outputs_of(choice.task))
+      row.push_back(any ? axis_of(table, output).text(table.values(family.best, output), 4) : "–");
+    if (over)
+      row.push_back(any ? window_text(table, choice.task, family) : "–");
+    families.add(row);
+  }
+  return families.scrolled_html();
 }
 
 } // namespace
@@ -132,7 +200,8 @@ std::string choice_section(const StudyFindings &findings, Pictures &pictures)
 {
   if (!findings.choice)
     return "";
-  std::string body = "<p>" + escape_xml(choice_text(findings)) + ".</p>\n";
+  std::string body =
+      "<p>" + escape_xml(choice_text(findings)) + ".</p>\n" + families_table(findings.table, *findings.choice);
   if (findings.choice->task.over >= 0)
     for (const int output : outputs_of(findings.choice->task))
     {

@@ -25,17 +25,25 @@ ScatterColumn scatter_column(const ShownAxis &axis, const Eigen::VectorXd &value
   return {axis, axis.factor * values};
 }
 
+/// A column that is the same in all runs, or is empty, says nothing of the others.
+bool tells_something(const Eigen::VectorXd &values)
+{
+  constexpr double rounding = 1e-9; ///< of the values
+  return values.allFinite() && values.maxCoeff() - values.minCoeff() > rounding * values.cwiseAbs().maxCoeff();
+}
+
 /// Variables, then outputs; where they are too many, outputs have the better right.
 std::vector<ScatterColumn> scatter_columns(const StudyTable &table)
 {
-  const int n_outputs   = std::min<int>(most_scatter_columns, static_cast<int>(table.outputs.size()));
-  const int n_variables = std::min<int>(most_scatter_columns - n_outputs, static_cast<int>(table.variables.size()));
-  std::vector<ScatterColumn> columns;
-  for (int j = 0; j < n_variables; ++j)
-    columns.push_back(scatter_column(shown_axis(table.variables[j]), table.levels.col(j)));
-  for (int j = 0; j < n_outputs; ++j)
-    columns.push_back(
-        scatter_column(shown_axis(table.outputs[j], magnitude_of(table.values.col(j))), table.values.col(j)));
+  std::vector<ScatterColumn> columns, outputs;
+  for (std::size_t j = 0; j < table.variables.size(); ++j)
+    if (const Eigen::VectorXd levels = table.levels.col(Eigen::Index(j)); tells_something(levels))
+      columns.push_back(scatter_column(shown_axis(table.variables[j]), levels));
+  for (std::size_t j = 0; j < table.outputs.size() && outputs.size() < std::size_t(most_scatter_columns); ++j)
+    if (const Eigen::VectorXd values = table.values.col(Eigen::Index(j)); tells_something(values))
+      outputs.push_back(scatter_column(shown_axis(table.outputs[j], magnitude_of(values)), values));
+  columns.resize(std::min(columns.size(), std::size_t(most_scatter_columns) - outputs.size()));
+  columns.insert(columns.end(), outputs.begin(), outputs.end());
   return columns;
 }
 

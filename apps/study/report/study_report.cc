@@ -77,7 +77,8 @@ std::string scatter_section(const StudyFindings &findings, Pictures &pictures)
       figure(pictures.back().second) +
           "<p class=\"soft\">Above the diagonal: coefficients of correlation, which see straight lines alone." +
           (n > most_scatter_columns
-               ? " Of " + std::to_string(n) + " columns " + std::to_string(most_scatter_columns) + " are shown."
+               ? " Of " + std::to_string(n) + " columns at most " + std::to_string(most_scatter_columns) +
+                     " are shown, none that is the same in all runs."
                : "") +
           "</p>\n");
 }

@@ -154,7 +154,7 @@ std::string contours(const StudyFindings &findings, const ResponseSurface &surfa
 {
   const Eigen::VectorXd *optimum = optimum_point(findings);
   const auto             k       = static_cast<Eigen::Index>(surface.variables.size());
-  const Eigen::MatrixXd  runs    = findings.table.usable().coded();
+  const Eigen::MatrixXd  runs    = findings.table.coded()(surface.runs, Eigen::all);
   const Eigen::VectorXd  at      = optimum ? *optimum : Eigen::VectorXd::Zero(k);
   const auto             pairs   = pairs_by_weight(surface);
   std::string            first, others;
@@ -212,8 +212,8 @@ std::string of_output(const StudyFindings &findings, const ResponseSurface &surf
 {
   if (!changes(surface))
     return unchanged_note(surface);
-  const std::vector<int> runs = findings.table.usable_runs();
-  const std::string     &name = surface.output.name;
+  const std::vector<int> &runs = surface.runs;
+  const std::string      &name = surface.output.name;
   return "<h3>" + escape_xml(name) + "</h3>\n" + contours(findings, surface, pictures) +
          drawn("slices_" + name, slices_chart(surface, findings.table.variables, optimum_point(findings)), pictures) +
          drawn("foretold_" + name, predicted_chart(surface, runs), pictures) +

@@ -1,10 +1,13 @@
 #include "apps/study/results/study_analysis.h"
 
+#include "apps/study/optimum/side_by_side.h"
 #include "apps/version.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -12,6 +15,12 @@ namespace
 {
 
 constexpr double quotient_step = 0.01; ///< of coded variables, for differences of runs
+
+/// The user does not want to wait for the rest.
+struct StudyInterrupted : std::runtime_error
+{
+  StudyInterrupted() : std::runtime_error("study: interrupted") {}
+};
 
 std::string place_of(const StudyFile &study, const std::string &table)
 {
@@ -24,9 +33,22 @@ std::vector<ResponseSurface> chosen(const std::vector<ResponseSurface> &surfaces
 {
   std::vector<ResponseSurface> some;
   for (const ResponseSurface &surface : surfaces)
-    if (names.empty() || std::find(names.begin(), names.end(), surface.output.name) != names.end())
+    if (surface.is_fitted() &&
+        (names.empty() || std::find(names.begin(), names.end(), surface.output.name) != names.end()))
       some.push_back(surface);
   return some;
+}
+
+/// Surfaces that hold for the runs they went through, and for no other.
+void warn_of_poor_fits(StudyFindings &findings)
+{
+  constexpr double least_told = 0.5; ///< of the variance of runs that are left out of the fit
+  for (const ResponseSurface &surface : findings.surfaces)
+    if (surface.quality.predicted_r2 < least_told)
+      findings.warnings.push_back(
+          "the surface of " + surface.output.name + " foretells runs that it was not fitted to " +
+          (surface.quality.predicted_r2 > 0. ? "badly" : "no better than their mean") + " (predicted R2 " +
+          short_text(surface.quality.predicted_r2, 2) + "); narrow the ranges, make more runs, or search on runs");
 }
 
 /// The run of the design at the middle of all ranges.
@@ -60,10 +82,33 @@ void check_analysis(const AnalysisRequest &request, const StudyFile &study, cons
 }
 
 StudyAnalysis::StudyAnalysis(const StudyFile &study, const AnalysisRequest &request, StudyRunner &runner,
-                             const std::filesystem::path &folder, const std::atomic<bool> &stop)
-    : study_(study), request_(request), runner_(runner), stop_(stop), text_(study), file_(folder / "optimum_runs.csv"),
-      variables_(study.values())
+                             const StudyCall &call)
+    : study_(study), request_(request), runner_(runner), stop_(*call.stop), text_(study),
+      file_(call.folder / "optimum_runs.csv"), variables_(study.values()), jobs_(call.jobs)
 {
+}
+
+void StudyAnalysis::go_on() const
+{
+  if (stop_)
+    throw StudyInterrupted();
+}
+
+int StudyAnalysis::next_number()
+{
+  const std::lock_guard<std::mutex> alone(mutex_);
+  return ++number_;
+}
+
+void StudyAnalysis::keep_row(const RunRow &row, const Eigen::VectorXd &levels)
+{
+  const std::lock_guard<std::mutex> alone(mutex_);
+  if (!rows_)
+  {
+    std::filesystem::remove(file_);
+    rows_ = std::make_unique<RowsFile>(file_, text_);
+  }
+  rows_->append(text_.line(row, levels));
 }
 
 Eigen::VectorXd StudyAnalysis::levels_at(const Eigen::VectorXd &xi) const
@@ -76,21 +121,15 @@ Eigen::VectorXd StudyAnalysis::levels_at(const Eigen::VectorXd &xi) const
 
 Eigen::VectorXd StudyAnalysis::values_at(const Eigen::VectorXd &xi, Eigen::MatrixXd *derivatives)
 {
-  if (!rows_)
-  {
-    std::filesystem::remove(file_);
-    rows_ = std::make_unique<RowsFile>(file_, text_);
-  }
+  go_on();
   const auto            n      = Eigen::Index(study_.outputs.size());
   const Eigen::VectorXd levels = levels_at(xi);
-  const RunRow          row    = runner_.run(++number_, levels, &stop_, derivatives);
+  const RunRow          row    = server_->run(next_number(), levels, derivatives);
+  if (row.status == RunStatus::waiting)
+    throw StudyInterrupted();
   if (derivatives && row.status == RunStatus::failed)
-  {
-    --number_; // it is made again without derivatives
-    return {};
-  }
-  if (row.status != RunStatus::waiting)
-    rows_->append(text_.line(row, levels));
+    return {}; // it is made again without derivatives
+  keep_row(row, levels);
   return row.status == RunStatus::done ? Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(row.values.data(), n))
                                        : Eigen::VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
 }
@@ -130,38 +169,44 @@ StudyOptimum StudyAnalysis::optimum_of(const StudyAnswer &answer, const OutputMo
   const OptimiseRequest &asked   = *request_.optimise;
   const bool             runs    = asked.on == AnalysisOn::runs;
   OptimumOptions         options = asked.options;
-  options.stop                   = &stop_;
+  options.side_by_side           = runs ? jobs_ : 1;
   const OutputModel model =
       runs ? [this](const Eigen::VectorXd &xi, Derivatives derivatives) { return run_at(xi, derivatives); } : surfaces;
   StudyOptimum optimum;
-  optimum.source  = runs ? "runs" : "surface";
-  optimum.task    = asked.task;
-  optimum.found   = find_optimum(model, asked.task, options);
+  optimum.source = runs ? "runs" : "surface";
+  optimum.task   = asked.task;
+  optimum.found  = find_optimum(model, asked.task, options);
+  go_on();
   optimum.nominal = middle_run(answer.table);
-  if (!runs && asked.verify && !stop_)
+  if (!runs && asked.verify)
     if (const Eigen::VectorXd values = run_at(optimum.found.coded, Derivatives::none).values; values.allFinite())
       optimum.verified = values;
-  if (!optimum.nominal && asked.verify && !stop_)
+  if (!optimum.nominal && asked.verify)
     optimum.nominal = run_at(Eigen::VectorXd::Zero(optimum.found.coded.size()), Derivatives::none).values;
   return optimum;
 }
 
-RobustResult StudyAnalysis::robust_at(const Eigen::VectorXd &nominal, const StudyTable &table,
-                                      const OutputModel &surfaces)
+RobustResult StudyAnalysis::robust_at_optimum(const StudyFindings &findings, const OutputModel &surfaces)
 {
-  const RobustRequest &asked = *request_.optimise->robust;
-  const auto          &task  = request_.optimise->task;
+  const Eigen::VectorXd &nominal = findings.optimum->found.coded;
+  const StudyTable      &table   = findings.table;
+  const RobustRequest   &asked   = *request_.optimise->robust;
+  const auto            &task    = request_.optimise->task;
   if (asked.on == AnalysisOn::surface)
     return robust_on(surfaces, nominal, variables_, table.outputs, asked.draws, asked.seed, task.limits);
   const Eigen::MatrixXd points  = scattered_points(nominal, variables_, asked.draws, asked.seed);
   constexpr double      not_run = std::numeric_limits<double>::quiet_NaN();
   Eigen::MatrixXd       values  = Eigen::MatrixXd::Constant(points.rows(), Eigen::Index(table.outputs.size()), not_run);
-  for (Eigen::Index i = 0; i < points.rows() && !stop_; ++i)
-    values.row(i) = run_at(points.row(i).transpose(), Derivatives::none).values.transpose();
-  RobustResult result = robust_figures(values, table.outputs, task.limits);
-  result.source       = "runs";
-  result.nominal      = nominal;
-  result.seed         = asked.seed;
+  side_by_side(int(points.rows()), jobs_,
+               [&](int i) { values.row(i) = run_at(points.row(i).transpose(), Derivatives::none).values.transpose(); });
+  const StudyOptimum &optimum = *findings.optimum;
+  RobustResult        result  = robust_figures(values, table.outputs, task.limits,
+                                       optimum.source == "runs" ? optimum.found.values
+                                               : optimum.verified       ? *optimum.verified
+                                                                        : run_at(nominal, Derivatives::none).values);
+  result.source               = "runs";
+  result.nominal              = nominal;
+  result.seed                 = asked.seed;
   return result;
 }
 
@@ -175,28 +220,73 @@ StudyFindings StudyAnalysis::of(const StudyAnswer &answer)
   findings.design      = answer.design;
   findings.table       = answer.table;
   number_              = answer.table.n_runs();
-  if (request_.choose)
-    findings.choice = choose_row(answer.table, *request_.choose);
-  OutputModel model;
-  if (request_.needs_surfaces())
+  server_              = std::make_unique<RunServer>(runner_, text_, request_.most_side_by_side(jobs_), stop_);
+  try
   {
-    const auto surfaces = fit_surfaces(answer.table, request_.surface->options);
-    findings.surfaces   = chosen(surfaces, request_.surface->outputs);
-    model               = model_of(surfaces);
+    find(answer, findings);
   }
-  if (!request_.optimise)
-    return findings;
-  findings.optimum = optimum_of(answer, model);
+  catch (const StudyInterrupted &)
+  {
+    findings.warnings.push_back("interrupted: what was not found yet is missing; runs that were made for it stand in " +
+                                file_.filename().string());
+  }
   if (by_differences_)
     findings.warnings.push_back(
         "the search on runs took derivatives from differences of runs, for outputs or variables "
         "of this study have no sensitivities");
+  return findings;
+}
+
+/// The output that a search on surfaces asks for in vain, or "".
+std::string StudyAnalysis::lacking_surface(const std::vector<ResponseSurface> &surfaces) const
+{
+  const OptimiseRequest &asked = *request_.optimise;
+  if (asked.on == AnalysisOn::runs && asked.pareto == 0)
+    return "";
+  std::vector<int> outputs;
+  for (const Goal &goal : asked.task.goals)
+    outputs.push_back(goal.output);
+  for (const Limit &limit : asked.task.limits)
+    outputs.push_back(limit.output);
+  for (const int output : outputs)
+    if (!surfaces[std::size_t(output)].is_fitted())
+      return surfaces[std::size_t(output)].output.name;
+  return "";
+}
+
+void StudyAnalysis::find(const StudyAnswer &answer, StudyFindings &findings)
+{
+  if (request_.choose)
+    findings.choice = choose_row(answer.table, *request_.choose);
+  OutputModel                  model;
+  std::vector<ResponseSurface> surfaces;
+  if (request_.needs_surfaces())
+  {
+    std::vector<std::string> without;
+    surfaces = fit_surfaces(answer.table, request_.surface->options, &without);
+    findings.warnings.insert(findings.warnings.end(), without.begin(), without.end());
+    findings.surfaces = chosen(surfaces, request_.surface->outputs);
+    warn_of_poor_fits(findings);
+    model = [this, fitted = model_of(surfaces)](const Eigen::VectorXd &xi, Derivatives derivatives)
+    {
+      go_on();
+      return fitted(xi, derivatives);
+    };
+  }
+  if (!request_.optimise)
+    return;
+  if (const std::string lacking = lacking_surface(surfaces); !lacking.empty())
+  {
+    findings.warnings.push_back("no optimum is sought: output " + lacking +
+                                ", which is a goal or has a limit, has no surface");
+    return;
+  }
+  findings.optimum    = optimum_of(answer, model);
   findings.front_task = request_.optimise->task;
   if (request_.optimise->pareto > 0)
     findings.front = pareto_front(model, request_.optimise->task, {request_.optimise->pareto, 4096, 1});
-  if (request_.optimise->robust && !stop_)
-    findings.robust.push_back(robust_at(findings.optimum->found.coded, answer.table, model));
-  return findings;
+  if (request_.optimise->robust)
+    findings.robust.push_back(robust_at_optimum(findings, model));
 }
 
 } // namespace gestell::apps

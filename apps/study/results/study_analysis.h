@@ -2,6 +2,7 @@
 
 #include "apps/study/file/read_analysis.h"
 #include "apps/study/report/study_findings.h"
+#include "apps/study/runs/run_server.h"
 #include "apps/study/runs/study_answer.h"
 
 namespace gestell::apps
@@ -15,18 +16,25 @@ void check_analysis(const AnalysisRequest &request, const StudyFile &study, cons
 class StudyAnalysis
 {
 public:
-  /// @param folder  of the study: runs that a search or a verification makes are kept there in optimum_runs.csv
-  StudyAnalysis(const StudyFile &study, const AnalysisRequest &request, StudyRunner &runner,
-                const std::filesystem::path &folder, const std::atomic<bool> &stop);
+  /// @param call  its folder keeps the runs of searches, verifications and draws in optimum_runs.csv; they are made
+  /// side
+  ///              by side by its jobs
+  StudyAnalysis(const StudyFile &study, const AnalysisRequest &request, StudyRunner &runner, const StudyCall &call);
 
+  /// What was found until `call.stop` became true.
   /// @throws std::invalid_argument for too few usable runs
   StudyFindings of(const StudyAnswer &answer);
 
 private:
+  void            find(const StudyAnswer &answer, StudyFindings &findings);
+  std::string     lacking_surface(const std::vector<ResponseSurface> &surfaces) const;
+  void            go_on() const;
+  int             next_number();
+  void            keep_row(const RunRow &row, const Eigen::VectorXd &levels);
   Eigen::VectorXd values_at(const Eigen::VectorXd &xi, Eigen::MatrixXd *derivatives);
   OutputPoint     run_at(const Eigen::VectorXd &xi, Derivatives derivatives);
   StudyOptimum    optimum_of(const StudyAnswer &answer, const OutputModel &surfaces);
-  RobustResult    robust_at(const Eigen::VectorXd &nominal, const StudyTable &table, const OutputModel &surfaces);
+  RobustResult    robust_at_optimum(const StudyFindings &findings, const OutputModel &surfaces);
   Eigen::VectorXd levels_at(const Eigen::VectorXd &xi) const;
 
   const StudyFile           &study_;
@@ -37,8 +45,11 @@ private:
   std::filesystem::path      file_;
   std::unique_ptr<RowsFile>  rows_;
   std::vector<StudyVariable> variables_;
+  int                        jobs_;
+  std::unique_ptr<RunServer> server_;
+  std::mutex                 mutex_;                  ///< of rows and numbers
   int                        number_         = 0;     ///< of the last run
-  bool                       by_differences_ = false; ///< some run had no sensitivities
+  std::atomic<bool>          by_differences_ = false; ///< some run had no sensitivities
 };
 
 } // namespace gestell::apps

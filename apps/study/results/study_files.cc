@@ -3,6 +3,7 @@
 #include "apps/output/text/write_file.h"
 #include "apps/study/report/study_report.h"
 #include "apps/study/report/study_tables.h"
+#include "apps/study/results/findings_text.h"
 #include "apps/study/results/optimum_scene.h"
 
 namespace gestell::apps
@@ -20,6 +21,8 @@ void write_or_remove(const fs::path &file, bool told, const std::string &text)
     fs::remove(file);
 }
 
+} // namespace
+
 Eigen::VectorXd levels_of(const StudyFindings &findings)
 {
   Eigen::VectorXd levels(findings.table.variables.size());
@@ -27,8 +30,6 @@ Eigen::VectorXd levels_of(const StudyFindings &findings)
     levels[i] = findings.table.variables[std::size_t(i)].physical(findings.optimum->found.coded[i]);
   return levels;
 }
-
-} // namespace
 
 void write_findings(const fs::path &folder, const StudyFile &study, const SceneVariants &variants,
                     const StudyFindings &findings)
@@ -41,6 +42,11 @@ void write_findings(const fs::path &folder, const StudyFile &study, const SceneV
   write_or_remove(folder / "robust.csv", !findings.robust.empty(), robust_csv(findings.robust));
   write_or_remove(folder / "optimum.toml", findings.optimum.has_value(),
                   findings.optimum ? optimum_scene(study, variants, levels_of(findings), folder) : "");
+  std::string warnings;
+  for (const std::string &warning : findings.warnings)
+    warnings += "warning: " + warning + '\n';
+  const std::string text = warnings + findings_text(findings);
+  write_or_remove(folder / "findings.txt", !text.empty(), text);
   const StudyReport report = make_study_report(findings);
   fs::remove_all(folder / "charts");
   if (!report.pictures.empty())

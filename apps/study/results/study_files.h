@@ -8,6 +8,9 @@
 namespace gestell::apps
 {
 
+/// The optimum in the units of the variables.
+Eigen::VectorXd levels_of(const StudyFindings &findings);
+
 /// Writes what was found beside the rows: tables, pictures, report.html and optimum.toml; what an earlier call found
 /// and this one did not is removed.
 /// @throws std::runtime_error if a file cannot be written to its end

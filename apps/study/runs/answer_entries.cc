@@ -2,6 +2,7 @@
 
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/text/json.h"
+#include "apps/study/file/event_kinds.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -73,6 +74,18 @@ Segments event_names(const Scene &scene)
   return names;
 }
 
+bool is_choice(const std::string &word)
+{
+  return word == "first" || word == "last" || word == "count" || is_count(word);
+}
+
+Segments kinds_and_choices()
+{
+  Segments words = event_kinds();
+  words.insert(words.end(), {"first", "last", "count"});
+  return words;
+}
+
 void check_signal(const Segments &segments, const Scene &scene)
 {
   const Segments names = signal_names(scene);
@@ -92,6 +105,13 @@ void check_event(const Segments &segments, const Scene &scene)
   if (segments.size() > 4)
     refuse(segments,
            "has too many parts; an event is written events.NAME.KIND, with .first, .last, .count or a number");
+  if (segments.size() == 4 && !is_choice(segments[3]))
+    refuse(segments, "does not say which of the events: .first, .last, .count or a number" +
+                         suggestion(segments[3], {"first", "last", "count"}));
+  if (segments.size() > 2 && !(segments.size() == 3 && is_choice(segments[2])) && !is_event_kind(segments[2]))
+    refuse(segments, "names '" + segments[2] + "', which is no kind of event" +
+                         suggestion(segments[2], kinds_and_choices()) +
+                         "; the kinds that occur stand in summary.json of a run");
 }
 
 AnswerValue signal_value(const Segments &segments, const coupling::RunResult &run)
@@ -118,11 +138,6 @@ std::vector<double> times_of(const std::string &name, const std::string &kind, c
     if (event.name == name && (kind.empty() || event.kind == kind))
       times.push_back(event.t);
   return times;
-}
-
-bool is_choice(const std::string &word)
-{
-  return word == "first" || word == "last" || word == "count" || is_count(word);
 }
 
 AnswerValue event_value(const Segments &segments, const coupling::RunResult &run)

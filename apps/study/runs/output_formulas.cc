@@ -3,12 +3,14 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/tokens.h"
+#include "apps/study/file/unit_quantity.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -50,30 +52,6 @@ std::string table_at(const std::string &text, std::size_t at)
   return "";
 }
 
-/// A value in its unit as expressions know it; of any dimension if the unit is none they know.
-Quantity in_unit(double value, const std::string &unit)
-{
-  static std::map<std::string, Quantity> units;
-  const auto                             known = units.find(unit);
-  if (known == units.end())
-  {
-    Quantity one{1., {}, true, Counts::nothing};
-    try
-    {
-      if (!unit.empty())
-        one = parse_quantity("1 " + unit, [](const std::string &) { return std::optional<Quantity>(); });
-    }
-    catch (const std::invalid_argument &)
-    {
-      one.checked = false;
-    }
-    return in_unit(value, units.emplace(unit, one).first->first);
-  }
-  Quantity quantity = known->second;
-  quantity.value *= value;
-  return quantity;
-}
-
 bool is_unit(const std::string &name)
 {
   try
@@ -85,6 +63,27 @@ bool is_unit(const std::string &name)
   {
     return false;
   }
+}
+
+/// What an expression of these quantities is in, whatever their values.
+Quantity unit_alone(const std::string &text, const NameLookup &look_up, const std::vector<std::string> &names)
+{
+  std::vector<Variable> variables;
+  std::set<std::string> among;
+  for (const Token &token : tokens_of(text))
+    if (token.kind == Token::name && !is_reserved_name(token.text) && among.insert(token.text).second)
+      if (const auto known = look_up(token.text); known && known->checked)
+        variables.push_back({token.text, "of the study", known->dimension, known->counts});
+  if (variables.size() > mechanism::Formula::max_variables)
+    return {1., {}, false, Counts::nothing};
+  const auto others = [&](const std::string &name)
+  {
+    const bool varies =
+        std::any_of(variables.begin(), variables.end(), [&](const Variable &one) { return one.name == name; });
+    return varies ? std::nullopt : look_up(name);
+  };
+  const Expression e = parse_expression(text, variables, others, names);
+  return {1., e.dimension, e.checked, e.counts};
 }
 
 std::string unit_of(const Quantity &quantity)
@@ -110,6 +109,7 @@ struct OutputFormulas::Known
   const Parameters               &parameters;
   const Eigen::VectorXd          &levels;
   std::vector<AnswerValue>        entries;
+  bool                            units_alone = false;
   std::map<std::size_t, Quantity> outputs{};
   std::vector<std::size_t>        open{};
 };
@@ -239,16 +239,17 @@ Quantity OutputFormulas::quantity_of(std::size_t output, Known &known) const
   {
     for (std::size_t i = 0; i < entries_.size(); ++i)
       if (entries_[i].name == name)
-        return in_unit(known.entries[i].value, known.entries[i].unit);
+        return quantity_in_unit(known.entries[i].value, known.entries[i].unit);
     for (std::size_t i = 0; i < outputs_.size(); ++i)
       if (outputs_[i].name == name)
         return quantity_of(i, known);
     for (std::size_t i = 0; i < variables_.size(); ++i)
       if (variables_[i].variable.name == name && variables_[i].variable.words.empty())
-        return in_unit(known.levels[Eigen::Index(i)], variables_[i].variable.unit);
+        return quantity_in_unit(known.levels[Eigen::Index(i)], variables_[i].variable.unit);
     return known.parameters.find(name);
   };
-  const Quantity quantity = parse_quantity(formulas_[output].text, look_up, names);
+  const Quantity quantity = known.units_alone ? unit_alone(formulas_[output].text, look_up, names)
+                                              : parse_quantity(formulas_[output].text, look_up, names);
   known.open.pop_back();
   return known.outputs[output] = quantity;
 }
@@ -285,7 +286,17 @@ std::vector<AnswerValue> OutputFormulas::entries_of(const Result &result) const
 std::vector<AnswerValue> OutputFormulas::values_of(const std::vector<AnswerValue> &entries,
                                                    const Parameters &parameters, const Eigen::VectorXd &levels) const
 {
-  Known                    known{parameters, levels, entries};
+  return values_of(Known{parameters, levels, entries});
+}
+
+void OutputFormulas::check_units(const std::vector<AnswerValue> &entries, const Parameters &parameters,
+                                 const Eigen::VectorXd &levels) const
+{
+  values_of(Known{parameters, levels, entries, true});
+}
+
+std::vector<AnswerValue> OutputFormulas::values_of(Known known) const
+{
   std::vector<AnswerValue> values;
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     try

@@ -31,6 +31,10 @@ public:
   std::vector<AnswerValue> entries_of(const Result &result) const;
   std::vector<AnswerValue> values_of(const std::vector<AnswerValue> &entries, const Parameters &parameters,
                                      const Eigen::VectorXd &levels) const;
+  /// Refuses formulas that make no sense whatever the numbers are, such as sums of forces and masses.
+  /// @throws std::invalid_argument with the place of the output
+  void check_units(const std::vector<AnswerValue> &entries, const Parameters &parameters,
+                   const Eigen::VectorXd &levels) const;
   /// Of each entry, "signals", "F_P", "max".
   std::vector<std::vector<std::string>> paths() const;
 
@@ -50,6 +54,7 @@ private:
 
   Formula                  formula_of(const OutputRequest &output);
   int                      entry_of(const std::vector<std::string> &segments, const OutputRequest &output);
+  std::vector<AnswerValue> values_of(Known known) const;
   Quantity                 quantity_of(std::size_t output, Known &known) const;
   void                     check_names(const Parameters &parameters) const;
   std::string              with_entries(std::string text) const;

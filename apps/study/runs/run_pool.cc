@@ -1,6 +1,8 @@
 #include "apps/study/runs/run_pool.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <new>
@@ -9,6 +11,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace gestell::apps
@@ -17,6 +20,9 @@ namespace
 {
 
 constexpr int most_jobs = 1024;
+
+/// Whoever kills a process for its memory leaves this one alone; whoever kills all takes no longer.
+constexpr std::chrono::milliseconds all_are_killed{50};
 
 /// What the processes share.
 struct Shared
@@ -69,8 +75,15 @@ std::string told(const RunRow &row, const std::string &line)
   return 'U' + units + "\nR" + line;
 }
 
+/// What no run of the study has is an error of the study, not of a run.
+void refuse_lacking(const RunRow &row, std::size_t order, FirstRun first)
+{
+  if (row.lacks_output && order == 0 && first == FirstRun::decides)
+    throw std::invalid_argument(row.message);
+}
+
 void work(int pipe, int worker, StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders,
-          Shared &shared)
+          FirstRun first, Shared &shared)
 {
   while (!shared.stop)
   {
@@ -79,6 +92,7 @@ void work(int pipe, int worker, StudyRunner &runner, const RowsText &text, const
       break;
     shared.current[worker] = long(at);
     const RunRow row       = runner.run(orders[at].number, orders[at].levels, &shared.stop);
+    refuse_lacking(row, at, first);
     if (row.status != RunStatus::waiting)
       write_all(pipe, told(row, text.line(row, orders[at].levels)));
     shared.current[worker] = -1;
@@ -96,8 +110,9 @@ struct Worker
 class Pool
 {
 public:
-  Pool(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, const TakeRow &take)
-      : runner_(runner), text_(text), orders_(orders), take_(take)
+  Pool(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, FirstRun first,
+       const std::atomic<bool> &stop, const TakeRow &take)
+      : runner_(runner), text_(text), orders_(orders), first_(first), stop_(stop), take_(take)
   {
   }
   ~Pool()
@@ -112,13 +127,13 @@ public:
   }
   Pool(const Pool &) = delete;
 
-  void make(int jobs, const std::atomic<bool> &stop)
+  void make(int jobs)
   {
     workers_.resize(std::size_t(jobs));
     for (int i = 0; i < jobs; ++i)
       begin(i);
     while (listen())
-      if (stop)
+      if (stop_)
         shared_->stop = true;
     if (!failure_.empty())
       throw std::invalid_argument(failure_);
@@ -145,17 +160,18 @@ private:
 
   [[noreturn]] void be_worker(int pipe, int number)
   {
-    std::signal(SIGINT, SIG_IGN); // the parent says when to stop
-    std::signal(SIGTERM, SIG_DFL);
-    std::signal(SIGPIPE, SIG_IGN);
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) // the parent says when to stop
+      std::signal(signal, SIG_IGN);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     try
     {
-      work(pipe, number, runner_, text_, orders_, *shared_);
+      work(pipe, number, runner_, text_, orders_, first_, *shared_);
     }
     catch (const std::exception &error)
     {
-      write_all(pipe, std::string("E") + error.what() + '\n');
+      std::string message = error.what();
+      std::replace(message.begin(), message.end(), '\n', '\x01');
+      write_all(pipe, 'E' + message + '\n');
     }
     _exit(0);
   }
@@ -202,7 +218,8 @@ private:
     const std::string rest = line.substr(1);
     if (line.front() == 'E')
     {
-      failure_      = rest;
+      failure_ = rest;
+      std::replace(failure_.begin(), failure_.end(), '\x01', '\n');
       shared_->stop = true;
     }
     else if (line.front() == 'U')
@@ -227,8 +244,10 @@ private:
     worker.pipe = -1;
     int status  = 0;
     waitpid(worker.process, &status, 0);
+    if (WIFSIGNALED(status) && !stop_)
+      std::this_thread::sleep_for(all_are_killed);
     const long at = shared_->current[number];
-    if (at < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0) || shared_->stop)
+    if (at < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0) || shared_->stop || stop_)
       return;
     RunRow row;
     row.run     = orders_[std::size_t(at)].number;
@@ -243,6 +262,8 @@ private:
   StudyRunner                 &runner_;
   const RowsText              &text_;
   const std::vector<RunOrder> &orders_;
+  FirstRun                     first_;
+  const std::atomic<bool>     &stop_;
   const TakeRow               &take_;
   SharedMemory                 shared_;
   std::vector<Worker>          workers_;
@@ -251,18 +272,19 @@ private:
 
 } // namespace
 
-void make_runs(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, int jobs,
+void make_runs(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, int jobs, FirstRun first,
                const std::atomic<bool> &stop, const TakeRow &take)
 {
   if (jobs > most_jobs)
     throw std::invalid_argument("--jobs " + std::to_string(jobs) + ": " + std::to_string(most_jobs) + " are the most");
   if (jobs > 1)
-    return Pool(runner, text, orders, take).make(std::min<int>(jobs, int(orders.size())), stop);
+    return Pool(runner, text, orders, first, stop, take).make(std::min<int>(jobs, int(orders.size())));
   for (const RunOrder &order : orders)
   {
     if (stop)
       return;
     const RunRow row = runner.run(order.number, order.levels, &stop);
+    refuse_lacking(row, std::size_t(&order - orders.data()), first);
     if (row.status != RunStatus::waiting)
       take(row);
   }

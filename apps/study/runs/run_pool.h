@@ -8,6 +8,13 @@
 namespace gestell::apps
 {
 
+/// What a run without an output that the study names says of the study.
+enum class FirstRun
+{
+  decides, ///< at the first order: that no run has it
+  is_one_of_many
+};
+
 /// A run that is to be made.
 struct RunOrder
 {
@@ -25,9 +32,9 @@ using TakeRow = std::function<void(const RunRow &row)>;
  * is marked as failed, and another takes its place.
  *
  * @param stop  ends all, what has not ended yet has no row
- * @throws std::invalid_argument as StudyRunner::run()
+ * @throws std::invalid_argument where the first run decides and lacks an output
  */
-void make_runs(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, int jobs,
+void make_runs(StudyRunner &runner, const RowsText &text, const std::vector<RunOrder> &orders, int jobs, FirstRun first,
                const std::atomic<bool> &stop, const TakeRow &take);
 
 } // namespace gestell::apps

@@ -16,7 +16,8 @@ struct RunRow
   std::string              message{}; ///< why it failed
   std::vector<double>      values{};  ///< one an output, nan of none
   std::vector<std::string> units{};   ///< of the values; empty of a failed run
-  double                   cpu_s = 0.;
+  double                   cpu_s        = 0.;
+  bool                     lacks_output = false; ///< it failed for an output that names what the run does not have
 };
 
 } // namespace gestell::apps

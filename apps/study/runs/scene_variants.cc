@@ -4,6 +4,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,23 @@ std::string in_toml(const std::string &text)
   return escaped + '"';
 }
 
-std::string shown_value(const SceneNode &node)
+/// Sets an entry in place of an earlier one, or inside of a table that was set.
+void change(std::vector<SceneNode::Entry> &changes, const std::string &key, const SceneNode &value)
+{
+  for (auto &[earlier, node] : changes)
+    if (earlier == key)
+    {
+      node = value;
+      return;
+    }
+    else if (node.type == SceneNode::Type::table && key.compare(0, earlier.size() + 1, earlier + '.') == 0)
+      return apply_override(node, key.substr(earlier.size() + 1), value);
+  changes.emplace_back(key, value);
+}
+
+} // namespace
+
+std::string toml_value(const SceneNode &node)
 {
   switch (node.type)
   {
@@ -88,22 +105,20 @@ std::string shown_value(const SceneNode &node)
   {
     std::string text;
     for (const SceneNode &element : node.elements)
-      text += (text.empty() ? "" : ", ") + shown_value(element);
+      text += (text.empty() ? "" : ", ") + toml_value(element);
     return '[' + text + ']';
   }
   case SceneNode::Type::table:
   {
     std::string text;
     for (const auto &[key, value] : node.entries)
-      text += (text.empty() ? "" : ", ") + written_key(key) + " = " + shown_value(value);
+      text += (text.empty() ? "" : ", ") + written_key(key) + " = " + toml_value(value);
     return "{ " + text + " }";
   }
   default:
     return node.text;
   }
 }
-
-} // namespace
 
 SceneVariants::SceneVariants(const StudyFile &study, fem::Scripts scripts) : study_(study), scripts_(scripts)
 {
@@ -115,6 +130,24 @@ SceneVariants::SceneVariants(const StudyFile &study, fem::Scripts scripts) : stu
   for (const VariableRequest &request : study.variables)
     for (const std::string &key : request.keys)
       check_key(request, key);
+  for (const RunParameter &measure : study.measures)
+    check_measure(measure);
+}
+
+/// It has a first guess, and no variable takes its place.
+void SceneVariants::check_measure(const RunParameter &measure) const
+{
+  const SceneNode *parameters = root_.find("parameters");
+  const auto       names      = parameters ? names_in(*parameters) : std::vector<std::string>();
+  if (std::find(names.begin(), names.end(), measure.parameter) == names.end())
+    measure.place.fail("scene.measure." + measure.parameter + ": " + study_.scene +
+                       " has no such parameter, whose value would be the first guess" +
+                       suggestion(measure.parameter, names));
+  for (const VariableRequest &request : study_.variables)
+    for (const std::string &key : request.keys)
+      if (key == "parameters." + measure.parameter)
+        measure.place.fail("scene.measure." + measure.parameter + ": is varied by variable " + request.variable.name +
+                           "; leave one of both out");
 }
 
 void SceneVariants::check_key(const VariableRequest &request, const std::string &key) const
@@ -138,6 +171,22 @@ void SceneVariants::check_key(const VariableRequest &request, const std::string 
   }
 }
 
+void SceneVariants::set_measured(const RunParameter &measure, double value, const std::string &unit)
+{
+  const std::string key = "parameters." + measure.parameter;
+  SceneNode         node;
+  node.place = measure.place;
+  node.type  = SceneNode::Type::text;
+  node.text  = exact_text(value) + (unit.empty() ? "" : ' ' + unit);
+  apply_override(root_, key, node);
+  change(study_.settings, key, node);
+}
+
+double SceneVariants::measured(const RunParameter &measure, const Eigen::VectorXd &levels) const
+{
+  return parameters_at(levels).find(measure.parameter)->value;
+}
+
 SceneNode SceneVariants::node_at(const Eigen::VectorXd &levels) const
 {
   SceneNode root = root_;
@@ -158,28 +207,19 @@ Parameters SceneVariants::parameters_at(const Eigen::VectorXd &levels) const
   return Parameters(root.find("parameters"));
 }
 
-std::vector<std::pair<std::string, std::string>> SceneVariants::changes_at(const Eigen::VectorXd &levels) const
+std::vector<SceneNode::Entry> SceneVariants::changes_at(const Eigen::VectorXd &levels) const
 {
-  std::vector<std::pair<std::string, std::string>> changes;
-  const auto                                       add = [&](const std::string &key, const std::string &value)
-  {
-    const auto found =
-        std::find_if(changes.begin(), changes.end(), [&](const auto &change) { return change.first == key; });
-    if (found == changes.end())
-      changes.emplace_back(key, value);
-    else
-      found->second = value;
-  };
+  std::vector<SceneNode::Entry> changes;
   for (const auto &[key, value] : settings_of(study_))
-    add(key, shown_value(value));
+    change(changes, key, value);
   for (const std::string &text : study_.overrides)
   {
     const auto [key, value] = parsed_override(text);
-    add(key, shown_value(value));
+    change(changes, key, value);
   }
   for (std::size_t i = 0; i < study_.variables.size(); ++i)
     for (const std::string &key : study_.variables[i].keys)
-      add(key, shown_value(value_node(study_.variables[i], levels[Eigen::Index(i)])));
+      change(changes, key, value_node(study_.variables[i], levels[Eigen::Index(i)]));
   return changes;
 }
 
@@ -187,7 +227,7 @@ std::vector<std::string> SceneVariants::overrides_at(const Eigen::VectorXd &leve
 {
   std::vector<std::string> overrides;
   for (const auto &[key, value] : changes_at(levels))
-    overrides.push_back(key + '=' + value);
+    overrides.push_back(key + '=' + toml_value(value));
   return overrides;
 }
 

@@ -12,6 +12,9 @@
 namespace gestell::apps
 {
 
+/// A value as a TOML file writes it on one line; files by their whole path.
+std::string toml_value(const SceneNode &node);
+
 /// The scene of a study at any values of its variables; its files are read once.
 class SceneVariants
 {
@@ -26,9 +29,8 @@ public:
   Parameters parameters_at(const Eigen::VectorXd &levels) const;
   /// "key=value" of what the study changes in the scene file: its settings, the command line's, and the levels.
   std::vector<std::string> overrides_at(const Eigen::VectorXd &levels) const;
-  /// The same, each key once, its values as TOML writes them.
-  std::vector<std::pair<std::string, std::string>> changes_at(const Eigen::VectorXd &levels) const;
-  const std::string                               &scene_file() const { return study_.scene; }
+  /// The same, each key once, none inside of another's table.
+  std::vector<SceneNode::Entry> changes_at(const Eigen::VectorXd &levels) const;
   /// The scene with the settings of the study, before any variable.
   const SceneNode &root() const { return root_; }
 
@@ -37,10 +39,17 @@ public:
   /// @throws std::invalid_argument with the place of the variable, its value, and what the scene says against it
   void check_ranges(const Eigen::MatrixXd &levels) const;
 
+  /// Sets a parameter that runs tell, in SI with its unit.
+  /// @throws std::invalid_argument if the scene has no such parameter
+  void set_measured(const RunParameter &measure, double value, const std::string &unit);
+  /// [SI] as it is set now.
+  double measured(const RunParameter &measure, const Eigen::VectorXd &levels) const;
+
   Eigen::VectorXd middle() const; ///< of all ranges; of words the first
 
 private:
   SceneNode node_at(const Eigen::VectorXd &levels) const;
+  void      check_measure(const RunParameter &measure) const;
   void      check_key(const VariableRequest &request, const std::string &key) const;
 
   StudyFile    study_;

@@ -1,9 +1,5 @@
 #include "apps/study/runs/study_answer.h"
 
-#include "apps/scene/build/build_machine.h"
-#include "apps/session/prepared_machine.h"
-#include "coupling/frame/frame_recipe.h"
-
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -12,12 +8,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-std::string frame_key(const StudyRunner &runner, const Eigen::MatrixXd &levels)
-{
-  const Scene scene = runner.variants().at(levels.row(0).transpose());
-  return frame_path(scene) == FramePath::reduce ? coupling::content_key(frame_origin(scene).recipe) : "";
-}
 
 /// The row of a run in the table.
 void enter(const RunRow &row, StudyTable &table)
@@ -66,15 +56,18 @@ bool StudyAnswer::complete() const
 
 StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyRunner &runner, const StudyCall &call)
 {
-  StudyAnswer       answer{empty_table(study, points), points.design, 0, false};
-  StudyTable       &table = answer.table;
-  const RowsText    text(study);
-  const StudyRecord record = record_of(study, runner.variants(), table.n_runs(), frame_key(runner, table.levels));
-  StudyFolder       folder(call.folder, record, text, table.levels);
-  for (const RunRow &row : folder.open(call.begin, call.share))
+  StudyAnswer               answer{empty_table(study, points), points.design, 0, false};
+  StudyTable               &table = answer.table;
+  const RowsText            text(study);
+  const StudyRecord         record = record_of(study, runner.variants(), table.n_runs());
+  StudyFolder               folder(call.folder, record, text, table.levels);
+  const std::vector<RunRow> there = folder.open(call.begin, call.share);
+  for (const RunRow &row : there)
     enter(row, table);
   for (std::size_t i = 0; i < folder.units().size(); ++i)
     table.outputs.at(i).unit = folder.units()[i];
+  if (call.learned && !folder.units().empty())
+    call.learned(table.outputs);
   std::vector<RunOrder> orders;
   for (int run = 1; run <= table.n_runs(); ++run)
     if (call.share.has(run) && table.runs[std::size_t(run) - 1].status == RunStatus::waiting)
@@ -86,12 +79,26 @@ StudyAnswer make_study(const StudyFile &study, const StudyPoints &points, StudyR
       rows.append(text.line(row, table.levels.row(row.run - 1).transpose()));
       enter(row, table);
       if (folder.units().empty() && !row.units.empty())
+      {
         folder.keep_units(row.units);
+        if (call.learned)
+          call.learned(table.outputs);
+      }
       ++answer.n_made;
       if (call.progress)
         call.progress(answer.n_made, int(orders.size()));
     };
-    make_runs(runner, text, orders, call.jobs, *call.stop, take);
+    const FirstRun first = table.n_done() > 0 ? FirstRun::is_one_of_many : FirstRun::decides;
+    try
+    {
+      make_runs(runner, text, orders, call.jobs, first, *call.stop, take);
+    }
+    catch (const std::invalid_argument &) // the study itself is wrong
+    {
+      if (there.empty() && table.n_done() == 0)
+        std::filesystem::remove(folder.rows_file(call.share));
+      throw;
+    }
   }
   if (call.waits_for_shares)
     wait_for(folder, table.n_runs(), *call.stop);

@@ -18,6 +18,8 @@ struct StudyCall
   bool                                      waits_for_shares = false;   ///< others are being made; merges all
   const std::atomic<bool>                  *stop             = nullptr; ///< must not be null
   std::function<void(int done, int n_runs)> progress{};
+  /// Hears the outputs with their units once a run has told them; what it throws ends the study.
+  std::function<void(const std::vector<StudyOutput> &outputs)> learned{};
 };
 
 /// A study with all its rows, as far as they are made.

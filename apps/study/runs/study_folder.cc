@@ -52,7 +52,10 @@ StudyShare share_of(const std::string &text)
   }
   catch (const std::logic_error &)
   {
-    throw std::invalid_argument("--share " + text + ": needs a part and their number, from 1/10 to 10/10");
+    throw std::invalid_argument(
+        "--share " + text +
+        ": needs the number of a part and how many there are, such as 3/10; the first is not above the "
+        "second, none is below 1");
   }
   return share;
 }
@@ -131,19 +134,33 @@ std::vector<RunRow> StudyFolder::begun_anew()
   return {};
 }
 
+/// Without --resume: a call that makes all runs, where no rows of shares wait to be merged.
+bool StudyFolder::begins_anew(Begin begin, const StudyShare &share) const
+{
+  if (begin == Begin::resumed || !share_files().empty())
+    return false;
+  const std::size_t there = n_lines(folder_ / "runs.csv");
+  if (!share.is_whole() && !share.together && there > 0)
+    throw std::invalid_argument(
+        folder_.string() + ": holds " + std::to_string(there) +
+        " rows of this study already; make what is missing with --resume, or remove runs.csv to "
+        "begin anew");
+  return share.is_whole() || (share.together && there > 0);
+}
+
 std::vector<RunRow> StudyFolder::open(Begin begin, const StudyShare &share)
 {
   refuse_other_study();
-  const bool shares = !share_files().empty();
-  if (share.is_whole() && begin == Begin::anew && !shares)
+  if (begins_anew(begin, share))
     return begun_anew();
+  const bool shares = !share_files().empty();
   if (shares || n_lines(folder_ / "runs.csv") > 0)
     refuse_changes();
   if (begin == Begin::anew && !share.is_whole() && n_lines(rows_file(share)) > 0)
     throw std::invalid_argument(rows_file(share).string() + ": holds rows of this share already; go on with --resume, "
                                                             "or remove it");
   fs::create_directories(folder_);
-  if (const auto before = read_record(folder_ / "study.json"))
+  if (const auto before = read_record(folder_ / "study.json"); before && differences(*before, record_).empty())
     record_.units = before->units;
   write_record(folder_ / "study.json", record_);
   std::vector<RunRow> known = rows();

@@ -12,7 +12,8 @@ namespace gestell::apps
 /// A part of a study: runs whose number leaves the remainder `part` - 1 by `of`.
 struct StudyShare
 {
-  int part = 1, of = 1;
+  int  part = 1, of = 1;
+  bool together = false; ///< one call makes all of them, as mpirun does
 
   bool is_whole() const { return of == 1; }
   bool has(int run) const { return (run - 1) % of == part - 1; }
@@ -46,7 +47,8 @@ public:
    *
    * @return rows that are there already
    * @throws std::invalid_argument for rows of another study, of a study that was changed since (with what was), of an
-   * unfinished one where `begin` is anew, and of a share that has rows already
+   * unfinished one where `begin` is anew, of a share that has rows already, and for a share by itself of a study that
+   * is finished
    */
   std::vector<RunRow> open(Begin begin, const StudyShare &share);
 
@@ -64,6 +66,7 @@ public:
 
 private:
   std::vector<RunRow>                begun_anew();
+  bool                               begins_anew(Begin begin, const StudyShare &share) const;
   std::vector<std::filesystem::path> share_files() const;
   void                               refuse_other_study() const;
   void                               refuse_changes() const;

@@ -2,6 +2,8 @@
 
 #include "apps/output/text/json.h"
 #include "apps/output/text/write_file.h"
+#include "coupling/frame/sha256.h"
+#include "coupling/frame/source_files.h"
 
 #include <algorithm>
 #include <fstream>
@@ -39,24 +41,51 @@ bool matters(const std::string &key)
   return std::find(others.begin(), others.end(), key) == others.end();
 }
 
+template <typename Leaves>
+void leave_out(SceneNode &table, const Leaves &leaves)
+{
+  table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(),
+                                     [&](const SceneNode::Entry &entry) { return leaves(entry.first); }),
+                      table.entries.end());
+}
+
 SceneNode without_words(const SceneNode &root)
 {
   SceneNode node = root;
-  node.entries.erase(std::remove_if(node.entries.begin(), node.entries.end(),
-                                    [](const SceneNode::Entry &entry) { return !matters(entry.first); }),
-                     node.entries.end());
+  leave_out(node, [](const std::string &key) { return !matters(key); });
+  if (SceneNode *variables = node.find("variables"))
+    for (auto &[name, variable] : variables->entries)
+      leave_out(variable, [](const std::string &key) { return key == "scatter" || key == "width"; });
   return node;
+}
+
+/// Content of every file that a text in the node names.
+void add_contents(const SceneNode &node, Entries &entries)
+{
+  for (const auto &[key, value] : node.entries)
+    add_contents(value, entries);
+  for (const SceneNode &element : node.elements)
+    add_contents(element, entries);
+  std::error_code             none;
+  const std::filesystem::path file = std::filesystem::path(node.folder) / node.text;
+  if (node.type != SceneNode::Type::text || node.text.empty() || !std::filesystem::is_regular_file(file, none))
+    return;
+  for (const std::string &source : coupling::source_files(file.string()).found)
+    entries["content of " + std::filesystem::proximate(source, node.folder).generic_string()] =
+        coupling::sha256_of_file(source);
 }
 
 } // namespace
 
-StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int n_runs, const std::string &frame_key)
+StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int n_runs)
 {
   StudyRecord record{study.name, n_runs, {}, {}};
   flatten(without_words(study.root), "", record.entries);
   flatten(without_words(variants.root()), "scene", record.entries);
-  if (!frame_key.empty())
-    record.entries["content of the frame's files"] = frame_key;
+  add_contents(variants.root(), record.entries);
+  for (const VariableRequest &request : study.variables)
+    for (const SceneNode &choice : request.choices)
+      add_contents(choice, record.entries);
   return record;
 }
 

@@ -21,8 +21,9 @@ struct StudyRecord
   std::vector<std::string>           units{};   ///< of the outputs; empty: no run has told them yet
 };
 
-/// @param frame_key  of the frame's content, or ""
-StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int n_runs, const std::string &frame_key);
+/// Of all that rows depend on: not of scatter, which is about what is made of them.  Files that the scene or a choice
+/// of a variable names count by their content, with those that they name (coupling::source_files()).
+StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int n_runs);
 
 /// Nothing if there is none.  @throws std::invalid_argument if it cannot be read
 std::optional<StudyRecord> read_record(const std::filesystem::path &file);

@@ -1,16 +1,21 @@
 #include "apps/study/runs/study_runner.h"
 
 #include "apps/output/result_folder.h"
+#include "apps/scene/file/scene_override.h"
 #include "apps/session/session.h"
 #include "apps/study/runs/run_derivatives.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 
 namespace gestell::apps
 {
 namespace
 {
+
+constexpr int    most_attempts = 5;    ///< to find what a run tells of its own parameters
+constexpr double settled_to    = 1e-9; ///< of such a parameter
 
 /// [s] of the processor that this process took so far.
 double cpu_of_process()
@@ -34,25 +39,93 @@ StudyRunner::StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, 
     : variables_(study.variables), variants_(study, scripts), frames_(!kept.empty()),
       outputs_((variants_.check_ranges(levels), study), variants_.at(variants_.middle()),
                variants_.parameters_at(variants_.middle())),
-      kept_(kept)
+      measures_(study.measures), kept_(kept)
 {
+  const Scene scene = variants_.at(variants_.middle());
+  for (const RunParameter &measure : measures_)
+    try
+    {
+      answer_entry::check(key_segments(measure.entry, measure.place), scene);
+    }
+    catch (const std::invalid_argument &error)
+    {
+      measure.place.fail("scene.measure." + measure.parameter + ": " + error.what());
+    }
 }
 
 void StudyRunner::leave_out_unread(Scene &scene) const
 {
-  const auto &read = outputs_.signals();
+  std::vector<std::string> read = outputs_.signals();
+  for (const RunParameter &measure : measures_)
+    if (const auto segments = key_segments(measure.entry, measure.place); segments.front() == "signals")
+      read.push_back(segments[1]);
   scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(),
                                      [&](const SignalRequest &signal)
                                      { return std::find(read.begin(), read.end(), signal.name) == read.end(); }),
                       scene.signals.end());
   coupling::RunOptions &run = scene.run.options;
-  run.picture_step          = 0.;
-  run.output_step           = run.end - run.begin;
+  run.picture_step          = 0.; // rows stay: extremes are looked for at them, too
   run.energy                = outputs_.reads("energy");
+}
+
+/// Sets the measured parameters by a run; whether it was made with these values already.  An event that it did not
+/// reach is looked for until twice the time.
+bool StudyRunner::measure(const Result &result, const Eigen::VectorXd &levels)
+{
+  bool settled = true;
+  for (const RunParameter &measure : measures_)
+  {
+    const double used = variants_.measured(measure, levels);
+    AnswerValue  told = answer_entry::value(key_segments(measure.entry, measure.place), result);
+    if (!std::isfinite(told.value))
+      told.value = 2. * used;
+    settled = settled && std::abs(told.value - used) <= settled_to * std::abs(told.value);
+    variants_.set_measured(measure, told.value, told.unit);
+  }
+  return settled;
+}
+
+/// Runs until what it tells of its own parameters is what it was made with.
+Result StudyRunner::settled_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
+                                   const std::string &sensitivities)
+{
+  for (int attempt = 1;; ++attempt)
+  {
+    Result result = single_result(levels, stop, sensitivities);
+    if (measures_.empty() || result.run->interrupted || !result.run->failure.empty() || measure(result, levels))
+      return result;
+    if (attempt == most_attempts)
+      throw std::invalid_argument(
+          measures_.front().place.text() + ": scene.measure: after " + std::to_string(most_attempts) +
+          " runs what they tell of their own parameters has not settled; is the event reached?");
+  }
+}
+
+/// From the same guess, whichever run this process made before.
+void StudyRunner::settle(const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
+{
+  if (!measures_.empty())
+    result_of(levels, stop, "");
 }
 
 Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
                               const std::string &sensitivities)
+{
+  if (!measures_.empty() && guesses_.empty())
+  {
+    Result middle = settled_result(variants_.middle(), stop, "");
+    if (middle.run->interrupted || !middle.run->failure.empty())
+      return middle;
+    for (const RunParameter &measure : measures_)
+      guesses_.push_back(answer_entry::value(key_segments(measure.entry, measure.place), middle));
+  }
+  for (std::size_t i = 0; i < measures_.size(); ++i)
+    variants_.set_measured(measures_[i], guesses_[i].value, guesses_[i].unit);
+  return settled_result(levels, stop, sensitivities);
+}
+
+Result StudyRunner::single_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
+                                  const std::string &sensitivities)
 {
   Scene scene = variants_.at(levels);
   if (kept_.empty() && sensitivities.empty()) // the scenes just beside have all signals
@@ -99,31 +172,43 @@ RunRow StudyRunner::run(int number, const Eigen::VectorXd &levels, const std::at
   }
   if (derivatives)
     *derivatives = derivatives_or_none(*result, levels);
+  row.cpu_s = spent();
+  read_outputs(*result, levels, row);
+  return row;
+}
+
+/// What is wrong for all runs is told apart from a formula that has no value in this one.
+void StudyRunner::read_outputs(const Result &result, const Eigen::VectorXd &levels, RunRow &row)
+{
+  const Parameters parameters = variants_.parameters_at(levels);
+  row.lacks_output            = true;
   try
   {
-    for (const AnswerValue &value : outputs_.of(*result, variants_.parameters_at(levels), levels))
+    const std::vector<AnswerValue> entries = outputs_.entries_of(result);
+    if (!units_checked_)
+      outputs_.check_units(entries, parameters, levels);
+    units_checked_   = true;
+    row.lacks_output = false;
+    for (const AnswerValue &value : outputs_.values_of(entries, parameters, levels))
     {
       row.values.push_back(value.value);
       row.units.push_back(value.unit);
     }
+    row.status = RunStatus::done;
   }
   catch (const std::invalid_argument &error)
   {
-    if (!any_done_)
-      throw;
     row.values.clear();
     row.units.clear();
-    row.cpu_s = spent();
-    return failed(row, error.what());
+    row.status  = RunStatus::failed;
+    row.message = error.what();
   }
-  any_done_  = true;
-  row.status = RunStatus::done;
-  row.cpu_s  = spent();
-  return row;
 }
 
 Eigen::MatrixXd StudyRunner::derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const
 {
+  if (!measures_.empty()) // they vary, too
+    return {};
   try
   {
     return output_derivatives(outputs_, result, variants_, variables_, levels);

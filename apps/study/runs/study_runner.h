@@ -28,8 +28,7 @@ public:
   /**
    * @param levels  values of the variables
    * @param stop    ends the run, whose row then is `waiting`; may be null
-   * @return a row that is `failed` where the scene refuses the levels or the computation fails
-   * @throws std::invalid_argument where the first run has no such output; of a later one the row has failed
+   * @return a row that is `failed` where the scene refuses the levels, the computation fails, or an output has no value
    */
   RunRow run(int number, const Eigen::VectorXd &levels, const std::atomic<bool> *stop)
   {
@@ -40,9 +39,17 @@ public:
 
   const SceneVariants &variants() const { return variants_; }
 
+  /// Sets what runs of the scene tell of its own parameters, [scene.measure], to what holds at these levels.
+  void settle(const Eigen::VectorXd &levels, const std::atomic<bool> *stop);
+
 private:
+  /// One run with the parameters as they are measured so far.
+  Result single_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
+  bool   measure(const Result &result, const Eigen::VectorXd &levels);
+  Result settled_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
   Result result_of(const Eigen::VectorXd &levels, const std::atomic<bool> *stop, const std::string &sensitivities);
   void   leave_out_unread(Scene &scene) const;
+  void   read_outputs(const Result &result, const Eigen::VectorXd &levels, RunRow &row);
   void   keep(int number, const Result &result) const;
 
   std::vector<VariableRequest> variables_;
@@ -51,9 +58,11 @@ private:
   /// None where the machine or an output has none: the search then takes differences of runs.
   Eigen::MatrixXd derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const;
 
-  OutputFormulas        outputs_;
-  std::filesystem::path kept_;
-  bool                  any_done_ = false; ///< outputs could be read
+  OutputFormulas            outputs_;
+  std::vector<RunParameter> measures_;
+  std::vector<AnswerValue>  guesses_; ///< of the measures, at the middle of all ranges
+  std::filesystem::path     kept_;
+  bool                      units_checked_ = false; ///< outputs make sense, as a run told
 };
 
 /// Folder of a run's own results, from that of the study: "run_12".

@@ -167,15 +167,29 @@ ResponseSurface unfitted(const StudyOutput &output, const std::vector<std::strin
   return model;
 }
 
+/// Why a fit has fewer runs than the design.
+std::string missing_text(const StudyTable &table, std::size_t n_with)
+{
+  const int failed = table.n_runs() - table.n_done(), valueless = table.n_done() - int(n_with);
+  if (failed + valueless == 0)
+    return "";
+  return " (" + std::to_string(failed) + " of " + count_text(table.n_runs(), "run") + " failed or wait" +
+         (valueless > 0 ? ", " + std::to_string(valueless) + " have no value of it)" : ")");
+}
+
 } // namespace
 
 double ResponseSurface::value(const Eigen::VectorXd &xi) const
 {
+  if (!is_fitted())
+    return not_a_number;
   return terms_at(*this, xi).dot(coefficients);
 }
 
 Eigen::VectorXd ResponseSurface::gradient(const Eigen::VectorXd &xi) const
 {
+  if (!is_fitted())
+    return Eigen::VectorXd::Constant(xi.size(), not_a_number);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(xi.size());
   for (std::size_t j = 0; j < terms.size(); ++j)
     terms[j].add_gradient(xi, coefficients(static_cast<Eigen::Index>(j)), sum);
@@ -197,25 +211,34 @@ ResponseSurface fit_surface(const Eigen::MatrixXd &coded, const Eigen::VectorXd 
   return fit_by(LeastSquares(X, names_of_terms(model)), model, coded, X);
 }
 
-std::vector<ResponseSurface> fit_surfaces(const StudyTable &table, const SurfaceOptions &options)
-try
+std::vector<ResponseSurface> fit_surfaces(const StudyTable &table, const SurfaceOptions &options,
+                                          std::vector<std::string> *without)
 {
-  const StudyTable             usable    = table.usable();
-  const Eigen::MatrixXd        coded     = usable.coded();
+  const Eigen::MatrixXd        coded     = table.coded();
   const auto                   variables = names_of(table.variables);
   std::vector<ResponseSurface> surfaces;
-  for (std::size_t i = 0; i < usable.outputs.size(); ++i)
-    surfaces.push_back(
-        fit_surface(coded, usable.values.col(static_cast<Eigen::Index>(i)), usable.outputs[i], variables, options));
+  std::vector<std::string>     reasons;
+  for (std::size_t i = 0; i < table.outputs.size(); ++i)
+  {
+    const std::vector<int> runs   = table.runs_with(int(i));
+    const Eigen::VectorXd  values = table.values.col(Eigen::Index(i))(runs);
+    try
+    {
+      surfaces.push_back(fit_surface(coded(runs, Eigen::all), values, table.outputs[i], variables, options));
+      surfaces.back().runs = runs;
+    }
+    catch (const std::invalid_argument &error)
+    {
+      surfaces.push_back(unfitted(table.outputs[i], variables, options, values));
+      reasons.push_back("output " + table.outputs[i].name + " has no surface: " + error.what() +
+                        missing_text(table, runs.size()));
+    }
+  }
+  if (reasons.size() == table.outputs.size() && !reasons.empty())
+    throw std::invalid_argument(reasons.front());
+  if (without)
+    *without = reasons;
   return surfaces;
-}
-catch (const std::invalid_argument &error)
-{
-  const int missing = table.n_runs() - static_cast<int>(table.usable_runs().size());
-  if (missing == 0)
-    throw;
-  throw std::invalid_argument(std::string(error.what()) + " (" + std::to_string(missing) + " of " +
-                              count_text(table.n_runs(), "run") + " failed or wait)");
 }
 
 } // namespace gestell::apps

@@ -44,10 +44,12 @@ struct ResponseSurface
   FitQuality               quality{};
 
   // By run of the fit.
-  Eigen::VectorXd computed{}, fitted{};
-  Eigen::VectorXd leverage{}; ///< h_ii, of 0 to 1; 1: the surface goes through this run whatever it says
-  Eigen::VectorXd left_out{}; ///< what the surface of all other runs says; nan where h_ii = 1
+  std::vector<int> runs{}; ///< their rows in the table of the study
+  Eigen::VectorXd  computed{}, fitted{};
+  Eigen::VectorXd  leverage{}; ///< h_ii, of 0 to 1; 1: the surface goes through this run whatever it says
+  Eigen::VectorXd  left_out{}; ///< what the surface of all other runs says; nan where h_ii = 1
 
+  bool            is_fitted() const { return coefficients.size() > 0; } ///< else it has no values
   double          value(const Eigen::VectorXd &xi) const;
   Eigen::VectorXd gradient(const Eigen::VectorXd &xi) const;
   /// Standard error of the fitted mean: sigma sqrt(t^T (X^T X)^-1 t).
@@ -71,8 +73,10 @@ struct SurfaceOptions
 ResponseSurface fit_surface(const Eigen::MatrixXd &coded, const Eigen::VectorXd &y, const StudyOutput &output,
                             const std::vector<std::string> &variables, const SurfaceOptions &options = {});
 
-/// One surface per output, of the runs that are usable (study_table.h).
-/// @throws std::invalid_argument as fit_surface, telling how many runs have failed
-std::vector<ResponseSurface> fit_surfaces(const StudyTable &table, const SurfaceOptions &options = {});
+/// One surface per output, of the runs that have a value of it; is_fitted() is false where those are too few.
+/// @param without  becomes why surfaces are not fitted, one line each; may be null
+/// @throws std::invalid_argument as fit_surface where no output has a surface, telling how many runs have failed
+std::vector<ResponseSurface> fit_surfaces(const StudyTable &table, const SurfaceOptions &options = {},
+                                          std::vector<std::string> *without = nullptr);
 
 } // namespace gestell::apps

@@ -1,6 +1,6 @@
 #include "apps/study/surface/surface_term.h"
 
-#include "fem/values/nearest_name.h"
+#include "apps/study/values/word_choice.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -39,11 +39,7 @@ std::string term_name(const SurfaceTerm &term, const std::vector<std::string> &v
 
 SurfaceOrder surface_order(const std::string &word)
 {
-  const auto found = std::find(order_words.begin(), order_words.end(), word);
-  if (found == order_words.end())
-    throw std::invalid_argument("study: surface of order \"" + word + "\" does not exist" +
-                                suggestion(word, order_words));
-  return static_cast<SurfaceOrder>(found - order_words.begin());
+  return static_cast<SurfaceOrder>(word_choice(word, order_words, "order of a surface"));
 }
 
 const std::string &order_word(SurfaceOrder order)

@@ -1,6 +1,7 @@
 #include "apps/study/values/study_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -30,11 +31,24 @@ int StudyTable::n_done() const
       std::count_if(runs.begin(), runs.end(), [](const StudyRun &run) { return run.status == RunStatus::done; }));
 }
 
-std::vector<int> StudyTable::usable_runs() const
+std::vector<int> StudyTable::runs_with(int output) const
 {
   std::vector<int> rows;
   for (int run = 0; run < n_runs(); ++run)
-    if (runs[run].status == RunStatus::done && values.row(run).allFinite())
+    if (runs[run].status == RunStatus::done && std::isfinite(values(run, output)))
+      rows.push_back(run);
+  return rows;
+}
+
+std::vector<int> StudyTable::usable_runs() const
+{
+  std::vector<Eigen::Index> told;
+  for (std::size_t output = 0; output < outputs.size(); ++output)
+    if (!runs_with(int(output)).empty())
+      told.push_back(Eigen::Index(output));
+  std::vector<int> rows;
+  for (int run = 0; run < n_runs(); ++run)
+    if (runs[run].status == RunStatus::done && values(run, told).allFinite())
       rows.push_back(run);
   return rows;
 }

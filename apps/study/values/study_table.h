@@ -41,7 +41,9 @@ struct StudyTable
   int n_runs() const { return static_cast<int>(runs.size()); }
   int n_done() const;
 
-  /// The runs that are done and have all outputs finite, with their numbers in this table.
+  /// Runs that are done and have a value of the output.
+  std::vector<int> runs_with(int output) const;
+  /// Runs that are done and have a value of every output that any of them has, with their numbers in this table.
   std::vector<int> usable_runs() const;
   StudyTable       usable() const;
 

@@ -375,6 +375,43 @@ TEST(Robust, CountsDrawsThatFailBreakLimitsOrLeaveTheRange)
               0.03);
 }
 
+TEST(Robust, HasFiguresOfTheOutputsThatDrawsHave)
+{
+  Eigen::MatrixXd values(3, 2);
+  values << 1., not_a_number, 2., not_a_number, 3., not_a_number;
+  const RobustResult some = robust_figures(values, {{"y"}, {"t"}}, {}, Eigen::Vector2d(2.5, not_a_number));
+  ASSERT_EQ(some.figures.size(), 1u);
+  EXPECT_EQ(some.failed, 0);
+  EXPECT_EQ(some.figures.front().nominal, 2.5);
+}
+
+// Searches that know nothing of each other find what they find.
+TEST(Optimum, OfSearchesSideBySideIsThatOfOneAfterAnother)
+{
+  OptimumTask task;
+  task.goals                = {{0}};
+  task.low                  = Eigen::Vector2d::Constant(-1.);
+  task.high                 = Eigen::Vector2d::Constant(1.);
+  const OutputModel valleys = [](const Eigen::VectorXd &x, Derivatives)
+  {
+    OutputPoint point;
+    point.values = Eigen::VectorXd::Constant(1, std::cos(7. * x[0]) + std::cos(5. * x[1]) + 0.1 * x.sum());
+    return point;
+  };
+  OptimumOptions options;
+  options.method         = SearchMethod::derivative_free;
+  options.starts         = 9;
+  const Optimum alone    = find_optimum(valleys, task, options);
+  options.side_by_side   = 4;
+  const Optimum together = find_optimum(valleys, task, options);
+  ASSERT_EQ(together.searches.size(), 9u);
+  for (std::size_t i = 0; i < 9; ++i)
+    EXPECT_LT((together.searches[i].to - alone.searches[i].to).norm(), 1e-6) << i;
+  const OutputModel fails = [](const Eigen::VectorXd &, Derivatives) -> OutputPoint
+  { throw std::invalid_argument("no such run"); };
+  expect_refusal([&] { find_optimum(fails, task, options); }, "no such run");
+}
+
 TEST(Robust, RefusesVariablesThatDoNotScatterAndTooFewDraws)
 {
   expect_refusal([] { scattered_points(Eigen::Vector2d::Zero(), scattering(Scatter::none), 10, 1); },

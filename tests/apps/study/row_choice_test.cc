@@ -48,6 +48,20 @@ TEST(RowChoice, IsTheBestRunThatKeepsAllLimits)
   EXPECT_EQ(choice.kept, (std::vector<int>{0, 1, 3}));
 }
 
+TEST(RowChoice, HasTheBestOfEveryFamilyWithItsOwnWindow)
+{
+  StudyTable table =
+      table_of({{0, 1, 10, 1.4}, {0, 2, 30, 1.3}, {1, 1, 20, 1.5}, {1, 2, 15, 1.4}, {1, 3, 50, 1.1}, {2, 1, 1, 1.}});
+  table.variables[0].words = {"true", "false", "cosine"};
+  const RowChoice choice   = choose_row(table, largest_force());
+  ASSERT_EQ(choice.families.size(), 3u);
+  EXPECT_EQ(choice.families[1].best, 2);
+  EXPECT_EQ(choice.families[1].window, (std::vector<int>{2, 3}));
+  EXPECT_EQ(choice.families[2].best, -1);
+  EXPECT_EQ(family_of(table, choice.task, 0), "profile");
+  EXPECT_EQ(family_of(table, choice.task, 2), "not profile");
+}
+
 TEST(RowChoice, HasTheWindowOfItsFamilyUpToTheFirstRunThatBreaksALimit)
 {
   const StudyTable table =

@@ -1,5 +1,6 @@
 #include "apps/study/file/read_analysis.h"
 #include "apps/study/file/read_design.h"
+#include "fem/values/number_text.h"
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
 
@@ -58,6 +59,40 @@ TEST(StudyFile, AListIsTakenAsItIsWrittenAndRepeatedForLevels)
   EXPECT_EQ(points.levels(3, 1), 0.2);
 }
 
+// -1 + 2 * 9/20 is not -0.1 but -0.09999999999999998 or -0.0999999999999992, as the coded value is rounded.
+TEST(StudyFile, LevelsHaveNoDigitsOfRounding)
+{
+  const Written written(the_scene + "[variables.c_P]\nfrom = -1\nto = 1\n[variables.s_cl]\nfrom = 0.7\nto = 1.3\n" +
+                        outputs + "[design]\ntype = 'full factorial'\nlevels = 21\n");
+  const auto    levels = written.points().levels;
+  for (Eigen::Index row = 0; row < levels.rows(); ++row)
+    for (Eigen::Index j = 0; j < 2; ++j)
+      EXPECT_LE(exact_text(levels(row, j)).size(), 5u) << exact_text(levels(row, j));
+}
+
+TEST(StudyFile, ValuesOfOutputsAreComparedWithTheirUnits)
+{
+  const std::vector<StudyOutput> told{{"F", "N"}, {"G", "kg"}};
+  const auto                     with = [&](const std::string &analysis)
+  {
+    return [&, analysis]
+    { check_units(Written(everything + "[design]\ntype = 'list'\n" + analysis).analysis(9).claims, told); };
+  };
+  expect_refusal(with("[optimise.goals.F]\nscale = '600 kg'\n"),
+                 "study.toml:14: optimise.goals.F.scale: is in kg, but output F is in N");
+  expect_refusal(with("[optimise.goals.F]\n[optimise.limits.G]\nmost = '5 mm'\n"),
+                 "optimise.limits.G.most: is in m, but output G is in kg");
+  expect_refusal(with("[optimise.goals.F]\n[optimise.goals.G]\n"), "give each goal a scale");
+  expect_refusal(with("[choose.goals.F]\nscale = '1 kN'\n[choose.goals.G]\n"), "give each goal a scale");
+  expect_refusal(
+      [] {
+        check_units({{{0, {1., {1., 0., 0.}}, "limit: "}}, {}}, {{"nu", ""}});
+      },
+      "limit: is in m, but output nu has no unit; give it in such a unit, as a plain number");
+  EXPECT_NO_THROW(with("[optimise.goals.F]\nscale = '600 kN'\n[optimise.limits.F]\nleast = 0\nmost = '1 MN'\n")());
+  EXPECT_NO_THROW(with("[optimise.goals.F]\nscale = 1e5\n[optimise.goals.G]\nscale = '1 t'\n")());
+}
+
 TEST(StudyFile, WordsStandForThemselves)
 {
   const Written written(the_scene + "[variables.law]\nkey = 'run.method'\nlevels = ['bdf', 'newmark']\n" + outputs +
@@ -88,6 +123,20 @@ TEST(StudyFile, WhatIsWrongIsToldWithItsPlace)
   says(everything + "[design]\ntype = 'list'\ncolumns = ['c_p']\nrows = [[800]]\n",
        "there is no variable 'c_p'; did you mean 'c_P'?");
   says(the_scene + outputs, "needs variables");
+  const auto one = [&](const std::string &variable)
+  { return the_scene + "[variables.c_P]\n" + variable + "\n" + outputs + "[design]\ntype = 'full factorial'\n"; };
+  says(one("from = '800 kN/mm'\nto = '800 kN/mm'"), "needs a value above 'from' = 800, got 800");
+  says(one("levels = ['800 kN/mm']"), "needs an array of two values or more");
+  says(one("levels = ['800 kN/mm', '800 kN/mm']"), "fewer than two different values");
+  says(one("from = '1 N/m'\nto = '2 N/m'\nscatter = 'normal'\nwidth = '0 N/m'"),
+       "width: needs a number above 0, got 0");
+  says(everything + "[design]\ntype = 'Sobol'\nruns = 0\n", "study.toml:11: design: study: Sobol points");
+  const std::string factorial = everything + "[design]\ntype = 'full factorial'\n";
+  says(factorial + "[surface]\nconfidence = 1\n", "confidence: needs a number above 0 and below 1, such as 0.95");
+  says(the_scene + "[variables.law]\nkey = 'run.method'\nlevels = ['bdf', 'newmark']\n" + outputs +
+           "[design]\ntype = 'full factorial'\n[surface]\n",
+       "variable law takes words, between which there is nothing");
+  says(factorial + "[optimise.goals.f]\n", "there is no output 'f'; did you mean 'F'?");
   says(the_scene + variables, "needs a table [outputs]");
   says(everything + "run = '1'\n", "'run' is a column of runs.csv already");
   says(everything + "[variables.c2]\nkey = 'parameters.c_P'\nfrom = 1\nto = 2\n",

@@ -1,9 +1,14 @@
+#include "apps/scene/file/scene_file.h"
 #include "apps/session/session.h"
+#include "apps/study/file/event_kinds.h"
+#include "apps/study/results/optimum_scene.h"
 #include "apps/study/runs/study_answer.h"
 #include "tests/support/program.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
 
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace gestell::tests
@@ -123,6 +128,159 @@ TEST(StudyRuns, ThatFailAreToldAndTheOthersGoOn)
   EXPECT_EQ(answer.n_failed(), 3);
   EXPECT_EQ(answer.table.runs[2].status, RunStatus::failed);
   EXPECT_THAT(rows_of(folder), ::testing::HasSubstr("takes the root of a negative number"));
+}
+
+TEST(StudyRuns, WithoutAValueInTheFirstAreFailedOnesInEveryProcess)
+{
+  const Folder folder("study_first_failed");
+  for (const int jobs : {1, 3})
+  {
+    const StudyAnswer answer = answered(small(folder), folder, {"outputs.root=\"sqrt(s_cl - 0.3 mm)\""}, jobs);
+    EXPECT_EQ(answer.table.n_done(), 6) << jobs;
+    EXPECT_EQ(answer.table.runs[0].status, RunStatus::failed) << jobs;
+  }
+  for (const int jobs : {1, 3})
+    for (const char *formula : {"signals.F_P.max + 1 kg", "model.frame_mas"})
+    {
+      const Folder lacking("study_lacking");
+      EXPECT_NE(
+          refusal([&] { answered(small(lacking), lacking, {std::string("outputs.F=\"") + formula + '"'}, jobs); }), "")
+          << formula;
+      EXPECT_FALSE(std::filesystem::exists(lacking.results() / "runs.csv"));
+    }
+}
+
+// The play is above 0.3 mm in some runs of each design, and below in others.
+TEST(StudyRuns, ThatFailLeaveTheOthersInEveryDesign)
+{
+  for (const char *design : {"{ type = 'list', rows = [['900 kN/mm', '0.2 mm'], ['900 kN/mm', '0.5 mm']] }",
+                             "{ type = 'full factorial' }", "{ type = 'central composite', star = 'face-centred' }",
+                             "{ type = 'Latin hypercube', runs = 4 }", "{ type = 'Sobol', runs = 4 }"})
+  {
+    const Folder      folder("study_design_failed");
+    const StudyAnswer answer =
+        answered(small(folder), folder, {std::string("design=") + design, "outputs.root=\"sqrt(s_cl - 0.3 mm)\""});
+    EXPECT_TRUE(answer.complete()) << design;
+    EXPECT_GT(answer.n_failed(), 0) << design;
+    EXPECT_GT(answer.table.n_done(), 0) << design;
+  }
+}
+
+TEST(StudyRuns, OfAFinishedStudyAreBegunAnewByRanksTogether)
+{
+  const Folder folder("study_anew");
+  answered(small(folder), folder);
+  EXPECT_EQ(answered(small(folder), folder, {}, 1, {1, 2, true}).n_made, 5);
+  EXPECT_EQ(answered(small(folder), folder, {}, 1, {2, 2, true}).n_made, 4);
+  EXPECT_EQ(answered(small(folder), folder).table.n_done(), 9);
+}
+
+TEST(StudyRuns, HaveTheUnitsOfTheirOwnStudy)
+{
+  const Folder folder("study_units");
+  answered(small(folder), folder);
+  std::filesystem::remove(folder.results() / "runs.csv");
+  const StudyAnswer share = answered(small(folder), folder, {"outputs.F=\"signals.F_P.t_max\""}, 1, {1, 2});
+  EXPECT_EQ(share.table.outputs[0].unit, "s");
+}
+
+TEST(StudyRuns, AreNotGoneOnWithAfterAFileOfAnyVariantWasChanged)
+{
+  const Folder folder("study_files");
+  for (const char *file : {"thin.geo", "thick.geo", "part.geo"})
+    folder.file(file, std::string("// ") + file);
+  folder.file("thick.geo", "Include \"part.geo\";");
+  folder.file("s.toml", "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/press.toml'\n"
+                        "[variables.frame]\nkey = 'frame.cad'\n"
+                        "choices = { thin = 'thin.geo', thick = 'thick.geo' }\n"
+                        "[variables.c_P]\nfrom = '1 N/m'\nto = '2 N/m'\nscatter = 'normal'\nwidth = '1 N/m'\n"
+                        "[outputs]\nF = 'signals.F_P.max'\n[design]\ntype = 'full factorial'\n");
+  const auto record = [&](const std::vector<std::string> &set)
+  {
+    const StudyFile study = read_study((folder / "s.toml").string(), set);
+    return record_of(study, SceneVariants(study, fem::Scripts::harmless), 4);
+  };
+  const StudyRecord before = record({});
+  EXPECT_THAT(differences(before, record({"variables.c_P.width=2 N/m"})),
+              ::testing::IsEmpty()); // rows stay as they are
+  EXPECT_THAT(differences(before, record({"variables.c_P.to=3 N/m"})), ::testing::SizeIs(1));
+  folder.file("part.geo", "// other plates");
+  EXPECT_THAT(differences(before, record({})), ::testing::ElementsAre(::testing::HasSubstr("content of part.geo was")));
+}
+
+/// Kinds of the guards in the sources of a folder, as written: {"lift_off", Crossing::rising}, closing ? "taut" :
+/// "slack".
+std::set<std::string> guarded_kinds(const std::string &folder)
+{
+  const std::regex      guard("\\{\"([a-z_]+)\", *Crossing::"), branch("closing \\? \"([a-z_]+)\" : \"([a-z_]+)\"");
+  std::set<std::string> kinds;
+  for (const auto &file : std::filesystem::recursive_directory_iterator(GESTELL_SOURCE_DIR + folder))
+  {
+    if (!file.is_regular_file())
+      continue;
+    const std::string text = read(file.path());
+    for (const std::regex &form : {guard, branch})
+      for (std::sregex_iterator match(text.begin(), text.end(), form), end; match != end; ++match)
+        for (std::size_t i = 1; i < match->size(); ++i)
+          kinds.insert((*match)[i]);
+  }
+  return kinds;
+}
+
+TEST(EventKinds, AreThoseOfAllGuards)
+{
+  const std::set<std::string> guarded = guarded_kinds("/mechanism");
+  EXPECT_GT(guarded.size(), 25u);
+  for (const std::string &kind : guarded)
+    EXPECT_TRUE(is_event_kind(kind)) << kind;
+  EXPECT_TRUE(std::is_sorted(event_kinds().begin(), event_kinds().end()));
+  EXPECT_TRUE(is_event_kind("sign_1_rises"));
+  EXPECT_FALSE(is_event_kind("lift_of"));
+}
+
+// The limiter switches later the more it allows; the crane is followed for 0.3 s from there on.
+TEST(StudyRuns, TakeParametersThatTheyTellFromThemselves)
+{
+  const Folder folder("study_measure");
+  folder.file("s.toml", "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal.toml'\n"
+                        "measure = { t_0 = 'events.limiter.first' }\n"
+                        "[scene.set]\nrun = { method = 'bdf', order = 6, tolerance = 1e-9, end = 't_0 + 0.3 s' }\n"
+                        "parameters = { t_0 = '2.65 s' }\n"
+                        "[variables.limit]\nkey = 'switch.limiter.above'\nfrom = '280 kN'\nto = '300 kN'\n"
+                        "[outputs]\nfirst = 'events.limiter.first'\nassumed = 't_0'\nend = 'signals.F_h.final'\n"
+                        "[design]\ntype = 'full factorial'\n");
+  const std::string file   = (folder / "s.toml").string();
+  const StudyAnswer answer = answered(file, folder);
+  ASSERT_EQ(answer.table.n_done(), 2);
+  EXPECT_GT(column(answer, "first")[1], column(answer, "first")[0] + 0.1);
+  for (int run = 0; run < 2; ++run)
+    EXPECT_NEAR(column(answer, "assumed")[run] / column(answer, "first")[run], 1., 1e-9);
+  const Folder two("study_measure_two");
+  EXPECT_EQ(answered(file, two, {}, 2).table.values, answer.table.values);
+  const auto with = [&](const std::string &set) { return [&, set] { answered(file, two, {set}); }; };
+  expect_refusal(with("scene.measure={t_1=\"events.limiter.first\"}"), "has no such parameter");
+  expect_refusal(with("scene.measure={t_0=\"events.limitter.first\"}"), "did you mean 'limiter'?");
+  expect_refusal(with("variables.limit.key=\"parameters.t_0\""), "is varied by variable limit");
+}
+
+// A table of the study takes the place of the scene's; in a scene that extends it, the two would be merged.
+TEST(OptimumScene, HasNothingOfTheTablesThatTheStudyReplaces)
+{
+  const Folder        folder("study_optimum_scene");
+  const StudyFile     study = read_study(shipped_studies + "press_24.toml", {"run.order=4"});
+  const SceneVariants variants(study, fem::Scripts::harmless);
+  folder.file("optimum.toml", optimum_scene(study, variants, variants.middle(), folder / ""));
+  const SceneNode written = read_scene_file((folder / "optimum.toml").string(), {});
+  for (const char *table : {"run", "start"})
+  {
+    std::set<std::string> theirs, ours;
+    for (const auto &entry : variants.root().find(table)->entries)
+      ours.insert(entry.first);
+    for (const auto &entry : written.find(table)->entries)
+      theirs.insert(entry.first);
+    EXPECT_EQ(theirs, ours) << table;
+  }
+  EXPECT_EQ(written.find("run")->find("order")->number, 4.);
 }
 
 /// The press by a controlled step, and what it makes of stiffness and play.

@@ -267,6 +267,31 @@ TEST(ResponseSurface, OfATableLeavesOutRunsThatFailedAndTellsIfTooFewAreLeft)
   expect_refusal([&] { table.output_index("z"); }, "there are y");
 }
 
+// An event that never occurs says nothing of the forces.
+TEST(ResponseSurface, OfAnOutputThatNoRunHasIsLeftOutAlone)
+{
+  std::vector<StudyVariable> variables(3);
+  for (int i = 0; i < 3; ++i)
+    variables[i].name = three[i];
+  const Design design = box_behnken(3, 1);
+  StudyTable   table  = waiting_table(design, variables, {{"y", "N"}, {"t", "s"}, {"late", "s"}});
+  table.values.col(0) = computed(design.points, quadratic);
+  table.values.col(2).tail(12).setOnes(); // the first run is not needed
+  for (auto &run : table.runs)
+    run.status = RunStatus::done;
+  std::vector<std::string> without;
+  const auto               surfaces = fit_surfaces(table, {}, &without);
+  ASSERT_EQ(surfaces.size(), 3u);
+  EXPECT_NEAR(surfaces[0].value(Eigen::Vector3d(1., 1., 1.)), quadratic(Eigen::Vector3d(1., 1., 1.)), 1e-12);
+  EXPECT_FALSE(surfaces[1].is_fitted());
+  EXPECT_TRUE(std::isnan(surfaces[1].value(Eigen::Vector3d::Zero())));
+  EXPECT_EQ(surfaces[2].quality.n_runs, 12);
+  ASSERT_EQ(without.size(), 1u);
+  EXPECT_THAT(without[0], ::testing::AllOf(::testing::HasSubstr("output t has no surface"),
+                                           ::testing::HasSubstr("13 have no value of it")));
+  EXPECT_EQ(table.usable_runs().size(), 12u);
+}
+
 TEST(Effects, AreTheDifferencesOfMeansOfAFactorialDesign)
 {
   const Eigen::MatrixXd points  = full_factorial(std::vector<std::vector<double>>(3, {-1., 1.})).points;

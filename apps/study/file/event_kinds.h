@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Kinds of transition of all laws, joints and switches; a formula's kinks are told as NAME_rises and NAME_falls
+/// besides.
+const std::vector<std::string> &event_kinds();
+
+bool is_event_kind(const std::string &word);
+
+} // namespace gestell::apps
