@@ -2,6 +2,9 @@
 
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/charts/signal_charts.h"
+#include "apps/output/interactive/live_chart.h"
+#include "apps/output/interactive/machine_view.h"
+#include "apps/output/interactive/page_scripts.h"
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/report/budget_report.h"
 #include "apps/output/report/frame_text.h"
@@ -110,13 +113,18 @@ std::string answer_section(const Result &result, Report &report)
                  "<div class=\"row\">" + table + picture + "</div>\n");
 }
 
+std::string signal_figure(const SignalChart &chart)
+{
+  return live_figure(chart.chart, chart.svg, chart.is_part ? ChartLink::cursor : ChartLink::time);
+}
+
 std::string chart_section(const std::vector<SignalChart> &charts, ChartTopic topic, const std::string &id,
                           const std::string &title)
 {
   std::string html;
   for (const SignalChart &chart : charts)
     if (chart.topic == topic)
-      html += figure(chart.svg);
+      html += signal_figure(chart);
   return section(id, title, html);
 }
 
@@ -162,7 +170,7 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   std::string html = energy_statement(energy, result.scenery.n_frame > 0) + facts.table();
   for (const SignalChart &chart : charts)
     if (chart.topic == ChartTopic::energy)
-      html += figure(chart.svg);
+      html += signal_figure(chart);
   return section("energy", "Energy balance", html);
 }
 
@@ -317,6 +325,7 @@ std::string contents(const std::string &body)
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("periodic", "Periodic motions"),
                                  {"peaks", "Answer"},
+                                 {"view", "Machine"},
                                  {"budget", "Error budget"},
                                  {"sensitivities", "Sensitivities"},
                                  {"forces", "Forces"},
@@ -347,10 +356,10 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) + stage_section(result) +
+      periodic_section(result, report.charts) + answer_section(result, report) +
+      section("view", "The machine to turn", machine_view(full)) + stage_section(result) +
       budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
-      stress_section(result, report.charts) +
-      chart_section(charts, ChartTopic::force, "forces", "Forces") +
+      stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
       events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
@@ -360,7 +369,10 @@ Report make_report(const Result &full)
       {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,
        "Computed with gestell " + escape_xml(result.version) +
            ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
-           (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : "")});
+           (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : ""),
+       "",
+       page_scripts(body.find("<figure class=\"live\"") != std::string::npos,
+                    body.find("<div class=\"machine\"") != std::string::npos)});
   return report;
 }
 

@@ -36,7 +36,7 @@ std::string page_html(const Page &page)
          "content=\"width=device-width, initial-scale=1\"><title>" +
          title + "</title><style>" + report_style + page.more_style + "</style></head>\n<body>\n<header><h1>" + title +
          "</h1>\n" + (page.lead.empty() ? "" : "<p class=\"lead\">" + escape_xml(page.lead) + "</p>\n") +
-         "</header>\n" + page.body + "<footer>" + page.footer + "</footer>\n</body>\n</html>\n";
+         "</header>\n" + page.body + "<footer>" + page.footer + "</footer>\n" + page.scripts + "</body>\n</html>\n";
 }
 
 HtmlTable::HtmlTable(const std::vector<std::string> &titles)

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "tests/support/browser.h"
+
+#include <gtest/gtest.h>
+
+/// A browser is a dependency of the tests: without one they fail and say what to install.
+#define GESTELL_NEEDS_BROWSER()                                                                                        \
+  ASSERT_FALSE(gestell::tests::Browser::program().empty()) << "no Chromium: install Debian's package chromium"
+
+namespace gestell::tests
+{
+
+inline std::string texts(const std::vector<std::string> &lines)
+{
+  std::string all;
+  for (const std::string &line : lines)
+    all += line + "\n";
+  return all;
+}
+
+/// Pictures a second that the view draws within so many seconds of playing.
+inline double frames_per_second(Browser &page, int seconds)
+{
+  return page.value("new Promise(done => { const view = gestell.machine; view.set_playing(true);"
+                    "  setTimeout(() => { const first = view.frames, begin = performance.now();"
+                    "    setTimeout(() => { view.set_playing(false);"
+                    "      done(1000 * (view.frames - first) / (performance.now() - begin)); }, 1000 * " +
+                    std::to_string(seconds) + "); }, 300); })");
+}
+
+/// Where element `selector` stands in the window after it is scrolled to: x, y, width, height.
+inline std::vector<double> place_of(Browser &page, const std::string &selector)
+{
+  return page.value("(() => { const e = document.querySelector(" + nlohmann::json(selector).dump() +
+                    "); e.scrollIntoView({block: 'center'}); const r = e.getBoundingClientRect();"
+                    " return [r.x, r.y, r.width, r.height]; })()");
+}
+
+} // namespace gestell::tests
