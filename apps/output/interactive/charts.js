@@ -159,9 +159,10 @@
     show_at(x) {
       this.x = x;
       this.place_cursor();
-      const row = this.rows[this.row_at(x)];
+      const k = this.row_before(x);
       this.entries.forEach((value, i) => {
-        value.textContent = row[i + 1] === null ? "" : " " + gestell.number(row[i + 1]);
+        const y = this.value_at(x, k, i + 1);
+        value.textContent = y === null ? "" : " " + gestell.number(y);
       });
       const name = this.data.x_label.replace(/ *\[(.*)\]/, ""), unit = (this.data.x_label.match(/\[(.*)\]/) || ["", ""])[1];
       this.at.textContent = "at " + name + " = " + gestell.number(x, 6) + " " + unit + this.mark_text(x);
@@ -175,14 +176,22 @@
       return "; " + (number > 0 ? number + ": " : "") + text;
     }
 
-    row_at(x) {
+    row_before(x) {
       let low = 0, high = this.rows.length - 1;
       while (high - low > 1) {
         const middle = (low + high) >> 1;
         if (this.rows[middle][0] <= x) low = middle;
         else high = middle;
       }
-      return x - this.rows[low][0] < this.rows[high][0] - x ? low : high;
+      return low;
+    }
+
+    /** On the line between row k and the next; of the nearer one where the other has no value; beyond the ends the last. */
+    value_at(x, k, column) {
+      const row = this.rows[k], next = this.rows[Math.min(k + 1, this.rows.length - 1)], length = next[0] - row[0];
+      const share = length > 0 ? Math.min(1, Math.max(0, (x - row[0]) / length)) : 0;
+      if (row[column] === null || next[column] === null) return (share < 0.5 ? row : next)[column];
+      return share === 0 ? row[column] : row[column] + share * (next[column] - row[column]);
     }
 
     place_cursor() {

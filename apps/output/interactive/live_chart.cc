@@ -94,7 +94,7 @@ bool can_live(const Chart &chart)
     return false;
   const std::vector<Curve> &curves = chart.panels[0].curves;
   return !curves.empty() && std::all_of(curves.begin(), curves.end(),
-                                        [](const Curve &curve) { return curve.x.size() > 1 && ascending(curve.x); });
+                                        [](const Curve &curve) { return !curve.x.empty() && ascending(curve.x); });
 }
 
 Json number(double x)

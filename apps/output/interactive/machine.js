@@ -12,14 +12,6 @@
   }
   const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
 
-  /** Whether a graphics processor draws; smooth edges cost a processor too much. */
-  function has_graphics() {
-    const context = document.createElement("canvas").getContext("webgl");
-    const told = context && context.getExtension("WEBGL_debug_renderer_info");
-    const name = told ? context.getParameter(told.UNMASKED_RENDERER_WEBGL) : "";
-    return !/swiftshader|llvmpipe|software/i.test(name);
-  }
-
   /** A motion in short form: whole shapes with weights over instants. */
   class Field {
     constructor(data) {
@@ -37,63 +29,93 @@
     }
   }
 
+  /** Faces that are turned to the eye, the nearest first: glass then hides what of itself lies behind. */
   class Part {
-    /** Glass: the nearest faces alone are seen, and what stands behind them. */
     constructor(data, colour, glass) {
       this.name = data.name;
       this.colour = colour;
       this.rest = gestell.floats(data.points);
       this.moved = new Float32Array(this.rest.length);
-      this.positions = new THREE.BufferAttribute(new Float32Array(this.rest), 3);
-      this.colours = new THREE.BufferAttribute(new Float32Array(this.rest.length), 3);
+      this.at = new Float32Array(this.rest);
+      this.paints = new Float32Array(this.rest.length);
+      this.corners = new Uint32Array(gestell.bytes(data.triangles));
+      this.n_faces = this.corners.length / 3;
+      this.depths = new Float32Array(this.n_faces);
+      this.lights = new Float32Array(this.n_faces);
+      this.positions = new THREE.BufferAttribute(new Float32Array(3 * this.corners.length), 3);
+      this.colours = new THREE.BufferAttribute(new Uint8Array(3 * this.corners.length), 3, true);
       const faces = new THREE.BufferGeometry(), lines = new THREE.BufferGeometry();
       faces.setAttribute("position", this.positions);
       faces.setAttribute("color", this.colours);
-      faces.setIndex(new THREE.BufferAttribute(new Uint32Array(gestell.bytes(data.triangles)), 1));
-      lines.setAttribute("position", this.positions);
+      this.points = new THREE.BufferAttribute(this.at, 3);
+      lines.setAttribute("position", this.points);
       lines.setIndex(new THREE.BufferAttribute(new Uint32Array(gestell.bytes(data.edges)), 1));
-      this.faces = new THREE.Mesh(faces, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, flatShading: true,
-        side: glass ? THREE.FrontSide : THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
-      this.lines = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x20262e, transparent: true, opacity: 0.45 }));
-      // What the glass covers is drawn before it; its own depth comes first, so that its nearest faces alone are seen.
-      this.depth = new THREE.Mesh(faces, new THREE.MeshBasicMaterial({ colorWrite: false, side: THREE.FrontSide,
+      this.faces = new THREE.Mesh(faces, new THREE.MeshBasicMaterial({ vertexColors: THREE.VertexColors,
         polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
-      this.depth.visible = this.depth.frustumCulled = false;
-      this.depth.material.transparent = glass; // three.js draws what is transparent last
-      this.depth.renderOrder = glass ? 1 : 0;
-      this.faces.renderOrder = this.lines.renderOrder = glass ? 2 : 0;
+      this.lines = new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x20262e, transparent: true, opacity: 0.45 }));
+      this.faces.renderOrder = this.lines.renderOrder = glass ? 1 : 0; // over what it lets be seen
       this.faces.frustumCulled = this.lines.frustumCulled = false;
       this.paint_plain();
     }
-    see_through(share, seen) {
-      this.depth.visible = seen && share > 0;
+    see_through(share) {
       Object.assign(this.faces.material, { transparent: share > 0, opacity: 1 - share });
     }
     paint_plain() {
-      const values = this.colours.array;
-      for (let i = 0; i < values.length; ++i) values[i] = this.colour[i % 3];
-      this.colours.needsUpdate = true;
+      for (let i = 0; i < this.paints.length; ++i) this.paints[i] = this.colour[i % 3];
     }
     /** Colours of the table by place(point) in [0, 1]. */
     paint(table, place) {
-      const values = this.colours.array;
-      for (let i = 0; i < values.length / 3; ++i) {
+      for (let i = 0; i < this.paints.length / 3; ++i) {
         const colour = table[Math.min(table.length - 1, Math.max(0, Math.floor(place(i) * table.length)))];
-        values[3 * i] = colour[0];
-        values[3 * i + 1] = colour[1];
-        values[3 * i + 2] = colour[2];
+        this.paints[3 * i] = colour[0];
+        this.paints[3 * i + 1] = colour[1];
+        this.paints[3 * i + 2] = colour[2];
       }
-      this.colours.needsUpdate = true;
     }
     /** Where it is: ideal motion, and displacement enlarged. */
     place(fields, k, share, enlarge, swing) {
-      const at = this.positions.array;
+      const at = this.at;
       at.set(this.rest);
       if (fields.ideal) fields.ideal.add(at, k, share, 1);
       this.moved.fill(0);
       if (fields.moved) fields.moved.add(this.moved, k, share, swing);
       for (let i = 0; i < at.length; ++i) at[i] += enlarge * this.moved[i];
-      this.positions.needsUpdate = true;
+      this.points.needsUpdate = true;
+    }
+    /** Light and distance of the faces that the eye sees; their numbers, the nearest first. */
+    seen_faces(eye, lamp) {
+      const { at, corners } = this, seen = [];
+      for (let f = 0; f < this.n_faces; ++f) {
+        const a = 3 * corners[3 * f], b = 3 * corners[3 * f + 1], c = 3 * corners[3 * f + 2];
+        const ux = at[b] - at[a], uy = at[b + 1] - at[a + 1], uz = at[b + 2] - at[a + 2];
+        const vx = at[c] - at[a], vy = at[c + 1] - at[a + 1], vz = at[c + 2] - at[a + 2];
+        const nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+        const ex = eye.x - at[a], ey = eye.y - at[a + 1], ez = eye.z - at[a + 2];
+        if (nx * ex + ny * ey + nz * ez <= 0) continue;
+        const size = Math.sqrt(nx * nx + ny * ny + nz * nz);
+        this.lights[f] = 0.66 + 0.42 * Math.max(0, (nx * lamp.x + ny * lamp.y + nz * lamp.z) / size);
+        const mx = ex - (ux + vx) / 3, my = ey - (uy + vy) / 3, mz = ez - (uz + vz) / 3;
+        this.depths[f] = mx * mx + my * my + mz * mz;
+        seen.push(f);
+      }
+      return seen.sort((f, g) => this.depths[f] - this.depths[g]);
+    }
+    /** Hands the faces in sight to three.js. */
+    show_faces(eye, lamp) {
+      const to = this.positions.array, colours = this.colours.array;
+      let n = 0;
+      for (const f of this.seen_faces(eye, lamp)) {
+        const light = 255 * this.lights[f];
+        for (let corner = 0; corner < 3; ++corner) {
+          const from = 3 * this.corners[3 * f + corner];
+          for (let i = 0; i < 3; ++i, ++n) {
+            to[n] = this.at[from + i];
+            colours[n] = Math.min(255, light * this.paints[from + i]);
+          }
+        }
+      }
+      this.faces.geometry.setDrawRange(0, n / 3);
+      this.positions.needsUpdate = this.colours.needsUpdate = true;
     }
     displacement(i) {
       return Math.hypot(this.moved[3 * i], this.moved[3 * i + 1], this.moved[3 * i + 2]);
@@ -148,16 +170,12 @@
     }
 
     build_scene() {
-      this.renderer = new THREE.WebGLRenderer({ antialias: has_graphics(), alpha: true });
-      this.pixels = Math.min(2, window.devicePixelRatio);
+      this.renderer = new THREE.WebGLRenderer({ antialias: false, alpha: true });
+      this.pixels = Math.max(1.5, Math.min(2, window.devicePixelRatio)); // at rest: finer than seen, for smooth edges
       this.scene = new THREE.Scene();
       this.camera = new THREE.PerspectiveCamera(28, 1, this.data.size / 100, this.data.size * 100);
       this.camera.up.set(0, 0, 1);
-      const lamp = new THREE.DirectionalLight(0xffffff, 0.6);
-      lamp.position.set(-0.4, 0.8, 0.6);
-      this.camera.add(lamp);
-      this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.68));
-      for (const part of this.parts) this.scene.add(part.depth, part.faces, part.lines);
+      for (const part of this.parts) this.scene.add(part.faces, part.lines);
       this.space = element("div", { className: "machine-canvas", tabIndex: 0 });
       this.space.setAttribute("aria-label", "the machine; drag turns it, with Shift moves it, the wheel zooms once it is clicked");
       this.triad = element("canvas", { className: "over", width: 90, height: 90 });
@@ -209,7 +227,7 @@
       square.style.background = "rgb(" + part.colour.map((x) => Math.round(255 * x)).join(",") + ")";
       box.onchange = () => {
         part.faces.visible = part.lines.visible = box.checked;
-        this.repaint();
+        this.stale = true;
       };
       return element("label", {}, box, square, part.name);
     }
@@ -240,7 +258,7 @@
     }
 
     repaint() {
-      if (this.data.has_frame) this.parts[0].see_through(this.glass.checked ? 0.5 : 0, this.parts[0].faces.visible);
+      if (this.data.has_frame) this.parts[0].see_through(this.glass.checked ? 0.5 : 0);
       this.legend.style.visibility = this.show.paints || this.paint.selectedIndex === 0 ? "" : "hidden";
       this.bar_text.textContent = this.show.scale || (this.show.kind === "mode" ? "displacement, against the largest"
         : "displacement 0 to " + gestell.number(1000 * this.show.top, 3) + " mm");
@@ -265,7 +283,7 @@
     set_playing(playing) {
       this.playing = playing;
       this.measured = null;
-      if (!playing) this.set_pixels(this.pixels);
+      this.set_pixels(playing ? Math.min(1, this.moving_pixels || 1) : this.pixels);
       this.play.textContent = playing ? "pause" : "play";
     }
 
@@ -285,13 +303,15 @@
       this.stale = true;
     }
 
-    /** A motion that stutters gets fewer pixels until it stops: the mean of twelve pictures decides. */
+    /** A motion that stutters gets fewer pixels, then no edges, until it stops: the mean of twelve pictures decides. */
     keep_pace(now) {
       this.measured = this.measured || { begin: now, count: 0 };
       if (++this.measured.count < 12) return;
       const seconds = (now - this.measured.begin) / 11000, ratio = this.renderer.getPixelRatio();
       this.measured = null;
-      if (seconds > slow && ratio > coarsest) this.set_pixels(Math.max(coarsest, ratio * (seconds > 2 * slow ? 0.6 : 0.8)));
+      if (seconds <= slow || ratio <= coarsest) return;
+      this.moving_pixels = Math.max(coarsest, ratio * (seconds > 2 * slow ? 0.6 : 0.8));
+      this.set_pixels(this.moving_pixels);
     }
 
     tick(now) {
@@ -321,6 +341,12 @@
         const { times } = this.show, span = times[times.length - 1] - times[0];
         this.slider.value = span > 0 ? (1000 * (this.t - times[0])) / span : 0;
         this.now.textContent = gestell.number(this.t, 4) + " s";
+      }
+      const lamp = new THREE.Vector3(-0.4, 0.55, 0.75).normalize().applyQuaternion(this.camera.quaternion);
+      const stutters = this.playing && this.moving_pixels < 0.7;
+      for (const part of this.parts) {
+        part.lines.visible = part.faces.visible && !stutters;
+        if (part.faces.visible) part.show_faces(this.camera.position, lamp);
       }
       this.renderer.render(this.scene, this.camera);
       this.draw_triad();
@@ -368,7 +394,7 @@
     }
   }
 
-  for (const box of document.querySelectorAll(".machine")) {
+  function build(box) {
     try {
       gestell.machine = new View(box);
     } catch (problem) {
@@ -376,4 +402,6 @@
       box.style.display = "block";
     }
   }
+  // The page is read while the view is made.
+  window.addEventListener("load", () => setTimeout(() => document.querySelectorAll(".machine").forEach(build), 0));
 })();

@@ -5,7 +5,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_frame_triangles = 6000, most_body_triangles = 3000;
+constexpr std::size_t most_frame_triangles = 5000, most_body_triangles = 3000;
 constexpr int         most_columns = 400; ///< coordinates of a reduced frame
 
 CoarseMesh coarse(const Skin &skin, std::size_t most)

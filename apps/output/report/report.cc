@@ -11,13 +11,17 @@
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
+#include "apps/output/report/overview_report.h"
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/sensitivity_report.h"
+#include "apps/output/report/spectrum_report.h"
 #include "apps/output/report/stage_report.h"
 #include "apps/output/report/stress_report.h"
+#include "apps/output/tables/noise.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,13 +97,19 @@ std::string peaks_table(const Result &result)
 {
   if (!result.run || result.run->signals.empty())
     return "";
-  HtmlTable table({"signal", "unit", "#largest", "#at t [s]", "#smallest", "#at t [s]", "#at the end"});
+  HtmlTable   table({"signal", "unit", "#largest", "#at t [s]", "#smallest", "#at t [s]", "#at the end"});
+  const Noise noise = noise_of(result.run->signals);
   for (const coupling::SignalSummary &signal : result.run->signals)
   {
     const DisplayUnit shown = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
-    const auto        value = [&](double x) { return short_text(x * shown.factor, 5); };
+    const auto        value = [&](double x) { return short_text(noise.without(signal.unit, x) * shown.factor, 5); };
     table.add({signal.name, shown.unit, peak(value(signal.max)), short_text(signal.t_max, 6), peak(value(signal.min)),
                short_text(signal.t_min, 6), value(signal.final)});
+    if (signal.unit == "rad/s") // as drives are named
+    {
+      const auto turns = [&](double x) { return short_text(noise.without(signal.unit, x) * 60. / two_pi, 5); };
+      table.add({"", "1/min", peak(turns(signal.max)), "", peak(turns(signal.min)), "", turns(signal.final)});
+    }
   }
   return table.html();
 }
@@ -295,7 +305,10 @@ std::string numerics_section(const Result &result)
   for (const auto &[phase, seconds] : result.wall_s)
     work.quantity("wall time: " + escape_xml(phase), seconds, "s");
 
-  std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  Facts page;
+  for (const PageLibrary &library : page_libraries())
+    page.add("this page: " + library.name, library.version + ", " + library.source);
+  std::string html = "<div class=\"row\">" + model.table() + work.table() + page.table() + "</div>";
   if (!std::isnan(m.static_residual))
     html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
   if (const auto lines = frame_text(m); !lines.empty())
@@ -332,6 +345,7 @@ std::string contents(const std::string &body)
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
                                  {"orders", "Orders"},
+                                 {"spectrum", "Spectra"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
                                  {"frf", "Frequency response"},
@@ -362,11 +376,13 @@ Report make_report(const Result &full)
       stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
-      events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
-      along_section(result, report.charts) + modes_section(result, report) + numerics_section(result);
+      spectrum_section(result, report.charts) + events_section(result) + energy_section(result, charts) +
+      frequency_response_section(result, report.charts) + along_section(result, report.charts) +
+      modes_section(result, report) + numerics_section(result);
 
   report.html = page_html(
-      {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,
+      {result.scene, result.description,
+       overview(result) + note_box(all_warnings(result), "Warnings") + contents(body) + body,
        "Computed with gestell " + escape_xml(result.version) +
            ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
            (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : ""),

@@ -19,6 +19,13 @@ inline std::string texts(const std::vector<std::string> &lines)
   return all;
 }
 
+/// Seconds from the start of the navigation to the first picture of the machine.
+inline double seconds_to_the_machine(Browser &page)
+{
+  return page.value("new Promise(done => { const look = () => gestell.machine && gestell.machine.frames > 0"
+                    " ? done(performance.now() / 1000) : setTimeout(look, 10); look(); })");
+}
+
 /// Pictures a second that the view draws within so many seconds of playing.
 inline double frames_per_second(Browser &page, int seconds)
 {

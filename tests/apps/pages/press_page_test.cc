@@ -15,6 +15,7 @@ TEST(PressPage, IsBelow5MBOpensWithin2SecondsAndMovesAt30PicturesASecond)
 
   Browser page(report);
   EXPECT_LT(page.load_seconds(), 2.);
+  EXPECT_LT(tests::seconds_to_the_machine(page), 3.);
   EXPECT_GE(tests::frames_per_second(page, 3), 30.);
   EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
   EXPECT_TRUE(page.requests().empty()) << tests::texts(page.requests());

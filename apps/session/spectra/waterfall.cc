@@ -1,4 +1,4 @@
-#include "apps/session/waterfall.h"
+#include "apps/session/spectra/waterfall.h"
 
 #include "fem/values/two_pi.h"
 
