@@ -4,7 +4,10 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <fstream>
+#include <map>
 #include <poll.h>
+#include <sstream>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -155,6 +158,36 @@ Json Browser::value(const std::string &expression)
   if (result.contains("exceptionDetails"))
     throw std::runtime_error(result["exceptionDetails"].dump());
   return result["result"].value("value", Json());
+}
+
+double Browser::cpu_seconds() const
+{
+  std::map<int, std::pair<int, double>> processes; // number: its parent, its time
+  for (const auto &entry : std::filesystem::directory_iterator("/proc"))
+  {
+    const std::string name = entry.path().filename().string();
+    std::ifstream     file(entry.path() / "stat");
+    std::string       text((std::istreambuf_iterator<char>(file)), {});
+    if (name.find_first_not_of("0123456789") != std::string::npos || text.find(')') == std::string::npos)
+      continue;
+    std::istringstream     fields(text.substr(text.rfind(')') + 1));
+    std::string            field;
+    std::array<double, 14> number{};
+    fields >> field; // state, then from the parent on: proc(5)
+    for (std::size_t i = 0; i < 12 && fields >> number[i];)
+      ++i;
+    processes[std::stoi(name)] = {static_cast<int>(number[0]),
+                                  (number[10] + number[11]) / static_cast<double>(sysconf(_SC_CLK_TCK))};
+  }
+  double sum = 0.;
+  for (const auto &[id, of] : processes)
+  {
+    int ancestor = id;
+    while (ancestor > 1 && ancestor != process_)
+      ancestor = processes.count(ancestor) ? processes[ancestor].first : 0;
+    sum += ancestor == process_ ? of.second : 0.;
+  }
+  return sum;
 }
 
 void Browser::mouse(const char *type, double x, double y)

@@ -32,6 +32,9 @@ public:
   void drag(double x0, double y0, double x1, double y1);
   void press_key(const std::string &key);
 
+  /// Processor time of the browser and all processes it has started [s].
+  double cpu_seconds() const;
+
   double                          load_seconds() const { return load_seconds_; } ///< from the request to the load event
   const std::vector<std::string> &errors() const { return errors_; }             ///< of the console, and exceptions
   const std::vector<std::string> &requests() const { return requests_; } ///< addresses asked for, but the page's own

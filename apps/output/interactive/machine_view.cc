@@ -206,7 +206,9 @@ std::string machine_view(const Result &result)
                             {"parts", parts_json(machine)},
                             {"shows", shows}};
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) + "</script></div>\n";
+  return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) +
+         "</script></div>\n<noscript><p class=\"soft\">With JavaScript the machine can be turned and seen in motion "
+         "here.</p></noscript>\n";
 }
 
 } // namespace gestell::apps

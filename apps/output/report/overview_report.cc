@@ -120,7 +120,7 @@ std::string other_sentences(const Result &result)
   else if (!result.coupled_modes.empty() || !result.frame_modes.empty())
     text += "The natural frequencies of " + result.scene + " were computed" + model_text(result.model) + ". ";
   if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))
-    text += "The coupled machine first vibrates at " + short_text(first->frequency_hz) + " Hz.";
+    text += "The lowest mode of the machine has " + short_text(first->frequency_hz) + " Hz.";
   return text;
 }
 
@@ -132,9 +132,9 @@ std::vector<KeyNumber> key_numbers(const Result &result)
       numbers.push_back({quantity_text(peak.value, peak.signal->unit),
                          peak.signal->name + (peak.value >= 0. ? ", largest" : ", smallest")});
   if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))
-    numbers.push_back({short_text(first->frequency_hz) + " Hz", "first mode of the machine"});
+    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the machine"});
   if (const coupling::Mode *first = first_that_vibrates(result.frame_modes))
-    numbers.push_back({short_text(first->frequency_hz) + " Hz", "first mode of the frame"});
+    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the frame"});
   if (result.stress)
   {
     double most = 0.;

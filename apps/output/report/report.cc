@@ -197,7 +197,12 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
   if (refined)
     columns.insert(columns.begin() + 2, "#refined [Hz]");
   HtmlTable table(columns);
-  int       number = 0;
+  Noise     noise;
+  for (const coupling::Mode &mode : modes)
+    for (const double mass : mode.effective_mass)
+      noise.see("kg", mass);
+  const auto mass_text = [&](double mass) { return short_text(noise.without("kg", mass)); };
+  int        number    = 0;
   for (const coupling::Mode &mode : modes)
   {
     if (const std::string above =
@@ -209,9 +214,9 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
                                         short_text(mode.frequency_hz, 6),
                                         short_text(mode.damped_frequency_hz, 6),
                                         short_text(mode.damping_ratio),
-                                        short_text(x),
-                                        short_text(y),
-                                        short_text(z)};
+                                        mass_text(x),
+                                        mass_text(y),
+                                        mass_text(z)};
     if (growing)
       row.insert(row.begin() + 4, mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–");
     if (refined)

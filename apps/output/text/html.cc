@@ -69,7 +69,9 @@ void HtmlTable::add_note(const std::string &text)
 
 std::string HtmlTable::in_box(const std::string &kind) const
 {
-  return "<div class=\"" + kind + "\"><table><tr>" + head_ + "</tr>\n" + rows_ + "</table></div>\n";
+  constexpr std::size_t few = 9; // columns that fit a printed page in letters of the usual size
+  return "<div class=\"" + kind + (is_number_.size() > few ? " many" : "") + "\"><table><thead><tr>" + head_ +
+         "</tr></thead>\n<tbody>" + rows_ + "</tbody></table></div>\n";
 }
 
 HtmlTable::Cell peak(HtmlTable::Cell cell, bool condition)

@@ -57,8 +57,10 @@ footer { margin-top: 3rem; padding-top: .7rem; border-top: 1px solid var(--rule)
   .scroll, .wide { max-height: none; overflow: visible; border: 0; padding: 0; display: block; }
   table { font-size: 8.5pt; max-width: 100%; }
   th, td { padding-right: .5rem; }
-  .n, .wide td:first-child, .scroll td:first-child { white-space: normal; overflow-wrap: anywhere; }
-  th { white-space: normal; }
+  .many table { font-size: 6.6pt; }
+  .many th, .many td { padding-right: .3rem; }
+  th, th.n { white-space: normal; }
+  #view { display: none; }
   pre { white-space: pre-wrap; overflow: visible; font-size: 8pt; }
   figure, tr, .keys, .warnings { break-inside: avoid; }
   h1, h2, h3, h2 + p, h3 + p { break-after: avoid; }
