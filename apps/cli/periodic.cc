@@ -4,6 +4,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/basins_table.h"
+#include "apps/output/tables/noise.h"
 #include "apps/output/tables/section_table.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
@@ -29,11 +30,12 @@ std::string stability_text(const coupling::PeriodicSolution &solution)
 
 void print_signals(const PeriodicEntry &entry)
 {
+  const Noise noise = noise_of(entry.signals);
   for (const SignalOrbit &signal : entry.signals)
     std::cout << "    " << std::left << std::setw(12) << signal.name << std::right << " max " << std::setw(12)
-              << short_text(signal.max, 6) << "  min " << std::setw(12) << short_text(signal.min, 6) << "  a1 "
-              << std::setw(12) << (signal.amplitude.empty() ? "" : short_text(signal.amplitude[0], 6)) << "  "
-              << signal.unit << '\n';
+              << short_text(noise.without(signal.unit, signal.max), 6) << "  min " << std::setw(12)
+              << short_text(noise.without(signal.unit, signal.min), 6) << "  a1 " << std::setw(12)
+              << (signal.amplitude.empty() ? "" : short_text(signal.amplitude[0], 6)) << "  " << signal.unit << '\n';
 }
 
 void print_solutions(const PeriodicResult &result)

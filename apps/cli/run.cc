@@ -5,6 +5,7 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/comparison_table.h"
+#include "apps/output/tables/noise.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
@@ -29,10 +30,11 @@ void print_answer(const coupling::RunResult &run)
 {
   std::cout << std::left << std::setw(12) << "signal" << std::right << std::setw(16) << "min" << std::setw(14)
             << "at t [s]" << std::setw(16) << "max" << std::setw(14) << "at t [s]" << '\n';
+  const Noise noise = noise_of(run.signals);
   for (const coupling::SignalSummary &signal : run.signals)
     std::cout << std::left << std::setw(12) << signal.name << std::right << std::setprecision(7) << std::setw(16)
-              << signal.min << std::setw(14) << signal.t_min << std::setw(16) << signal.max << std::setw(14)
-              << signal.t_max << "  " << signal.unit << '\n';
+              << noise.without(signal.unit, signal.min) << std::setw(14) << signal.t_min << std::setw(16)
+              << noise.without(signal.unit, signal.max) << std::setw(14) << signal.t_max << "  " << signal.unit << '\n';
   std::cout << run.method << ": " << run.events.size() << " events, " << run.work.steps << " steps, "
             << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
             << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n";

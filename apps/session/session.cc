@@ -9,11 +9,12 @@
 #include "apps/session/joint_opening.h"
 #include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
-#include "apps/session/order_tracking.h"
+#include "apps/session/spectra/order_tracking.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
+#include "apps/session/spectra/spectra.h"
 #include "apps/session/stages/stage_answer.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
@@ -299,8 +300,9 @@ Result Session::run(const std::optional<std::string> &sensitivities)
     result.sensitivities->cpu_s     = seconds(at_run - at_twins + std::clock() - behind_run);
   }
   progress()("results", -1.);
-  result.orders = order_tracking(scene_, *result.run);
-  result.stages = stage_answer(scene_, prepared, result.run->end_state, *result.run);
+  result.orders  = order_tracking(scene_, *result.run);
+  result.spectra = spectra(*result.run);
+  result.stages  = stage_answer(scene_, prepared, result.run->end_state, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));
   states_for_pictures(prepared, *result.run);

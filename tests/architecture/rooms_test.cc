@@ -44,7 +44,7 @@ const std::vector<std::vector<std::string>> directions = {
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/elements", "apps/scene/build"},
     {"apps/scene", "apps/session", "apps/cli"},
     {"apps/study/values", "apps/study/designs", "apps/study/surface", "apps/study/optimum", "apps/study/report"},
-    {"apps/output/text", "apps/output/pictures", "apps/output/charts", "apps/output/report"},
+    {"apps/output/text", "apps/output/pictures", "apps/output/charts", "apps/output/interactive", "apps/output/report"},
 };
 
 } // namespace

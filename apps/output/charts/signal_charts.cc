@@ -225,12 +225,12 @@ std::vector<SignalChart> signal_charts(const coupling::RunResult &run)
     std::string name  = file_name(quantity_of(group.unit));
     if (const int n = ++used[name]; n > 1)
       name += "-" + std::to_string(n);
-    charts.push_back({name, chart.title, chart_svg(chart), topic_of(group.unit)});
+    charts.push_back({name, chart_svg(chart), topic_of(group.unit), chart});
     if (topic_of(group.unit) != ChartTopic::force || !(shock.second > shock.first) || !is_shaken(run, group))
       continue;
     chart.title += ", around the main shock";
     std::tie(chart.x.begin, chart.x.end) = shock;
-    charts.push_back({name + "-shock", chart.title, chart_svg(chart), ChartTopic::force});
+    charts.push_back({name + "-shock", chart_svg(chart), ChartTopic::force, chart, true});
   }
   return charts;
 }

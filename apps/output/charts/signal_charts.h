@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/charts/chart.h"
 #include "coupling/simulation/simulation.h"
 
 #include <string>
@@ -17,11 +18,13 @@ enum class ChartTopic
   other
 };
 
-/// A picture of the history: file name without ending, its SVG, and what it is about.
+/// A chart of the history: file name without ending, its SVG, and what it is about.
 struct SignalChart
 {
-  std::string name, title, svg;
+  std::string name, svg;
   ChartTopic  topic;
+  Chart       chart;
+  bool        is_part = false; ///< of the time
 };
 
 /// Columns of a history that share a chart.

@@ -15,7 +15,7 @@ namespace gestell::apps
 /// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
 Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
 
-/// The scenery with a skin of so few triangles (20 000) that a picture stays below 300 kB.
+/// The scenery with a skin of so few triangles (12 000) that a picture stays below 200 kB.
 Scenery for_pictures(const Scenery &scenery);
 
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint

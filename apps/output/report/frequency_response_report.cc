@@ -1,6 +1,6 @@
 #include "apps/output/report/frequency_response_report.h"
 
-#include "apps/output/charts/chart.h"
+#include "apps/output/interactive/live_chart.h"
 #include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/text/html.h"
 #include "fem/values/nearest_name.h"
@@ -180,18 +180,27 @@ std::string about(const FrequencyResponse &response)
   return text;
 }
 
+/// Amplitude and phase of each group of pairs, with the names of their files.
+std::vector<std::pair<std::string, Chart>> response_charts(const FrequencyResponse &response)
+{
+  std::vector<std::pair<std::string, Chart>> charts;
+  int                                        number = 0;
+  for (const std::vector<std::size_t> &group : chart_groups(response))
+  {
+    const std::string ending = ++number > 1 ? "-" + std::to_string(number) : "";
+    charts.emplace_back("frf-amplitude" + ending, amplitude_chart(response, group));
+    charts.emplace_back("frf-phase" + ending, phase_chart(response, group));
+  }
+  return charts;
+}
+
 } // namespace
 
 Pictures frequency_response_pictures(const FrequencyResponse &response)
 {
   Pictures pictures;
-  int      number = 0;
-  for (const std::vector<std::size_t> &group : chart_groups(response))
-  {
-    const std::string ending = ++number > 1 ? "-" + std::to_string(number) : "";
-    pictures.emplace_back("frf-amplitude" + ending, chart_svg(amplitude_chart(response, group)));
-    pictures.emplace_back("frf-phase" + ending, chart_svg(phase_chart(response, group)));
-  }
+  for (const auto &[name, chart] : response_charts(response))
+    pictures.emplace_back(name, chart_svg(chart));
   return pictures;
 }
 
@@ -200,10 +209,10 @@ std::string frequency_response_section(const Result &result, Pictures &pictures)
   if (!result.frf)
     return "";
   std::string html = about(*result.frf);
-  for (const auto &picture : frequency_response_pictures(*result.frf))
+  for (const auto &[name, chart] : response_charts(*result.frf))
   {
-    pictures.push_back(picture);
-    html += figure(picture.second);
+    pictures.emplace_back(name, chart_svg(chart));
+    html += live_figure(chart, pictures.back().second);
   }
   html += "<p class=\"soft\">Rings: peaks.</p>\n" + peaks_of_pairs(*result.frf);
   return section("frf", "Frequency response", html);

@@ -1,7 +1,7 @@
 #include "apps/output/report/modes_along_report.h"
 
-#include "apps/output/charts/chart.h"
 #include "apps/output/charts/mode_charts.h"
+#include "apps/output/interactive/live_chart.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -256,15 +256,23 @@ Chart along_chart(const AlongResult &along, const std::vector<std::size_t> &line
   return chart;
 }
 
+std::vector<Chart> along_charts(const AlongResult &along)
+{
+  std::vector<Chart> charts;
+  for (const std::vector<std::size_t> &lines : groups(along.modes))
+    charts.push_back(along_chart(along, lines));
+  return charts;
+}
+
 } // namespace
 
 Pictures along_pictures(const AlongResult &along)
 {
   Pictures pictures;
-  for (const std::vector<std::size_t> &lines : groups(along.modes))
+  for (const Chart &chart : along_charts(along))
     pictures.emplace_back("modes-along" +
                               (pictures.empty() ? std::string() : "-" + std::to_string(pictures.size() + 1)),
-                          chart_svg(along_chart(along, lines)));
+                          chart_svg(chart));
   return pictures;
 }
 
@@ -272,13 +280,13 @@ std::string along_section(const Result &result, Pictures &pictures)
 {
   if (!result.along)
     return "";
-  const AlongResult &along = *result.along;
-  std::string        html  = statement(along);
-  for (const auto &picture : along_pictures(along))
-  {
-    pictures.push_back(picture);
-    html += figure(picture.second);
-  }
+  const AlongResult       &along  = *result.along;
+  std::string              html   = statement(along);
+  const std::vector<Chart> charts = along_charts(along);
+  const Pictures           drawn  = along_pictures(along);
+  pictures.insert(pictures.end(), drawn.begin(), drawn.end());
+  for (std::size_t i = 0; i < charts.size(); ++i)
+    html += live_figure(charts[i], drawn[i].second);
   if (!along.meetings.empty())
     html += "<p class=\"soft\">Rings: an order of the excitation comes near a frequency.</p>\n";
   html += meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along) +

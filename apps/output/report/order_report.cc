@@ -1,6 +1,6 @@
 #include "apps/output/report/order_report.h"
 
-#include "apps/output/charts/chart.h"
+#include "apps/output/interactive/live_chart.h"
 #include "apps/output/text/html.h"
 #include "fem/values/number_text.h"
 
@@ -134,8 +134,9 @@ std::string order_section(const Result &result, Pictures &pictures)
       continue;
     if (++drawn <= most_signals)
     {
-      pictures.emplace_back("orders-" + std::to_string(drawn), chart_svg(order_chart(tracking, signal)));
-      html += figure(pictures.back().second);
+      const Chart chart = order_chart(tracking, signal);
+      pictures.emplace_back("orders-" + std::to_string(drawn), chart_svg(chart));
+      html += live_figure(chart, pictures.back().second, over_speed(tracking) ? ChartLink::none : ChartLink::time);
     }
     for (const Waterfall &spectra : tracking.waterfalls)
       if (spectra.name == signal.name && spectra.amplitudes.size() > 1 && drawn <= most_signals)

@@ -2,6 +2,9 @@
 
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/charts/signal_charts.h"
+#include "apps/output/interactive/live_chart.h"
+#include "apps/output/interactive/machine_view.h"
+#include "apps/output/interactive/page_scripts.h"
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/report/budget_report.h"
 #include "apps/output/report/comparison_report.h"
@@ -9,15 +12,19 @@
 #include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
+#include "apps/output/report/overview_report.h"
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/sensitivity_report.h"
+#include "apps/output/report/spectrum_report.h"
 #include "apps/output/report/stage_report.h"
 #include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/tables/energy_table.h"
+#include "apps/output/tables/noise.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
+#include "fem/values/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,13 +100,19 @@ std::string peaks_table(const Result &result)
 {
   if (!result.run || result.run->signals.empty())
     return "";
-  HtmlTable table({"signal", "unit", "#largest", "#at t [s]", "#smallest", "#at t [s]", "#at the end"});
+  HtmlTable   table({"signal", "unit", "#largest", "#at t [s]", "#smallest", "#at t [s]", "#at the end"});
+  const Noise noise = noise_of(result.run->signals);
   for (const coupling::SignalSummary &signal : result.run->signals)
   {
     const DisplayUnit shown = display_unit(signal.unit, std::max(std::abs(signal.min), std::abs(signal.max)));
-    const auto        value = [&](double x) { return short_text(x * shown.factor, 5); };
+    const auto        value = [&](double x) { return short_text(noise.without(signal.unit, x) * shown.factor, 5); };
     table.add({signal.name, shown.unit, peak(value(signal.max)), short_text(signal.t_max, 6), peak(value(signal.min)),
                short_text(signal.t_min, 6), value(signal.final)});
+    if (signal.unit == "rad/s") // as drives are named
+    {
+      const auto turns = [&](double x) { return short_text(noise.without(signal.unit, x) * 60. / two_pi, 5); };
+      table.add({"", "1/min", peak(turns(signal.max)), "", peak(turns(signal.min)), "", turns(signal.final)});
+    }
   }
   return table.html();
 }
@@ -113,13 +126,18 @@ std::string answer_section(const Result &result, Report &report)
                  "<div class=\"row\">" + table + picture + "</div>\n");
 }
 
+std::string signal_figure(const SignalChart &chart)
+{
+  return live_figure(chart.chart, chart.svg, chart.is_part ? ChartLink::cursor : ChartLink::time);
+}
+
 std::string chart_section(const std::vector<SignalChart> &charts, ChartTopic topic, const std::string &id,
                           const std::string &title)
 {
   std::string html;
   for (const SignalChart &chart : charts)
     if (chart.topic == topic)
-      html += figure(chart.svg);
+      html += signal_figure(chart);
   return section(id, title, html);
 }
 
@@ -165,7 +183,7 @@ std::string energy_section(const Result &result, const std::vector<SignalChart> 
   std::string html = energy_statement(energy, result.scenery.n_frame > 0) + facts.table();
   for (const SignalChart &chart : charts)
     if (chart.topic == ChartTopic::energy)
-      html += figure(chart.svg);
+      html += signal_figure(chart);
   return section("energy", "Energy balance", html);
 }
 
@@ -182,7 +200,12 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
   if (refined)
     columns.insert(columns.begin() + 2, "#refined [Hz]");
   HtmlTable table(columns);
-  int       number = 0;
+  Noise     noise;
+  for (const coupling::Mode &mode : modes)
+    for (const double mass : mode.effective_mass)
+      noise.see("kg", mass);
+  const auto mass_text = [&](double mass) { return short_text(noise.without("kg", mass)); };
+  int        number    = 0;
   for (const coupling::Mode &mode : modes)
   {
     if (const std::string above =
@@ -194,9 +217,9 @@ std::string mode_table(const std::vector<coupling::Mode> &modes, double limit)
                                         short_text(mode.frequency_hz, 6),
                                         short_text(mode.damped_frequency_hz, 6),
                                         short_text(mode.damping_ratio),
-                                        short_text(x),
-                                        short_text(y),
-                                        short_text(z)};
+                                        mass_text(x),
+                                        mass_text(y),
+                                        mass_text(z)};
     if (growing)
       row.insert(row.begin() + 4, mode.growth > 0. ? "exp(" + short_text(mode.growth) + " t/s)" : "–");
     if (refined)
@@ -302,7 +325,10 @@ std::string numerics_section(const Result &result)
   for (const auto &[phase, seconds] : result.wall_s)
     work.quantity("wall time: " + escape_xml(phase), seconds, "s");
 
-  std::string html = "<div class=\"row\">" + model.table() + work.table() + "</div>";
+  Facts page;
+  for (const PageLibrary &library : page_libraries())
+    page.add("this page: " + library.name, library.version + ", " + library.source);
+  std::string html = "<div class=\"row\">" + model.table() + work.table() + page.table() + "</div>";
   if (!std::isnan(m.static_residual))
     html += "<p class=\"soft\">" + escape_xml(static_residual_words) + "</p>\n";
   if (const auto lines = frame_text(m); !lines.empty())
@@ -332,6 +358,7 @@ std::string contents(const std::string &body)
   std::string html = "<nav>";
   for (const auto &[id, name] : {std::pair("periodic", "Periodic motions"),
                                  {"peaks", "Answer"},
+                                 {"view", "Machine"},
                                  {"budget", "Error budget"},
                                  {"sensitivities", "Sensitivities"},
                                  {"forces", "Forces"},
@@ -339,6 +366,7 @@ std::string contents(const std::string &body)
                                  {"stress", "Stress"},
                                  {"orders", "Orders"},
                                  {"story", "Story"},
+                                 {"spectrum", "Spectra"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},
                                  {"frf", "Frequency response"},
@@ -365,20 +393,28 @@ Report make_report(const Result &full)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) + compared_run_section(result, report.charts) + stage_section(result) +
-      budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, report) +
+      compared_run_section(result, report.charts) + stage_section(result) + periodic_section(result, report.charts) +
+      answer_section(result, report) + section("view", "The machine to turn", machine_view(full)) +
+      stage_section(result) + budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
       stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
-      story_section(result) + events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +
-      along_section(result, report.charts) + compared_modes_section(result, report.charts) +
-      modes_section(result, report) + numerics_section(result);
+      story_section(result) + events_section(result) + energy_section(result, charts) +
+      frequency_response_section(result, report.charts) + along_section(result, report.charts) +
+      compared_modes_section(result, report.charts) + spectrum_section(result, report.charts) + events_section(result) +
+      energy_section(result, charts) + frequency_response_section(result, report.charts) +
+      along_section(result, report.charts) + modes_section(result, report) + numerics_section(result);
 
   report.html = page_html(
-      {result.scene, result.description, note_box(all_warnings(result), "Warnings") + contents(body) + body,
+      {result.scene, result.description,
+       overview(result) + note_box(all_warnings(result), "Warnings") + contents(body) + body,
        "Computed with gestell " + escape_xml(result.version) +
            ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
-           (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : "")});
+           (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : ""),
+       "",
+       page_scripts(body.find("<figure class=\"live\"") != std::string::npos,
+                    body.find("<div class=\"machine\"") != std::string::npos)});
   return report;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/output/report/stage_report.h"
 
+#include "apps/output/tables/noise.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
@@ -28,6 +29,10 @@ std::string stages_html(const std::vector<Stage> &stages)
     for (const char *extreme : {" least", " most"})
       heads.push_back("#" + stage.name + extreme);
   HtmlTable table(heads);
+  Noise     noise;
+  for (const Stage &stage : stages)
+    for (const auto &extremes : stage.extremes)
+      noise.see(extremes.unit, std::max(std::abs(extremes.min), std::abs(extremes.max)));
   for (std::size_t i = 0; i < stages.front().extremes.size(); ++i)
   {
     double size = 0.;
@@ -37,7 +42,7 @@ std::string stages_html(const std::vector<Stage> &stages)
     std::vector<HtmlTable::Cell> row{stages.front().extremes[i].signal, unit.unit};
     for (const Stage &stage : stages)
       for (const double x : {stage.extremes[i].min, stage.extremes[i].max})
-        row.push_back(short_text(unit.factor * x, 5));
+        row.push_back(short_text(unit.factor * noise.without(stages.front().extremes[i].unit, x), 5));
     table.add(row);
   }
   std::string text = "<p>";

@@ -36,7 +36,7 @@ std::string page_html(const Page &page)
          "content=\"width=device-width, initial-scale=1\"><title>" +
          title + "</title><style>" + report_style + page.more_style + "</style></head>\n<body>\n<header><h1>" + title +
          "</h1>\n" + (page.lead.empty() ? "" : "<p class=\"lead\">" + escape_xml(page.lead) + "</p>\n") +
-         "</header>\n" + page.body + "<footer>" + page.footer + "</footer>\n</body>\n</html>\n";
+         "</header>\n" + page.body + "<footer>" + page.footer + "</footer>\n" + page.scripts + "</body>\n</html>\n";
 }
 
 HtmlTable::HtmlTable(const std::vector<std::string> &titles)
@@ -69,7 +69,9 @@ void HtmlTable::add_note(const std::string &text)
 
 std::string HtmlTable::in_box(const std::string &kind) const
 {
-  return "<div class=\"" + kind + "\"><table><tr>" + head_ + "</tr>\n" + rows_ + "</table></div>\n";
+  constexpr std::size_t few = 9; // columns that fit a printed page in letters of the usual size
+  return "<div class=\"" + kind + (is_number_.size() > few ? " many" : "") + "\"><table><thead><tr>" + head_ +
+         "</tr></thead>\n<tbody>" + rows_ + "</tbody></table></div>\n";
 }
 
 HtmlTable::Cell peak(HtmlTable::Cell cell, bool condition)

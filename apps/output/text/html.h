@@ -19,6 +19,7 @@ struct Page
   std::string title, lead; ///< the lead stands below the title; empty: none
   std::string body, footer;
   std::string more_style{}; ///< beside that of all pages
+  std::string scripts{};    ///< elements at its end
 };
 std::string page_html(const Page &page);
 

@@ -35,6 +35,9 @@ td.peak { font-weight: 600; }
 .wide { overflow-x: auto; }
 .wide th, .scroll th { white-space: normal; vertical-align: bottom; }
 .wide td:first-child, .scroll td:first-child { white-space: nowrap; }
+.keys { display: flex; flex-wrap: wrap; gap: .6rem 2.2rem; margin: .9rem 0; }
+.keys strong { display: block; font-size: 1.25rem; font-variant-numeric: tabular-nums; }
+.keys span { color: var(--soft); font-size: .88rem; }
 figure { margin: .9rem 0 1.5rem; }
 figure svg { max-width: 100%; height: auto; display: block; }
 figcaption { color: var(--soft); font-size: .88rem; max-width: 44rem; }
@@ -47,11 +50,22 @@ figcaption { color: var(--soft); font-size: .88rem; max-width: 44rem; }
 pre { background: var(--band); padding: .8rem 1rem; overflow-x: auto; font-size: .86rem; line-height: 1.45; }
 footer { margin-top: 3rem; padding-top: .7rem; border-top: 1px solid var(--rule); color: var(--soft); font-size: .88rem; }
 @media print {
-  body { max-width: none; padding: 0; font-size: 10.5pt; }
+  @page { size: A4; margin: 16mm 14mm; }
+  body { max-width: none; padding: 0; font-size: 10pt; }
   nav { display: none; }
-  .scroll { max-height: none; border: 0; padding: 0; }
-  figure, tr { break-inside: avoid; }
-  h2, h3 { break-after: avoid; }
+  h2 { margin-top: 1.4rem; }
+  .scroll, .wide { max-height: none; overflow: visible; border: 0; padding: 0; display: block; }
+  table { font-size: 8.5pt; max-width: 100%; }
+  th, td { padding-right: .5rem; }
+  .many table { font-size: 6.6pt; }
+  .many th, .many td { padding-right: .3rem; }
+  th, th.n { white-space: normal; }
+  #view { display: none; }
+  pre { white-space: pre-wrap; overflow: visible; font-size: 8pt; }
+  figure, tr, .keys, .warnings { break-inside: avoid; }
+  h1, h2, h3, h2 + p, h3 + p { break-after: avoid; }
+  .modes { grid-template-columns: repeat(3, 1fr); }
+  .bars { grid-template-columns: repeat(2, 1fr); }
 }
 )css";
 

@@ -10,6 +10,7 @@
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
+#include "apps/output/values/spectrum.h"
 #include "apps/output/values/stage_result.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/energy_shares.h"
@@ -102,6 +103,7 @@ struct Result
   std::optional<SensitivityResult>            sensitivities;    ///< of a run that was asked for them
   std::optional<SizeResult>                   size;             ///< of `size`, whose chosen model ran
   std::optional<OrderTracking>                orders;           ///< of a run with a rotor that turns
+  std::optional<Spectra>                      spectra;          ///< of a run of some length
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people
   std::vector<std::string>                    warnings;         ///< beyond those of the run

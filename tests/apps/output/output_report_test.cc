@@ -1,3 +1,4 @@
+#include "apps/output/interactive/page_scripts.h"
 #include "apps/output/report/report.h"
 #include "tests/support/output_example.h"
 
@@ -45,6 +46,15 @@ std::string without(std::string text, const std::string &part)
   return text;
 }
 
+/// The page as it stands where no script runs: browsers judge the scripts, see tests/apps/pages.
+std::string without_scripts(std::string html)
+{
+  const std::string end = "</script>";
+  for (auto at = html.find("<script"); at != std::string::npos; at = html.find("<script", at))
+    html.erase(at, html.find(end, at) + end.size() - at);
+  return html;
+}
+
 std::size_t place(const std::string &html, const std::string &text)
 {
   return html.find(text);
@@ -55,7 +65,7 @@ std::size_t place(const std::string &html, const std::string &text)
 TEST(Report, IsSoundMarkupAndSoAreItsPictures)
 {
   const Report report = make_report(example_result());
-  EXPECT_EQ(unbalanced(report.html), "");
+  EXPECT_EQ(unbalanced(without_scripts(report.html)), "");
   EXPECT_EQ(unbalanced("<p><b></p></b>"), "p");
   std::set<std::string> names;
   for (const auto &[name, svg] : report.charts)
@@ -70,9 +80,11 @@ TEST(Report, IsSoundMarkupAndSoAreItsPictures)
 
 TEST(Report, NeedsNothingFromOutside)
 {
-  const std::string html = without(make_report(example_result()).html, "xmlns=\"http://www.w3.org/2000/svg\"");
-  for (const char *reference : {"http:", "https:", "src=", "url(", "@import", "<script", "<link"})
+  const std::string whole = make_report(example_result()).html;
+  const std::string html  = without(without_scripts(whole), "xmlns=\"http://www.w3.org/2000/svg\"");
+  for (const char *reference : {"http:", "https:", "src=", "url(", "@import", "<link"})
     EXPECT_EQ(html.find(reference), std::string::npos) << reference;
+  EXPECT_EQ(whole.find("<script src"), std::string::npos);
 }
 
 TEST(Report, WarnsFirstThenAnswersThenExplains)
@@ -102,8 +114,40 @@ TEST(Report, LeavesOutWhatWasNotComputed)
   result.warnings.clear();
   result.scenery.n_frame = 2;
   const Report report    = make_report(result);
-  EXPECT_EQ(unbalanced(report.html), "");
+  EXPECT_EQ(unbalanced(without_scripts(report.html)), "");
   for (const char *absent : {"Warnings", "id=\"peaks\"", "id=\"forces\"", "id=\"events\"", "id=\"energy\""})
     EXPECT_EQ(report.html.find(absent), std::string::npos) << absent;
   EXPECT_NE(report.html.find("id=\"modes\""), std::string::npos);
+}
+
+TEST(Report, TellsInTwoSentencesWhatWasComputedBeforeItWarns)
+{
+  Result result          = example_result();
+  result.run->method     = "BDF 2";
+  const std::string html = make_report(result).html;
+  const std::string said = html.substr(place(html, "id=\"computed\""), 600);
+  for (const char *part : {"from 0 to 0.45 s was computed by BDF 2 in 45000 steps with 4 coordinates",
+                           "F_P reaches 1057 kN at 0.2341 s", "there are 3 events", "closes to 0.023 %"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
+  EXPECT_LT(place(html, "id=\"computed\""), place(html, "The mesh is coarse."));
+}
+
+TEST(Report, ShowsNoiseAsZeroAndTurnsPerMinuteBesideRadiansPerSecond)
+{
+  Result result = example_result();
+  result.run->signals.push_back({"F_hl", "N", -1.4e-10, 0.1, 3e3, 0.2, 1.});
+  result.run->signals.push_back({"omega", "rad/s", 0., 0., 10. * M_PI, 0.4, 10. * M_PI});
+  const std::string html = without_scripts(make_report(result).html);
+  EXPECT_EQ(html.find("e-1"), std::string::npos) << html.substr(place(html, "e-1") - 100, 200);
+  const auto row = html.substr(place(html, "<td>1/min</td>"), 80);
+  EXPECT_NE(row.find(">300<"), std::string::npos) << row;
+}
+
+TEST(Report, NamesTheLibrariesItCarriesAndKeepsTheirLicence)
+{
+  const std::string html = make_report(example_result()).html;
+  for (const PageLibrary &library : page_libraries())
+    EXPECT_NE(html.find("this page: " + library.name), std::string::npos);
+  EXPECT_FALSE(page_libraries().empty()) << "install libjs-dygraphs and libjs-three";
+  EXPECT_NE(html.find("The above copyright notice and this permission notice"), std::string::npos);
 }

@@ -1,7 +1,7 @@
 // Orders of a rotor that runs up, of signals whose orders are known.
 
-#include "apps/session/order_tracking.h"
-#include "apps/session/waterfall.h"
+#include "apps/session/spectra/order_tracking.h"
+#include "apps/session/spectra/waterfall.h"
 #include "fem/values/two_pi.h"
 
 #include <gtest/gtest.h>

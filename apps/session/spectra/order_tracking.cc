@@ -1,6 +1,6 @@
-#include "apps/session/order_tracking.h"
+#include "apps/session/spectra/order_tracking.h"
 
-#include "apps/session/waterfall.h"
+#include "apps/session/spectra/waterfall.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "fem/values/two_pi.h"
 

@@ -1,4 +1,4 @@
-#include "apps/session/waterfall.h"
+#include "apps/session/spectra/waterfall.h"
 
 #include "fem/values/two_pi.h"
 
@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr int    n_windows = 30, n_frequencies = 240, window_samples = 1024;
-constexpr double least_change = 0.2, window_share = 1. / 12., least_turns = 6.;
+constexpr double least_change = 0.2, window_share = 1. / 12., fewest_turns = 6.;
 
 double linear(const std::vector<double> &x, const std::vector<double> &y, double at)
 {
@@ -79,7 +79,7 @@ Waterfall waterfall(const std::string &name, const std::string &unit, const Turn
   const auto [low, high] = std::minmax_element(history.speed_rpm.begin(), history.speed_rpm.end());
   if (!(*high > 0.) || *high - *low < least_change * *high)
     return result;
-  const double length = std::max(window_share * (history.t.back() - history.t.front()), least_turns * 60. / *high);
+  const double length = std::max(window_share * (history.t.back() - history.t.front()), fewest_turns * 60. / *high);
   const double step   = std::min(highest, 0.4 * window_samples / length) / n_frequencies;
   for (int k = 1; k <= n_frequencies; ++k)
     result.frequencies_hz.push_back(k * step);

@@ -1,0 +1,214 @@
+#include "apps/output/interactive/machine_view.h"
+
+#include "apps/output/interactive/page_scripts.h"
+#include "apps/output/interactive/seen_machine.h"
+#include "apps/output/interactive/short_motion.h"
+#include "apps/output/pictures/projection.h"
+#include "apps/output/text/base64.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/json.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t most_instants = 200, most_modes = 9;
+constexpr double      edge_degrees = 35.;
+constexpr double      mode_size    = 0.05; ///< largest displacement of a mode as drawn, of the machine's size
+constexpr double      motion_size  = 0.02; ///< the same of the motion, if that enlarges it
+constexpr double      exactness    = 1e-4; ///< of the drawn positions, of the machine's size
+constexpr double      smooth_turn  = 0.1;  ///< way off the straight line between neighbours, of a part's own size
+
+/// Parts of a thing at rest.
+Json parts_json(const SeenMachine &machine)
+{
+  Json parts = Json::array();
+  for (const Shape &part : machine.parts())
+  {
+    std::vector<float>         points;
+    std::vector<std::uint32_t> triangles, edges;
+    for (const Eigen::Vector3d &x : part.points)
+      points.insert(points.end(), {float(x[0]), float(x[1]), float(x[2])});
+    for (const auto &t : part.triangles)
+      triangles.insert(triangles.end(), t.begin(), t.end());
+    for (const auto &e : sharp_edges({part.points, part.displacement, part.triangles}, edge_degrees))
+      edges.insert(edges.end(), e.begin(), e.end());
+    parts.push_back(
+        {{"name", part.name}, {"points", base64(points)}, {"triangles", base64(triangles)}, {"edges", base64(edges)}});
+  }
+  return parts;
+}
+
+/// Tolerance is told of the largest displacement of a point; a column's norm is at least that.
+Json field_json(const Eigen::MatrixXd &motion, double tolerance)
+{
+  const ShortMotion field = short_motion(motion, tolerance);
+  Json              json  = {{"weights", base64(field.weights)}, {"shapes", Json::array()}};
+  for (const auto &shape : field.shapes)
+    json["shapes"].push_back(base64(shape));
+  return field.n_shapes() == 0 ? Json() : json;
+}
+
+double largest_displacement(const Eigen::MatrixXd &displacement)
+{
+  double largest = 0.;
+  for (Eigen::Index k = 0; k < displacement.cols(); ++k)
+    for (Eigen::Index i = 0; i < displacement.rows(); i += 3)
+      largest = std::max(largest, displacement.col(k).segment<3>(i).norm());
+  return largest;
+}
+
+template <typename Displacements>
+double largest_of(const Displacements &all)
+{
+  double largest = 0.;
+  for (const auto &one : all)
+    largest = std::max(largest, largest_displacement(one));
+  return largest;
+}
+
+/// Whether the straight line between neighbouring instants tells what lies between.
+bool is_smooth(const std::vector<PartMotion> &motions, const SeenMachine &machine)
+{
+  for (std::size_t i = 0; i < motions.size(); ++i)
+  {
+    const Shape &part = machine.parts()[i];
+    const double size = Skin{part.points, part.displacement, {}}.size();
+    for (Eigen::Index k = 1; k + 1 < motions[i].ideal.cols(); ++k)
+      if (const Eigen::VectorXd off =
+              motions[i].ideal.col(k) - 0.5 * (motions[i].ideal.col(k - 1) + motions[i].ideal.col(k + 1));
+          largest_displacement(off) > smooth_turn * size)
+        return false;
+  }
+  return true;
+}
+
+/// An enlargement of two digits that people can read.
+double round_enlargement(double x)
+{
+  const double unit = std::pow(10., std::floor(std::log10(x)));
+  return x >= 1. ? std::max(1., std::round(x / unit) * unit) : 1.;
+}
+
+Json motion_json(const SeenMachine &machine, const coupling::RunResult &run)
+{
+  const std::size_t            every = (run.picture_states.size() + most_instants - 1) / most_instants;
+  std::vector<Eigen::VectorXd> states;
+  std::vector<float>           times;
+  for (std::size_t k = 0; k < run.picture_states.size(); k += every)
+  {
+    states.push_back(run.picture_states[k]);
+    times.push_back(static_cast<float>(run.picture_times[k]));
+  }
+  const std::vector<PartMotion> motions = machine.motion(states);
+  double                        most    = 0.;
+  for (const PartMotion &part : motions)
+    most = std::max(most, largest_displacement(part.displacement));
+  const double enlargement = most > 0. ? round_enlargement(motion_size * machine.size() / most) : 1.;
+
+  Json show = {
+      {"kind", "motion"}, {"name", "motion"},       {"times", base64(times)}, {"smooth", is_smooth(motions, machine)},
+      {"top", most},      {"enlarge", enlargement}, {"parts", Json::array()}};
+  for (const PartMotion &part : motions)
+    show["parts"].push_back({{"ideal", field_json(part.ideal, exactness * machine.size())},
+                             {"moved", field_json(part.displacement, exactness * machine.size() / enlargement)}});
+  return show;
+}
+
+Json still_json(const std::string &kind, const std::string &name, const std::vector<Eigen::VectorXd> &displacements,
+                double size)
+{
+  const double most = largest_of(displacements);
+  Json         show = {{"kind", kind},
+                       {"name", name},
+                       {"top", most},
+                       {"enlarge", most > 0. ? size / most : 1.},
+                       {"parts", Json::array()}};
+  for (const Eigen::VectorXd &one : displacements)
+    show["parts"].push_back({{"ideal", Json()}, {"moved", field_json(one, 1e-3 * most)}});
+  return show;
+}
+
+std::string mode_name(const char *of, std::size_t j, const coupling::Mode &mode)
+{
+  return std::string(of) + " mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz";
+}
+
+Json stress_json(const SeenMachine &machine, const StressAt &at, double top)
+{
+  std::vector<Eigen::VectorXd> displacements = machine.at_rest();
+  std::vector<std::uint8_t>    colours;
+  for (std::size_t i = 0; i < machine.frame_points().size(); ++i)
+  {
+    const int point                                               = machine.frame_points()[i];
+    displacements[0].segment<3>(3 * static_cast<Eigen::Index>(i)) = at.displacement.col(point);
+    colours.push_back(static_cast<std::uint8_t>(std::clamp(255. * at.field.von_mises(point) / top, 0., 255.)));
+  }
+  const DisplayUnit unit = display_unit("Pa", top);
+  Json              show =
+      still_json("stress", "stress" + (at.label.empty() ? "" : ", " + at.label) + ", t = " + short_text(at.t, 5) + " s",
+                 displacements, motion_size * machine.size());
+  show["colours"] = base64(colours);
+  show["t"]       = at.t;
+  show["scale"]   = "equivalent stress 0 to " + short_text(top * unit.factor, 3) + " " + unit.unit;
+  return show;
+}
+
+void add_stresses(Json &shows, const SeenMachine &machine, const Result &result)
+{
+  if (!result.stress || !machine.has_frame() || result.stress->points.size() != result.scenery.points.size())
+    return;
+  double top = 0.;
+  for (const StressAt &at : result.stress->instants)
+    top = std::max(top, at.peak ? at.peak->von_mises : 0.);
+  for (const StressAt &at : result.stress->instants)
+    if (top > 0. && at.field.von_mises.size() == at.displacement.cols())
+      shows.push_back(stress_json(machine, at, top));
+}
+
+Json shows_json(const SeenMachine &machine, const Result &result)
+{
+  Json shows = Json::array();
+  if (result.run && !result.run->picture_states.empty())
+    shows.push_back(motion_json(machine, *result.run));
+  const double size = mode_size * machine.size();
+  for (std::size_t j = 0; j < std::min(result.coupled_modes.size(), most_modes); ++j)
+    shows.push_back(still_json("mode", mode_name("coupled", j, result.coupled_modes[j]),
+                               machine.machine_mode(result.coupled_modes[j].shape), size));
+  for (std::size_t j = 0; j < std::min(result.frame_modes.size(), most_modes) && machine.has_frame(); ++j)
+    shows.push_back(still_json("mode", mode_name("frame", j, result.frame_modes[j]),
+                               machine.frame_mode(result.frame_modes[j].shape), size));
+  add_stresses(shows, machine, result);
+  return shows;
+}
+
+} // namespace
+
+std::string machine_view(const Result &result)
+{
+  const SeenMachine machine(result);
+  if (machine.parts().empty() || page_libraries().empty())
+    return "";
+  const Json shows = shows_json(machine, result);
+  if (shows.empty())
+    return "";
+  std::vector<std::string> colours;
+  for (int i = 0; i < 32; ++i)
+    colours.push_back(hex(scale_colour((i + 0.5) / 32.), 1.));
+  const Json        data = {{"size", machine.size()},
+                            {"has_frame", machine.has_frame()},
+                            {"colours", colours},
+                            {"parts", parts_json(machine)},
+                            {"shows", shows}};
+  const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) +
+         "</script></div>\n<noscript><p class=\"soft\">With JavaScript the machine can be turned and seen in motion "
+         "here.</p></noscript>\n";
+}
+
+} // namespace gestell::apps

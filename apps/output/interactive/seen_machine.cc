@@ -1,0 +1,156 @@
+#include "apps/output/interactive/seen_machine.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr std::size_t most_frame_triangles = 5000, most_body_triangles = 3000;
+constexpr int         most_columns = 400; ///< coordinates of a reduced frame
+
+CoarseMesh coarse(const Skin &skin, std::size_t most)
+{
+  double     edge = skin.size() / 150.;
+  CoarseMesh mesh = coarse_mesh(skin, edge);
+  while (mesh.triangles.size() > most)
+    mesh = coarse_mesh(skin, edge *= 1.3);
+  return mesh;
+}
+
+/// A CAD body on fewer triangles; shapes of our own have few.
+void lighten(DrawnPart &part)
+{
+  if (part.triangles.size() <= most_body_triangles)
+    return;
+  Skin skin;
+  for (const auto &x : part.points)
+    skin.points.emplace_back(x[0], x[1], x[2]);
+  skin.displacement.resize(skin.points.size(), Eigen::Vector3d::Zero());
+  skin.triangles                          = part.triangles;
+  const CoarseMesh                   mesh = coarse(skin, most_body_triangles);
+  std::vector<std::array<double, 3>> few;
+  for (const int i : mesh.points)
+    few.push_back(part.points[static_cast<std::size_t>(i)]);
+  part.points    = few;
+  part.triangles = mesh.triangles;
+}
+
+Eigen::VectorXd column(const std::vector<Eigen::Vector3d> &points)
+{
+  Eigen::VectorXd all(3 * static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    all.segment<3>(3 * static_cast<Eigen::Index>(i)) = points[i];
+  return all;
+}
+
+} // namespace
+
+SeenMachine::SeenMachine(const Result &result) : scenery_(result.scenery), size_(result.scenery.size())
+{
+  for (DrawnPart &part : scenery_.parts)
+    lighten(part);
+  if (scenery_.has_skin())
+  {
+    const Skin skin = skin_of(scenery_, Eigen::VectorXd::Zero(scenery_.n_frame));
+    CoarseMesh mesh = coarse(skin, most_frame_triangles);
+    Shape      frame{"frame", {}, {}, mesh.triangles};
+    chosen_ = mesh.points;
+    for (const int i : chosen_)
+      frame.points.push_back(skin.points[static_cast<std::size_t>(i)]);
+    frame.displacement.resize(frame.points.size(), Eigen::Vector3d::Zero());
+    parts_.push_back(frame);
+    if (scenery_.n_frame <= most_columns)
+      displacements_ = displacements_of_coordinates();
+  }
+  if (result.run && !result.run->picture_states.empty())
+    start_ = result.run->picture_states.front();
+  for (const Shape &body : bodies(start_))
+    parts_.push_back(body);
+}
+
+std::vector<Shape> SeenMachine::bodies(const Eigen::VectorXd &q) const
+{
+  return q.size() > 0 ? mechanism_shapes(scenery_, q) : std::vector<Shape>();
+}
+
+Eigen::MatrixXd SeenMachine::displacements_of_coordinates() const
+{
+  Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(chosen_.size()), scenery_.n_frame);
+  for (Eigen::Index j = 0; j < columns.cols(); ++j)
+    columns.col(j) = displacement_of(Eigen::VectorXd::Unit(scenery_.n_frame, j));
+  return columns;
+}
+
+Eigen::VectorXd SeenMachine::frame_displacement(const Eigen::VectorXd &q) const
+{
+  const Eigen::VectorXd p = q.head(scenery_.n_frame);
+  return displacements_.size() > 0 ? displacements_ * p : displacement_of(p);
+}
+
+Eigen::VectorXd SeenMachine::displacement_of(const Eigen::VectorXd &p) const
+{
+  const Eigen::VectorXd all = scenery_.displacement(p);
+  Eigen::VectorXd       few(3 * static_cast<Eigen::Index>(chosen_.size()));
+  for (std::size_t i = 0; i < chosen_.size(); ++i)
+    few.segment<3>(3 * static_cast<Eigen::Index>(i)) = all.segment<3>(3 * chosen_[i]);
+  return few;
+}
+
+std::vector<PartMotion> SeenMachine::motion(const std::vector<Eigen::VectorXd> &states) const
+{
+  const auto              n = static_cast<Eigen::Index>(states.size());
+  std::vector<PartMotion> motions;
+  for (const Shape &part : parts_)
+  {
+    const auto size = 3 * static_cast<Eigen::Index>(part.points.size());
+    motions.push_back({Eigen::MatrixXd::Zero(size, n), Eigen::MatrixXd::Zero(size, n)});
+  }
+  const std::size_t first_body = has_frame() ? 1 : 0;
+  for (Eigen::Index k = 0; k < n; ++k)
+  {
+    const Eigen::VectorXd &q = states[static_cast<std::size_t>(k)];
+    if (has_frame())
+      motions[0].displacement.col(k) = frame_displacement(q);
+    const std::vector<Shape> at = bodies(q);
+    for (std::size_t i = 0; i < at.size() && first_body + i < parts_.size(); ++i)
+      if (const Shape &start = parts_[first_body + i]; start.points.size() == at[i].points.size())
+      {
+        motions[first_body + i].ideal.col(k)        = column(at[i].points) - column(start.points);
+        motions[first_body + i].displacement.col(k) = column(at[i].displacement);
+      }
+  }
+  return motions;
+}
+
+std::vector<Eigen::VectorXd> SeenMachine::at_rest() const
+{
+  std::vector<Eigen::VectorXd> displacements;
+  for (const Shape &part : parts_)
+    displacements.push_back(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(part.points.size())));
+  return displacements;
+}
+
+std::vector<Eigen::VectorXd> SeenMachine::frame_mode(const Eigen::VectorXd &shape) const
+{
+  std::vector<Eigen::VectorXd> displacements = at_rest();
+  if (has_frame())
+    displacements[0] = frame_displacement(shape);
+  return displacements;
+}
+
+std::vector<Eigen::VectorXd> SeenMachine::machine_mode(const Eigen::VectorXd &shape) const
+{
+  constexpr double             small         = 1e-6; // of a turn, or a metre: shapes turn on circles
+  const double                 largest       = shape.cwiseAbs().maxCoeff();
+  std::vector<Eigen::VectorXd> displacements = frame_mode(shape);
+  if (start_.size() != shape.size() || !(largest > 0.))
+    return displacements;
+  const std::vector<PartMotion> apart = motion({start_ - small / largest * shape, start_ + small / largest * shape});
+  for (std::size_t i = has_frame() ? 1 : 0; i < parts_.size(); ++i)
+    displacements[i] =
+        largest / (2. * small) *
+        (apart[i].ideal.col(1) - apart[i].ideal.col(0) + apart[i].displacement.col(1) - apart[i].displacement.col(0));
+  return displacements;
+}
+
+} // namespace gestell::apps

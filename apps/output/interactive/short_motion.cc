@@ -1,0 +1,51 @@
+#include "apps/output/interactive/short_motion.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr double largest_whole = 32767.;
+
+/// Columns by weights, how far the worst is off.
+double worst(const Eigen::MatrixXd &motion, const Eigen::MatrixXd &basis, const Eigen::MatrixXd &weights)
+{
+  return (motion - basis * weights.transpose()).colwise().norm().maxCoeff();
+}
+
+} // namespace
+
+ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance)
+{
+  ShortMotion result;
+  if (motion.size() == 0 || motion.colwise().norm().maxCoeff() <= tolerance)
+    return result;
+  // U^T U = V S^2 V^T: its right singular vectors, the largest last; U V are the shapes.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(motion.transpose() * motion);
+  Eigen::Index                                         rank = 1;
+  const auto vectors = [&] { return Eigen::MatrixXd(gram.eigenvectors().rightCols(rank)); };
+  while (rank < motion.cols() && worst(motion, motion * vectors(), vectors()) > tolerance)
+    ++rank;
+  const Eigen::MatrixXd weights = vectors(), basis = motion * weights;
+
+  Eigen::MatrixXf scaled = weights.cast<float>();
+  for (Eigen::Index r = 0; r < rank; ++r)
+  {
+    const double              unit = basis.col(r).cwiseAbs().maxCoeff() / largest_whole;
+    std::vector<std::int16_t> shape(static_cast<std::size_t>(basis.rows()));
+    for (Eigen::Index i = 0; i < basis.rows() && unit > 0.; ++i)
+      shape[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(std::lround(basis(i, r) / unit));
+    scaled.col(r) *= static_cast<float>(unit);
+    result.shapes.push_back(shape);
+  }
+  for (Eigen::Index k = 0; k < scaled.rows(); ++k)
+    for (Eigen::Index r = 0; r < rank; ++r)
+      result.weights.push_back(scaled(k, r));
+  return result;
+}
+
+} // namespace gestell::apps

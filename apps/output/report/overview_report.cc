@@ -1,0 +1,165 @@
+#include "apps/output/report/overview_report.h"
+
+#include "apps/output/tables/noise.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr std::size_t most_peaks = 3;
+
+struct KeyNumber
+{
+  std::string value, meaning;
+};
+
+/// A signal's extreme of the larger size.
+struct Peak
+{
+  const coupling::SignalSummary *signal;
+  double                         value, t;
+};
+
+Peak peak_of(const coupling::SignalSummary &signal)
+{
+  return std::abs(signal.max) >= std::abs(signal.min) ? Peak{&signal, signal.max, signal.t_max}
+                                                      : Peak{&signal, signal.min, signal.t_min};
+}
+
+std::string quantity_text(double value, const std::string &si_unit)
+{
+  const DisplayUnit unit = display_unit(si_unit, std::abs(value));
+  return short_text(value * unit.factor, 4) + (unit.unit.empty() ? "" : " " + unit.unit);
+}
+
+/// The largest force, moment, ... of those the scene tells, each unit once, in the order of the scene.
+std::vector<Peak> main_peaks(const coupling::RunResult &run)
+{
+  std::vector<Peak> peaks;
+  for (const coupling::SignalSummary &signal : run.signals)
+  {
+    const Peak peak = peak_of(signal);
+    const auto same =
+        std::find_if(peaks.begin(), peaks.end(), [&](const Peak &other) { return other.signal->unit == signal.unit; });
+    if (same == peaks.end())
+      peaks.push_back(peak);
+    else if (std::abs(peak.value) > std::abs(same->value))
+      *same = peak;
+  }
+  peaks.resize(std::min(peaks.size(), most_peaks));
+  return peaks;
+}
+
+const coupling::Mode *first_that_vibrates(const std::vector<coupling::Mode> &modes)
+{
+  const auto found =
+      std::find_if(modes.begin(), modes.end(), [](const coupling::Mode &mode) { return mode.frequency_hz > 1e-3; });
+  return found != modes.end() ? &*found : nullptr;
+}
+
+std::string model_text(const ModelFacts &model)
+{
+  std::string text;
+  if (model.dofs >= 0)
+    text += " with " + count_text(static_cast<std::size_t>(model.dofs), "coordinate");
+  if (model.frame_dofs > 0 && model.interface >= 0 && model.modes >= 0)
+    text += ", " + std::to_string(model.interface + model.modes) + " of them in place of the " +
+            std::to_string(model.frame_dofs) + " of the frame";
+  return text;
+}
+
+std::string what_was_run(const Result &result, const coupling::RunResult &run)
+{
+  std::string text = "The motion of " + result.scene;
+  if (!run.rows.empty())
+    text += " from " + short_text(run.rows.front()) + " to " +
+            short_text(run.rows[run.rows.size() - run.columns.size()]) + " s";
+  return text + " was computed by " + run.method + " in " + std::to_string(run.work.steps) + " steps" +
+         model_text(result.model) + ".";
+}
+
+std::string what_it_gave(const coupling::RunResult &run)
+{
+  const std::vector<Peak> peaks = main_peaks(run);
+  if (!run.failure.empty())
+    return "It ended early: " + run.failure;
+  std::string text;
+  for (const Peak &peak : peaks)
+    text += (text.empty() ? "" : ", ") + peak.signal->name + " reaches " +
+            quantity_text(peak.value, peak.signal->unit) + " at " + short_text(peak.t) + " s";
+  text += (text.empty() ? "There are " : "; ") + std::string(text.empty() ? "" : "there are ") +
+          count_text(run.events.size(), "event");
+  if (run.energy.exchanged > 0.)
+    text += ", and the energy balance closes to " + short_text(100. * run.energy.residual / run.energy.exchanged, 2) +
+            " % of what the motion exchanges";
+  text += ".";
+  return text;
+}
+
+std::string other_sentences(const Result &result)
+{
+  std::string text;
+  if (result.periodic)
+    text += count_text(result.periodic->entries.size(), "periodic motion") + " of " + result.scene +
+            (result.periodic->entries.size() == 1 ? " was" : " were") + " computed by " + result.periodic->method +
+            model_text(result.model) + ". ";
+  else if (result.frf)
+    text += "Frequency responses of " + result.scene + " were computed" + model_text(result.model) + ". ";
+  else if (result.along)
+    text += "The natural frequencies of " + result.scene + " were computed along " +
+            result.along->modes.coordinate.name + model_text(result.model) + ". ";
+  else if (!result.coupled_modes.empty() || !result.frame_modes.empty())
+    text += "The natural frequencies of " + result.scene + " were computed" + model_text(result.model) + ". ";
+  if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))
+    text += "The lowest mode of the machine has " + short_text(first->frequency_hz) + " Hz.";
+  return text;
+}
+
+std::vector<KeyNumber> key_numbers(const Result &result)
+{
+  std::vector<KeyNumber> numbers;
+  if (result.run)
+    for (const Peak &peak : main_peaks(*result.run))
+      numbers.push_back({quantity_text(peak.value, peak.signal->unit),
+                         peak.signal->name + (peak.value >= 0. ? ", largest" : ", smallest")});
+  if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))
+    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the machine"});
+  if (const coupling::Mode *first = first_that_vibrates(result.frame_modes))
+    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the frame"});
+  if (result.stress)
+  {
+    double most = 0.;
+    for (const StressAt &at : result.stress->instants)
+      most = std::max(most, at.peak ? at.peak->von_mises : 0.);
+    numbers.push_back({quantity_text(most, "Pa"), "equivalent stress, largest"});
+  }
+  if (result.run && result.run->energy.exchanged > 0.)
+    numbers.push_back(
+        {short_text(100. * result.run->energy.residual / result.run->energy.exchanged, 2) + " %", "energy residual"});
+  return numbers;
+}
+
+} // namespace
+
+std::string overview(const Result &result)
+{
+  const std::string text = result.run && !result.periodic
+                               ? what_was_run(result, *result.run) + " " + what_it_gave(*result.run)
+                               : other_sentences(result);
+  std::string       html = text.empty() ? "" : "<p id=\"computed\">" + escape_xml(text) + "</p>\n";
+  std::string       keys;
+  for (const auto &[value, meaning] : key_numbers(result))
+    keys += "<div><strong>" + escape_xml(value) + "</strong><span>" + escape_xml(meaning) + "</span></div>";
+  return html + (keys.empty() ? "" : "<div class=\"keys\">" + keys + "</div>\n");
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,133 @@
+#include "apps/output/report/spectrum_report.h"
+
+#include "apps/output/interactive/live_chart.h"
+#include "apps/output/text/html.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double least_shown = 1e-4; ///< of the largest amplitude, where the axis begins
+constexpr double told        = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
+constexpr int    most_orders = 8;
+constexpr double steady      = 1.02; ///< ratio of largest and smallest speed of a drive whose orders are lines
+
+double most_of(const SignalSpectrum &spectrum)
+{
+  return *std::max_element(spectrum.amplitudes.begin(), spectrum.amplitudes.end());
+}
+
+/// [Hz] to where there is something to see of one of them, with some room.
+double highest_told(const Spectra &spectra, const std::vector<const SignalSpectrum *> &shown)
+{
+  std::size_t last = 8;
+  for (const SignalSpectrum *spectrum : shown)
+    for (std::size_t k = last; k < spectrum->amplitudes.size(); ++k)
+      if (spectrum->amplitudes[k] > told * most_of(*spectrum))
+        last = k;
+  return std::min(1.25 * static_cast<double>(last), static_cast<double>(spectra.samples) / 2.) * spectra.resolution_hz;
+}
+
+/// [Hz] of a drive that turns evenly; 0: there is none.
+double drive_hz(const Result &result)
+{
+  if (!result.orders || result.orders->speed_rpm.empty())
+    return 0.;
+  const auto [low, high] = std::minmax_element(result.orders->speed_rpm.begin(), result.orders->speed_rpm.end());
+  return *low > 0. && *high <= steady * *low ? 0.5 * (*low + *high) / 60. : 0.;
+}
+
+void add_marks(const Result &result, Chart &chart)
+{
+  int number = 0;
+  for (const coupling::Mode &mode : result.coupled_modes)
+    if (++number; mode.frequency_hz > 0. && mode.frequency_hz < chart.x.end)
+      chart.marks.push_back(
+          {mode.frequency_hz, "mode " + std::to_string(number) + ": " + short_text(mode.frequency_hz) + " Hz", number});
+  const double drive = drive_hz(result);
+  for (int order = 1; order <= most_orders && drive > 0. && order * drive < chart.x.end; ++order)
+    chart.marks.push_back(
+        {order * drive,
+         "order " + std::to_string(order) + " of " + result.orders->rotor + ": " + short_text(order * drive) + " Hz", 0,
+         1});
+}
+
+Chart spectrum_chart(const Result &result, const std::vector<const SignalSpectrum *> &shown)
+{
+  const Spectra &spectra = *result.spectra;
+  double         most    = 0.;
+  for (const SignalSpectrum *spectrum : shown)
+    most = std::max(most, most_of(*spectrum));
+  const DisplayUnit unit = display_unit(shown.front()->unit, most);
+  Chart             chart;
+  chart.width  = 880.;
+  chart.height = 280.;
+  chart.title  = "Spectrum";
+  for (const SignalSpectrum *spectrum : shown)
+    chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
+  chart.x       = {"frequency [Hz]", 0., highest_told(spectra, shown)};
+  chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};
+  chart.y.scale = Scale::logarithmic;
+  for (const SignalSpectrum *spectrum : shown)
+  {
+    Curve curve{spectrum->name};
+    for (std::size_t k = 1; k < spectrum->amplitudes.size(); ++k)
+      curve.add(static_cast<double>(k) * spectra.resolution_hz, spectrum->amplitudes[k] * unit.factor);
+    chart.panels[0].add(std::move(curve));
+  }
+  add_marks(result, chart);
+  return chart;
+}
+
+/// Signals of one unit share a chart.
+std::vector<std::vector<const SignalSpectrum *>> by_unit(const Spectra &spectra)
+{
+  std::vector<std::vector<const SignalSpectrum *>> groups;
+  for (const SignalSpectrum &spectrum : spectra.signals)
+  {
+    if (!(most_of(spectrum) > 0.))
+      continue;
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const auto &group) { return group[0]->unit == spectrum.unit; });
+    if (same == groups.end())
+      groups.push_back({&spectrum});
+    else
+      same->push_back(&spectrum);
+  }
+  return groups;
+}
+
+} // namespace
+
+std::string spectrum_section(const Result &result, Pictures &pictures)
+{
+  if (!result.spectra)
+    return "";
+  const Spectra &spectra = *result.spectra;
+  std::string    html;
+  for (const auto &group : by_unit(spectra))
+  {
+    const Chart chart = spectrum_chart(result, group);
+    pictures.emplace_back("spectrum" + (html.empty() ? std::string() : "-" + std::to_string(pictures.size())),
+                          chart_svg(chart));
+    html += live_figure(chart, pictures.back().second);
+  }
+  if (html.empty())
+    return "";
+  return section("spectrum", "Spectra",
+                 "<p>Amplitudes over the whole run, " + short_text(spectra.begin) + " to " + short_text(spectra.end) +
+                     " s, in one window after Hann with " + std::to_string(spectra.samples) + " samples: lines stand " +
+                     short_text(spectra.resolution_hz, 3) +
+                     " Hz apart, and two frequencies are told apart from twice that on. Numbers: modes of the coupled "
+                     "machine" +
+                     (drive_hz(result) > 0. ? "; ticks: orders of " + escape_xml(result.orders->rotor) : "") +
+                     ".</p>\n" + html);
+}
+
+} // namespace gestell::apps

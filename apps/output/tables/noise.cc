@@ -1,0 +1,26 @@
+#include "apps/output/tables/noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+constexpr double noise_share = 1e-9;
+}
+
+void Noise::see(const std::string &unit, double value)
+{
+  if (std::isfinite(value))
+    largest_[unit] = std::max(largest_[unit], std::abs(value));
+}
+
+double Noise::without(const std::string &unit, double value) const
+{
+  const auto found = largest_.find(unit);
+  return found != largest_.end() && std::abs(value) < noise_share * found->second ? 0. : value;
+}
+
+} // namespace gestell::apps

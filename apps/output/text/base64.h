@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Bytes as text of RFC 4648, section 4.
+std::string base64(const std::string &bytes);
+
+/// Numbers in the byte order of the machine, which for every browser of today is little-endian.
+std::string base64(const std::vector<float> &numbers);
+std::string base64(const std::vector<std::int16_t> &numbers);
+std::string base64(const std::vector<std::uint8_t> &numbers);
+std::string base64(const std::vector<std::uint32_t> &numbers);
+
+} // namespace gestell::apps
