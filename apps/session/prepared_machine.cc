@@ -326,6 +326,7 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   const coupling::Linearisation how{scene.modes.open, geometric};
   const Eigen::VectorXd         q = modes_configuration(scene, small);
   result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
+  result.modes_at                 = q;
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;

@@ -6,6 +6,7 @@
 #include "apps/output/report/budget_report.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/frequency_response_report.h"
+#include "apps/output/report/machine_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
 #include "apps/output/report/periodic_report.h"
@@ -103,7 +104,8 @@ std::string peaks_table(const Result &result)
 
 std::string answer_section(const Result &result, Report &report)
 {
-  const std::string table = peaks_table(result), picture = machine_figure(result, report);
+  const std::string table   = peaks_table(result),
+                    picture = machine_figure(result, report) + peak_figure(result, report.charts);
   if (table.empty() && picture.empty())
     return "";
   return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
@@ -228,6 +230,7 @@ std::string modes_section(const Result &result, Report &report)
   std::string html;
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
+            coupled_mode_pictures(result, report.charts) +
             pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
   if (!result.poles.empty())
     html += pole_table(result.poles);
@@ -349,8 +352,7 @@ Report make_report(const Result &full)
   const std::string body =
       periodic_section(result, report.charts) + answer_section(result, report) + stage_section(result) +
       budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
-      stress_section(result, report.charts) +
-      chart_section(charts, ChartTopic::force, "forces", "Forces") +
+      stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
       events_section(result) + energy_section(result, charts) + frequency_response_section(result, report.charts) +

@@ -68,6 +68,14 @@ struct Request
   std::optional<coupling::RunOptions> run;  ///< of a run
 };
 
+/// The machine at the extreme of one signal.
+struct PeakState
+{
+  std::string     signal, unit;
+  double          value = 0., t = 0.; ///< in SI, [s]
+  Eigen::VectorXd q;
+};
+
 /// All that is written about one computation: plain values, gathered by whoever computed them.
 struct Result
 {
@@ -84,6 +92,8 @@ struct Result
   std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
+  Eigen::VectorXd                             modes_at;         ///< q of the machine that they are linearised at
+  std::optional<PeakState>                    peak;             ///< of a run: see main_peak()
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
   std::optional<StageResult>                  stages;           ///< of a run with stages or wheels that lift off
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
