@@ -1,10 +1,16 @@
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
+#include "apps/output/faces/faces_page.h"
+#include "apps/output/paraview/face_surface.h"
+#include "apps/output/result_folder.h"
+#include "apps/output/text/write_file.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/scene/read/read_material.h"
+#include "apps/version.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_report.h"
+#include "fem/values/number_text.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -33,6 +39,7 @@ struct MeshCommandOptions
   std::string plates    = "tetrahedra"; ///< or "swept"
   int         bodies    = 1;            ///< expected
   bool        selectors = false;        ///< surfaces as entries of a scene
+  std::string folder;                   ///< for the page of the faces; empty: none
 };
 
 /// A quantity given on the command line, in SI units; 0 if it is not given.
@@ -156,9 +163,24 @@ void print_surfaces(const coupling::MeshReport &report)
 void print_selectors(const coupling::MeshReport &report)
 {
   for (const coupling::SurfaceReport &surface : report.surfaces)
-    std::cout << "\n[frame.surface.\"face " << surface.tag << "\"] # " << surface.type << ", area " << surface.area
-              << " m^2" << (surface.name.empty() ? "" : ", \"" + surface.name + "\"") << '\n'
-              << surface.selector;
+  {
+    std::string entry = face_entry(surface);
+    entry.insert(entry.find('\n'), " # " + surface.type + ", area " + rounded(surface.area, 6) + " m^2" +
+                                       (surface.name.empty() ? "" : ", \"" + surface.name + "\""));
+    std::cout << '\n' << entry;
+  }
+}
+
+/// faces.html and faces.vtp.
+void write_faces(const std::filesystem::path &folder, const coupling::MeshReport &report, const std::string &file)
+{
+  std::filesystem::create_directories(folder);
+  write_file(folder / "faces.html", faces_page(report, file, version));
+  const std::string warning = write_face_surface(folder / "faces.vtp", report);
+  if (!warning.empty())
+    std::cerr << "gestell: warning: " << warning << '\n';
+  std::cout << "faces to see and to click: " << (folder / "faces.html").string()
+            << (warning.empty() ? ", for ParaView: " + (folder / "faces.vtp").string() : "") << '\n';
 }
 
 int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
@@ -166,6 +188,8 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
   const fem::FrameSpecification frame = frame_of(options, mesh);
   if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
     std::cerr << "gestell: warning: --density " << suspicion << '\n';
+  if (!mesh.folder.empty())
+    require_writable(mesh.folder);
   ProgressLine progress(options.quiet);
   const auto   report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
                                                        { progress.show(phase, share); });
@@ -183,6 +207,8 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
     print_selectors(report);
   else
     print_surfaces(report);
+  if (!mesh.folder.empty())
+    write_faces(mesh.folder, report, options.input);
   return exit_done;
 }
 
@@ -194,9 +220,10 @@ Command mesh_command()
   return {
       "mesh",
       "mesh a CAD file; report its quality, surfaces and solids",
-      {"gestell mesh meshes/press_frame.step --size '80 mm'"},
+      {"gestell mesh meshes/press_frame.step --size '80 mm'", "gestell mesh meshes/press_frame.step -o results/faces"},
       CommandInput::cad,
-      {{"--size", &own->size, "element size, such as \"80 mm\""},
+      {{"-o,--output", &own->folder, "folder for faces.html, a page of all faces to see and to click, and faces.vtp"},
+       {"--size", &own->size, "element size, such as \"80 mm\""},
        {"--unit", &own->unit, "length unit of a file without one, such as \"1 mm\""},
        CommandOption{"--max-cells", &own->max_cells, "refuse a mesh of more elements"}.above_zero(),
        {"--gap", &own->gap, "join solids at most that far apart, such as \"0.1 mm\""},

@@ -328,6 +328,7 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
   if (!result.coupled_modes.empty())
     result.energy_shares = coupling::energy_shares(small, q, scene.modes.open, result.coupled_modes);
+  result.modes_at = q;
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;

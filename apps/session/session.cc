@@ -15,6 +15,7 @@
 #include "apps/session/phase_planes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
 #include "apps/session/spectra/spectra.h"
+#include "apps/session/stages/main_peak.h"
 #include "apps/session/stages/stage_answer.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
@@ -53,8 +54,9 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
 {
   if (!prepared.companion)
     return;
-  for (Eigen::VectorXd &state : run.picture_states)
-    state = prepared.project(state);
+  for (auto *states : {&run.picture_states, &run.picture_velocities})
+    for (Eigen::VectorXd &state : *states)
+      state = prepared.project(state);
 }
 
 /// On the periodic motion that the state leads to.
@@ -305,7 +307,10 @@ Result Session::run(const std::optional<std::string> &sensitivities)
   result.stages  = stage_answer(scene_, prepared, result.run->end_state, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));
+  result.peak = taken_peak(signals, *result.run);
   states_for_pictures(prepared, *result.run);
+  if (result.peak && prepared.companion)
+    result.peak->q = prepared.project(result.peak->q);
   if (scene_.stress.given && !result.run->rows.empty())
     result.stress = stress_answer(scene_, *prepared.machine.model().reduced_frame(), *result.run, result.warnings);
   return finished(std::move(result));
@@ -404,8 +409,9 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,
                                        const std::vector<coupling::Signal> &signals, coupling::Trajectory *trajectory)
 {
-  const coupling::RunOptions &run = scene_.run.options;
-  const auto                  now = progress();
+  coupling::RunOptions run = scene_.run.options;
+  ask_for_peak(signals, run.states);
+  const auto now = progress();
   now("integration", 0.);
   const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
   try

@@ -22,6 +22,26 @@ struct SurfaceReport
   std::string           selector; ///< that finds it, as an entry of [frame.surface.NAME]
   double                area;     ///< [m^2]
   std::array<double, 3> min, max, centre;
+  std::vector<int>      found_with{}; ///< tags of other faces that no selector parts from it
+  std::string           kind{};       ///< "plane", "cylinder", else gmsh's word
+  std::array<double, 3> direction{};  ///< outward normal of a plane, axis of a cylinder
+  std::array<double, 3> through{};    ///< [m] a point of the plane, of the axis
+  double                radius = 0.;  ///< [m] of a cylinder
+};
+
+/// The outside of a mesh: which triangle shows which face.
+struct FacePicture
+{
+  std::vector<std::array<double, 3>> points;    ///< [m]
+  std::vector<std::array<int, 3>>    triangles; ///< into points, outside counter-clockwise
+  std::vector<int>                   face;      ///< index into MeshReport::surfaces of each triangle
+};
+
+/// The length of what a file calls 1.
+struct LengthUnit
+{
+  double      length = 1.;  ///< [m]
+  std::string name   = "m"; ///< "mm", "inch", or "0.03 m" where it has no name
 };
 
 /// What `gestell mesh` tells of a file, its mesh, and what the frame would cost.
@@ -38,6 +58,8 @@ struct MeshReport
   std::vector<std::string>   notes, statements;
   std::vector<SolidReport>   solids;
   std::vector<SurfaceReport> surfaces;
+  FacePicture                picture;
+  LengthUnit                 unit;
 };
 
 } // namespace gestell::coupling

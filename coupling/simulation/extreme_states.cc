@@ -20,7 +20,10 @@ ExtremeStates::ExtremeStates(const TimeIntegrator &integrator, const StateReques
 Eigen::VectorXd ExtremeStates::state(double t)
 {
   if (t >= integrator_.time())
+  {
+    v_ = integrator_.instant().v;
     return integrator_.instant().q;
+  }
   q_.resize(integrator_.instant().q.size());
   v_.resize(q_.size());
   integrator_.interpolate(std::max(t, integrator_.step_begin()), q_, v_);
@@ -43,8 +46,10 @@ void ExtremeStates::follow()
     const double         t      = request_.extremes[i].largest ? signal.t_max : signal.t_min;
     KeptState           &kept   = kept_.extremes[i];
     // What changed since the last call lies within the last step.
-    if (kept.q.size() == 0 || kept.t != t)
-      kept = {t, state(t)};
+    if (kept.q.size() > 0 && kept.t == t)
+      continue;
+    kept   = {t, state(t)};
+    kept.v = v_;
   }
 }
 

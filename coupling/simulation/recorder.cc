@@ -10,8 +10,10 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double brief   = 1e-9; ///< share of the step before: what lasts shorter lies within the resolution of events
-constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
+constexpr double brief = 1e-9; ///< share of the step before: what lasts shorter lies within the resolution of events
+constexpr long   close_pictures = 8, close_steps = 4; ///< behind an event: pictures a step of the grid, steps of it
+constexpr long   close_least = 100;                   ///< of these in a run at least, else as many as the grid makes
+constexpr double on_grid     = 1e-9; ///< share of the grid's step within which an instant is a point of it
 
 std::string method_and_step(const MethodOptions &method)
 {
@@ -93,7 +95,10 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
   const double length = options.end - options.begin;
   result.rows.reserve(static_cast<std::size_t>(length / row_step_ + 3.) * result.columns.size());
   if (picture_step_ > 0.)
+  {
     result.picture_states.reserve(static_cast<std::size_t>(length / picture_step_ + 2.));
+    close_budget_ = std::max(close_least, static_cast<long>(length / picture_step_));
+  }
 }
 
 void Recorder::evaluate(double t, SignalSample &sample)
@@ -178,6 +183,7 @@ void Recorder::jump(const std::string &event)
     energy_.jump(integrator_.instant());
   behind_  = integrator_.local();
   pending_ = true;
+  picture_event();
 }
 
 void Recorder::rows()
@@ -213,22 +219,48 @@ void Recorder::row(double t, const SignalSample &sample, const EnergySummary &en
     result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
 }
 
+/// On the grid, and for some steps behind an event on one so much finer that what rings then is seen.
 void Recorder::pictures()
 {
   if (!(picture_step_ > 0.))
     return;
-  const double end = integrator_.time();
-  for (double t; (t = options_.begin + double(next_picture_) * picture_step_) <= end + on_grid * picture_step_;
-       ++next_picture_)
-  {
-    result_.picture_times.push_back(t);
-    if (t >= end - on_grid * picture_step_)
+  const double end = integrator_.time() + on_grid * picture_step_;
+  const auto   at  = [&](long n) { return options_.begin + double(n) / close_pictures * picture_step_; };
+  for (double t; (t = at(next_picture_)) <= end; ++next_picture_)
+    if (next_picture_ % close_pictures == 0)
+      picture(t);
+    else if (t <= close_until_ && close_budget_ > 0)
     {
-      result_.picture_states.push_back(integrator_.instant().q);
-      continue;
+      --close_budget_;
+      picture(t);
     }
+}
+
+void Recorder::picture(double t)
+{
+  if (t >= integrator_.time() - on_grid * picture_step_)
+  {
+    between_.q = integrator_.instant().q;
+    between_.v = integrator_.instant().v;
+  }
+  else
     integrator_.interpolate(std::max(t, integrator_.step_begin()), between_.q, between_.v);
-    result_.picture_states.push_back(between_.q);
+  result_.picture_times.push_back(t);
+  result_.picture_states.push_back(between_.q);
+  result_.picture_velocities.push_back(between_.v);
+}
+
+/// An event is a picture by itself.
+void Recorder::picture_event()
+{
+  const double t = integrator_.time();
+  if (!(picture_step_ > 0.) || close_budget_ <= 0)
+    return;
+  close_until_ = t + close_steps * picture_step_;
+  if (result_.picture_times.empty() || t > result_.picture_times.back() + on_grid * picture_step_)
+  {
+    --close_budget_;
+    picture(t);
   }
 }
 

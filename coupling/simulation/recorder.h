@@ -51,6 +51,8 @@ private:
   void          row(double t, const SignalSample &sample, const EnergySummary &energy);
   EnergySummary energy_inside(double t);
   void          pictures();
+  void          picture(double t);
+  void          picture_event();
   void          balance();
 
   const Machine               &machine_;
@@ -73,6 +75,8 @@ private:
   double                       length_   = 0.;    ///< of the last step that was told
   double                       row_step_ = 0., picture_step_ = 0.;
   long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
+  double                       close_until_  = 0.;               ///< [s] pictures follow closely
+  long                         close_budget_ = 0;                ///< how many such may still be made
 };
 
 } // namespace gestell::coupling

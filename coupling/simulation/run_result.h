@@ -33,7 +33,8 @@ struct StateRequest
 struct KeptState
 {
   double          t = 0.;
-  Eigen::VectorXd q; ///< empty: the run did not come so far
+  Eigen::VectorXd q;   ///< empty: the run did not come so far
+  Eigen::VectorXd v{}; ///< of extremes alone
 };
 
 struct KeptStates
@@ -46,7 +47,7 @@ struct RunOptions
   MethodOptions method;
   double        begin = 0., end = 0.;   ///< [s]
   double        output_step    = 0.;    ///< [s] between rows of the history; 0: see output_step()
-  double        picture_step   = 0.;    ///< [s] between saved states for pictures; 0: none
+  double        picture_step   = 0.;    ///< [s] between saved states for pictures, closer behind events; 0: none
   StateRequest  states         = {};    ///< kept besides
   bool          events         = true;  ///< located and restarted at; false: gone over, and told afterwards
   bool          force_unstable = false; ///< runs although the method is unstable with this step
@@ -87,9 +88,10 @@ struct RunResult
   WorkCounts                   work;
   EnergySummary                energy;
   std::vector<double>          picture_times;
-  std::vector<Eigen::VectorXd> picture_states; ///< q
-  KeptStates                   states;         ///< those asked for
-  Eigen::VectorXd              end_state;      ///< q at the end
+  std::vector<Eigen::VectorXd> picture_states;     ///< q
+  std::vector<Eigen::VectorXd> picture_velocities; ///< q' at the same times; empty where they are not known
+  KeptStates                   states;             ///< those asked for
+  Eigen::VectorXd              end_state;          ///< q at the end
   std::vector<std::string>     warnings;
   double                       wall_s = 0.;
   std::string                  failure; ///< not empty: why it stopped early

@@ -90,7 +90,7 @@ void check_size(const Machine &machine, const RunOptions &options, std::size_t n
   const double history      = 8. * columns * (length / output_step(options) + 1.),
                picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
                state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.,
-               pictures     = 8. * machine.size() * (length * picture_rate + 1.),
+               pictures     = 32. * machine.size() * (length * picture_rate + 1.),
                states       = 8. * machine.size() * (length * state_rate + 1.);
   if (!options.allow_large && states > most_bytes)
     refuse("the run would keep ", states / 1e9,

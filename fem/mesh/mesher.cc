@@ -431,19 +431,18 @@ GeometryReport report_geometry(const FrameSpecification &specification, const Me
   report.smallest       = meshed.smallest;
   report.walls          = wall_thickness(mesh);
   report.n_of_kind      = {mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()};
-  for (Face &face : report.faces)
-    face.samples.clear();
-  report.n_points      = static_cast<int>(mesh.points.size());
-  report.n_cells       = mesh.n_cells();
-  report.n_coordinates = 3 * number_of_nodes(mesh);
-  report.worst_quality = 1.;
+  report.n_points       = static_cast<int>(mesh.points.size());
+  report.n_cells        = mesh.n_cells();
+  report.n_coordinates  = 3 * number_of_nodes(mesh);
+  report.worst_quality  = 1.;
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
   {
     const double q       = cell_quality(mesh, cell);
     report.worst_quality = std::min(report.worst_quality, q);
     report.mean_quality += q / report.n_cells;
   }
-  report.volume = curved_volume(mesh);
+  report.volume    = curved_volume(mesh);
+  report.extracted = std::move(meshed.extracted);
   return report;
 }
 

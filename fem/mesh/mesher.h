@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fem/geometry/cad_model.h"
+#include "fem/mesh/extracted_mesh.h"
 #include "fem/mesh/size_field.h"
 #include "fem/mesh/wall_thickness.h"
 #include "fem/values/frame_specification.h"
@@ -35,7 +36,7 @@ Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &prog
 struct GeometryReport
 {
   std::vector<Solid>                      solids;
-  std::vector<Face>                       faces;    ///< outer faces, without samples
+  std::vector<Face>                       faces;    ///< outer faces
   std::map<std::string, std::vector<int>> surfaces; ///< named in the specification: tags of their faces
   Vector3                                 min{}, max{};
   double                                  size           = 0.; ///< of the elements [m]; 0 for a mesh file
@@ -51,6 +52,7 @@ struct GeometryReport
   std::array<std::size_t, 3>              n_of_kind{}; ///< tetrahedra, hexahedra, prisms
   std::vector<std::string>                notes;       ///< what a user should look at in the file
   std::vector<std::string>                statements;  ///< what is as it should be
+  ExtractedMesh                           extracted;   ///< of report_geometry(): its skin shows the faces
 };
 
 /// Meshes and reports; if specification.mesh.size is 0, with a size that gives about 25000 cells.

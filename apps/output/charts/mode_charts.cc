@@ -118,6 +118,13 @@ std::string coupled_mode_svg(const Result &result, std::size_t j)
   return shape_svg(result, heading(j, result.coupled_modes[j]), result.coupled_modes[j]);
 }
 
+std::string coupled_mode_picture(const Result &result, const Scenery &scenery, std::size_t j)
+{
+  const coupling::Mode &mode  = result.coupled_modes[j];
+  const MachineState    state = mode_state(scenery, result.modes_at, mode.shape);
+  return machine_state_svg(state, mode_enlargement(state), heading(j, mode), damping_text(mode));
+}
+
 std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode)
 {
   const double length = arm(result.scenery);

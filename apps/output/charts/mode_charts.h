@@ -18,7 +18,10 @@ std::string frame_mode_svg(const Result &result, std::size_t j);
 /// The coordinates of coupled mode j (from 0) as bars: interfaces of the frame and bodies, at most the ten largest.
 std::string coupled_mode_svg(const Result &result, std::size_t j);
 
-/// The same of any shape in the machine's coordinates.
+/// Frame and mechanism in coupled mode j (from 0), deformed, as drawn of that scenery; empty if nothing is to be seen.
+std::string coupled_mode_picture(const Result &result, const Scenery &scenery, std::size_t j);
+
+/// The bars of any shape in the machine's coordinates.
 std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode);
 
 /// What angles are multiplied with to stand beside displacements [m]: a crank, or half of the machine.

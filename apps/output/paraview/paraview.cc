@@ -1,6 +1,8 @@
 #include "apps/output/paraview/paraview.h"
 
+#include "apps/output/paraview/view_macro.h"
 #include "apps/output/pictures/mechanism_shapes.h"
+#include "apps/output/pictures/skin_picture.h"
 #include "apps/output/text/write_file.h"
 #include "fem/values/number_text.h"
 
@@ -14,8 +16,10 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -135,8 +139,11 @@ public:
     return u;
   }
 
-  void write(const fs::path &path, const Eigen::VectorXd &u)
+  /// @param v  [3 points; m/s]; empty: unknown
+  void write(const fs::path &path, const Eigen::VectorXd &u, const Eigen::VectorXd &v = {})
   {
+    if (v.size() > 0)
+      surface_.add_field("velocity [m/s]", Eigen::Map<const Eigen::Matrix3Xd>(v.data(), 3, v.size() / 3));
     for (long i = 0; i < u.size(); ++i)
       surface_.displacement->SetValue(i, static_cast<float>(u(i)));
     surface_.write(path);
@@ -156,8 +163,20 @@ private:
   Surface        surface_;
 };
 
+/// Names of the bodies as field data: the `body` of a cell counts them from 1.
+void add_names(vtkPolyData &poly, const std::vector<Shape> &shapes)
+{
+  vtkNew<vtkStringArray> names;
+  names->SetName("body names");
+  for (const Shape &shape : shapes)
+    names->InsertNextValue(shape.name);
+  poly.GetFieldData()->AddArray(names);
+}
+
 /// All bodies in one surface; the cells tell which is which.
-void write_mechanism(const fs::path &path, const std::vector<Shape> &shapes)
+/// @param velocities  [m/s] of all points, in the order of the shapes; empty: unknown
+void write_mechanism(const fs::path &path, const std::vector<Shape> &shapes,
+                     const std::vector<Eigen::Vector3d> &velocities = {})
 {
   std::vector<Eigen::Vector3d>    points, displacements;
   std::vector<std::array<int, 3>> triangles;
@@ -179,9 +198,29 @@ void write_mechanism(const fs::path &path, const std::vector<Shape> &shapes)
   surface.set_points(points);
   surface.set_triangles(triangles);
   surface.poly->GetCellData()->AddArray(body);
+  add_names(*surface.poly, shapes);
+  if (!velocities.empty())
+    surface.add_field("velocity [m/s]", Eigen::Map<const Eigen::Matrix3Xd>(velocities.front().data(), 3,
+                                                                           static_cast<long>(velocities.size())));
   for (std::size_t i = 0; i < displacements.size(); ++i)
     surface.displacement->SetTuple(static_cast<vtkIdType>(i), displacements[i].data());
   surface.write(path);
+}
+
+/// Velocities [m/s] of the points of the bodies: their places at q + v dt less those at q - v dt, by 2 dt.
+std::vector<Eigen::Vector3d> body_velocities(const Scenery &scenery, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  const double             largest = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.;
+  const double             dt      = largest > 0. ? 1e-5 / largest : 1.; // 10 um or 10 urad
+  const std::vector<Shape> before  = mechanism_shapes(scenery, q - dt * v),
+                           after   = mechanism_shapes(scenery, q + dt * v);
+  std::vector<Eigen::Vector3d> velocities;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    for (std::size_t j = 0; j < after[i].points.size(); ++j)
+      velocities.push_back(
+          (after[i].points[j] + after[i].displacement[j] - before[i].points[j] - before[i].displacement[j]) /
+          (2. * dt));
+  return velocities;
 }
 
 /// The collection a .pvd file is: data sets with their time and part.
@@ -236,6 +275,60 @@ void write_frame_modes(const fs::path &folder, const Result &result, std::vector
   names.push_back("frame_modes.pvd");
 }
 
+/// Frame and mechanism together, as write_frame_modes() writes the frame.
+void write_coupled_modes(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+{
+  if (result.coupled_modes.empty() || result.modes_at.size() == 0 ||
+      (result.scenery.bodies.empty() && result.scenery.n_frame == 0))
+    return;
+  FrameSurface frame(result.scenery);
+  Collection   collection;
+  for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
+  {
+    const coupling::Mode &mode  = result.coupled_modes[j];
+    MachineState          state = mode_state(result.scenery, result.modes_at, mode.shape);
+    const double          times = mode_enlargement(state);
+    int                   part  = 0;
+    const auto            file  = [&](const char *stem)
+    {
+      names.push_back(numbered(std::string("coupled_modes/") + stem, j + 1));
+      collection.add(static_cast<double>(j + 1), part++, names.back());
+      return folder / names.back();
+    };
+    frame.note("frequency [Hz]", mode.frequency_hz);
+    if (!frame.empty())
+      frame.write(file("frame_"), times * state.scale * frame.displacement(mode.shape));
+    for (Shape &shape : state.shapes)
+      for (Eigen::Vector3d &u : shape.displacement)
+        u *= times;
+    if (!state.shapes.empty())
+      write_mechanism(file("mechanism_"), state.shapes);
+  }
+  write_file(folder / "coupled_modes.pvd", collection.document());
+  names.push_back("coupled_modes.pvd");
+}
+
+/// For the main peak, or the begin of a motion without one.
+ViewMacro macro_of(const Result &result)
+{
+  const coupling::RunResult &run = *result.run;
+  const std::size_t          k =
+      result.peak ? static_cast<std::size_t>(
+                        std::min(std::lower_bound(run.picture_times.begin(), run.picture_times.end(), result.peak->t) -
+                                              run.picture_times.begin(),
+                                          static_cast<std::ptrdiff_t>(run.picture_times.size()) - 1))
+                           : 0;
+  const MachineState state = machine_state(result.scenery, run.picture_states[k]);
+  ViewMacro          view;
+  view.time        = run.picture_times[k];
+  view.size        = state.size();
+  view.enlargement = std::max(shown_enlargement(state), 1.);
+  if (k < run.picture_velocities.size())
+    for (const Eigen::Vector3d &v : body_velocities(result.scenery, run.picture_states[k], run.picture_velocities[k]))
+      view.speed = std::max(view.speed, v.norm());
+  return view;
+}
+
 void write_motion(const fs::path &folder, const Result &result, std::vector<std::string> &names)
 {
   const coupling::RunResult &run = *result.run;
@@ -252,14 +345,19 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
       collection.add(run.picture_times[k], part++, names.back());
       return folder / names.back();
     };
+    const bool            moves = k < run.picture_velocities.size();
+    const Eigen::VectorXd v     = moves ? run.picture_velocities[k] : Eigen::VectorXd();
     if (!frame.empty())
-      frame.write(file("frame_"), frame.displacement(q));
+      frame.write(file("frame_"), frame.displacement(q), moves ? frame.displacement(v) : v);
     const std::vector<Shape> shapes = mechanism_shapes(result.scenery, q);
     if (!shapes.empty())
-      write_mechanism(file("mechanism_"), shapes);
+      write_mechanism(file("mechanism_"), shapes,
+                      moves ? body_velocities(result.scenery, q, v) : std::vector<Eigen::Vector3d>());
   }
   write_file(folder / "motion.pvd", collection.document());
   names.push_back("motion.pvd");
+  write_file(folder / "view.py", view_macro(macro_of(result)));
+  names.push_back("view.py");
 }
 
 void write_stress(const fs::path &folder, const StressResult &stress, std::vector<std::string> &names)
@@ -298,6 +396,7 @@ void write_stress(const fs::path &folder, const StressResult &stress, std::vecto
 std::vector<std::string> write_paraview(const fs::path &folder, const Result &result, std::vector<std::string> &names)
 {
   write_frame_modes(folder, result, names);
+  write_coupled_modes(folder, result, names);
   if (result.run && !result.run->picture_states.empty())
     write_motion(folder, result, names);
   if (result.stress && !result.stress->instants.empty())

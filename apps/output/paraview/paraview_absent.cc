@@ -1,4 +1,5 @@
 // Takes the place of paraview.cc in a build without VTK.
+#include "apps/output/paraview/face_surface.h"
 #include "apps/output/paraview/paraview.h"
 
 namespace gestell::apps
@@ -9,6 +10,11 @@ std::vector<std::string> write_paraview(const std::filesystem::path &, const Res
   return {"This build has no VTK: motion.pvd, frame_modes.pvd and stress.pvd were left out. Install libvtk9-dev and "
           "configure again "
           "to have them."};
+}
+
+std::string write_face_surface(const std::filesystem::path &, const coupling::MeshReport &)
+{
+  return "This build has no VTK: faces.vtp was left out. Install libvtk9-dev and configure again to have it.";
 }
 
 } // namespace gestell::apps

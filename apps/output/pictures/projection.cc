@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 namespace gestell::apps
 {
@@ -51,10 +52,10 @@ std::string triangle_path(const Facet &facet)
 
 } // namespace
 
-View::View(const std::vector<Vector3d> &seen, double picture_size)
+View::View(const std::vector<Vector3d> &seen, double picture_size, const ViewPoint &from)
 {
-  towards_ = Vector3d(0.55, -0.75, 0.36).normalized();
-  right_   = Vector3d::UnitZ().cross(towards_).normalized();
+  towards_ = from.towards.normalized();
+  right_   = from.upwards.cross(towards_).normalized();
   up_      = towards_.cross(right_);
   low_     = Vector2d::Constant(1e300);
   high_    = -low_;
@@ -164,18 +165,21 @@ std::string hex(const Colour &colour, double light)
 std::string facet_paths(std::vector<Facet> facets)
 {
   constexpr std::size_t slice = 160;
+  const auto            look  = [](const Facet &facet) { return std::tie(facet.face, facet.colour); };
   for (std::size_t i = 0; i < facets.size(); i += slice)
     std::stable_sort(facets.begin() + static_cast<long>(i),
                      facets.begin() + static_cast<long>(std::min(i + slice, facets.size())),
-                     [](const Facet &a, const Facet &b) { return a.colour < b.colour; });
+                     [&](const Facet &a, const Facet &b) { return look(a) < look(b); });
 
-  std::string        svg  = "<g transform=\"scale(.5)\">";
-  const std::string *open = nullptr;
+  std::string  svg  = "<g transform=\"scale(.5)\">";
+  const Facet *open = nullptr;
   for (const Facet &facet : facets)
   {
-    if (open == nullptr || *open != facet.colour)
-      svg += (open != nullptr ? "\"/><path color=\"" : "<path color=\"") + facet.colour + "\" d=\"";
-    open = &facet.colour;
+    if (open == nullptr || look(*open) != look(facet))
+      svg += (open != nullptr ? "\"/><path " : "<path ") +
+             (facet.face >= 0 ? "data-f=\"" + std::to_string(facet.face) + "\" " : "") + "color=\"" + facet.colour +
+             "\" d=\"";
+    open = &facet;
     svg += triangle_path(facet);
   }
   return svg + (open != nullptr ? "\"/></g>" : "</g>");

@@ -9,12 +9,18 @@
 namespace gestell::apps
 {
 
-/// Parallel projection from front right and above; fits what is to be seen into a picture whose longer side has the
-/// given size.
+/// Where a picture is seen from.
+struct ViewPoint
+{
+  Eigen::Vector3d towards = {0.55, -0.75, 0.36}; ///< the viewer: from front right and above
+  Eigen::Vector3d upwards = Eigen::Vector3d::UnitZ();
+};
+
+/// Parallel projection; fits what is to be seen into a picture whose longer side has the given size.
 class View
 {
 public:
-  View(const std::vector<Eigen::Vector3d> &seen, double picture_size);
+  View(const std::vector<Eigen::Vector3d> &seen, double picture_size, const ViewPoint &from = {});
 
   /// Coordinates in the picture, to the right and down, and depth (larger is nearer) [units].
   Eigen::Vector3d operator()(const Eigen::Vector3d &x) const;
@@ -22,6 +28,8 @@ public:
   double width() const;                   ///< [units]
   double height() const;                  ///< [units]
   double scale() const { return scale_; } ///< units per metre
+  /// A direction [1] in the picture, to the right and down.
+  Eigen::Vector2d direction(const Eigen::Vector3d &e) const { return {right_.dot(e), -up_.dot(e)}; }
 
   bool faces_viewer(const Eigen::Vector3d &normal) const { return normal.dot(towards_) > 0.; }
   /// Brightness of a face of this outward normal under a lamp above and right of the viewer; of few steps, since few
@@ -37,8 +45,9 @@ private:
 /// A triangle ready to be drawn.
 struct Facet
 {
-  std::array<Eigen::Vector3d, 3> corners; ///< as View gives them
-  std::string                    colour;  ///< #rrggbb
+  std::array<Eigen::Vector3d, 3> corners;   ///< as View gives them
+  std::string                    colour;    ///< #rrggbb
+  int                            face = -1; ///< written as `data-f` of its path; -1: none
 
   double depth() const { return corners[0][2] + corners[1][2] + corners[2][2]; }
 };

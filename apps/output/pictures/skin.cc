@@ -102,11 +102,14 @@ CoarseMesh coarse_mesh(const Skin &skin, double edge)
 
   CoarseMesh coarse;
   coarse.points = nearest;
-  for (const auto &t : skin.triangles)
+  for (std::size_t i = 0; i < skin.triangles.size(); ++i)
   {
+    const auto              &t = skin.triangles[i];
     const std::array<int, 3> c = {group[t[0]], group[t[1]], group[t[2]]};
-    if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
-      coarse.triangles.push_back(c);
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
+      continue;
+    coarse.triangles.push_back(c);
+    coarse.source.push_back(static_cast<int>(i));
   }
   return coarse;
 }

@@ -27,6 +27,7 @@ struct CoarseMesh
 {
   std::vector<int>                points;    ///< of the skin
   std::vector<std::array<int, 3>> triangles; ///< into this choice
+  std::vector<int>                source;    ///< of each triangle, the one of the skin that it came from
 };
 
 /// The skin on fewer points: those in one cell of a cubic grid of the given edge length whose faces lie in the same

@@ -1,5 +1,6 @@
 #include "apps/output/pictures/skin_picture.h"
 
+#include "apps/output/pictures/picture_margin.h"
 #include "apps/output/pictures/projection.h"
 #include "apps/output/text/svg.h"
 
@@ -18,7 +19,8 @@ using Eigen::Vector3d;
 constexpr std::size_t most_triangles = 12000; ///< of a closed skin; about a third of them is seen
 constexpr double      shown_size     = 0.05;  ///< largest displacement as part of the frame's size
 constexpr double      picture_size   = 400.;  ///< units of the picture's longer side
-constexpr double      piece          = 7.;    ///< longest edge of a body's triangles in a picture [units]
+constexpr double      fine_piece     = 7.;    ///< longest edge of a body's triangles in a picture [units]
+constexpr double      coarse_piece   = 14.;   ///< the same where there are many pictures
 constexpr double      sharp          = 35.;   ///< degrees
 
 /// Facets of the skin, moved by enlargement times displacement; `colour_of` gives the colour of a triangle.
@@ -75,6 +77,44 @@ const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke
                                "stroke-linejoin:round}.gst .edges{fill:none;stroke:#10151a;stroke-width:.5;"
                                "stroke-opacity:.55;stroke-linecap:round}.gst .later{fill:none;stroke:var(--ink);"
                                "stroke-width:.8;opacity:.5}</style>\n";
+
+const std::array<Colour, 8> body_colours = {{{0, 114, 178},
+                                             {213, 94, 0},
+                                             {0, 158, 115},
+                                             {176, 80, 143},
+                                             {200, 150, 0},
+                                             {70, 160, 215},
+                                             {120, 90, 70},
+                                             {110, 115, 125}}};
+
+/// Facets of the bodies, moved; small, as bodies pass through each other and only small triangles can be put in the
+/// order of their depth.
+/// @param piece  longest edge of a triangle [units]
+std::vector<Facet> body_facets(const std::vector<Shape> &shapes, double enlargement, const View &view,
+                               double piece = fine_piece)
+{
+  std::vector<Facet> facets;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+  {
+    const Skin small = refined({shapes[i].points, shapes[i].displacement, shapes[i].triangles}, piece / view.scale());
+    const auto own =
+        facets_of(small, enlargement, view, [&](const auto &) { return body_colours[i % body_colours.size()]; });
+    facets.insert(facets.end(), own.begin(), own.end());
+  }
+  return DepthRaster(facets, view).visible(facets);
+}
+
+std::string body_names(const std::vector<Shape> &shapes)
+{
+  std::string names;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+  {
+    const double y = 26. + 18. * static_cast<double>(i);
+    names += "<g class=\"faces\"><path color=\"" + hex(body_colours[i % body_colours.size()], 1.) + "\" d=\"M0 " +
+             std::to_string(static_cast<int>(y)) + "h12v-9h-12z\"/></g>" + svg_text(18., y, shapes[i].name, "label");
+  }
+  return names;
+}
 
 std::string shifted(double x, double y, const std::string &content)
 {
@@ -148,14 +188,14 @@ Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p)
   return skin;
 }
 
-Scenery for_pictures(const Scenery &scenery)
+Scenery for_pictures(const Scenery &scenery, std::size_t triangles)
 {
-  if (scenery.triangles.size() <= most_triangles)
+  if (scenery.triangles.size() <= triangles)
     return scenery;
   const Skin skin   = skin_of(scenery, Eigen::VectorXd::Zero(scenery.n_frame));
   double     edge   = skin.size() / 100.;
   CoarseMesh coarse = coarse_mesh(skin, edge);
-  while (coarse.triangles.size() > most_triangles)
+  while (coarse.triangles.size() > triangles)
     coarse = coarse_mesh(skin, edge *= 1.4);
 
   Scenery light   = scenery;
@@ -249,15 +289,6 @@ std::string field_picture_svg(const SkinField &full, const std::string &title, c
 std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title,
                               const std::vector<Shape> &later)
 {
-  static const std::array<Colour, 8> body_colours = {{{0, 114, 178},
-                                                      {213, 94, 0},
-                                                      {0, 158, 115},
-                                                      {176, 80, 143},
-                                                      {200, 150, 0},
-                                                      {70, 160, 215},
-                                                      {120, 90, 70},
-                                                      {110, 115, 125}}};
-
   std::vector<Vector3d> seen = skin.points;
   for (const std::vector<Shape> *pose : {&shapes, &later})
     for (const Shape &shape : *pose)
@@ -272,29 +303,122 @@ std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes
   const auto               pale   = [](const std::array<int, 3> &) { return Colour{205, 211, 218}; };
   const std::vector<Facet> facets = facets_of(skin, 0., view, pale);
   const DepthRaster        raster(facets, view);
-  std::vector<Facet>       bodies;
-  std::string              names;
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-  {
-    const Colour colour = body_colours[i % body_colours.size()];
-    // Bodies pass through each other: only small triangles can be put in the order of their depth.
-    const Skin small = refined({shapes[i].points, shapes[i].displacement, shapes[i].triangles}, piece / view.scale());
-    const auto own   = facets_of(small, 0., view, [&](const std::array<int, 3> &) { return colour; });
-    bodies.insert(bodies.end(), own.begin(), own.end());
-    const double y = 26. + 18. * static_cast<double>(i);
-    names += "<g class=\"faces\"><path color=\"" + hex(colour, 1.) + "\" d=\"M0 " +
-             std::to_string(static_cast<int>(y)) + "h12v-9h-12z\"/></g>" + svg_text(18., y, shapes[i].name, "label");
-  }
-  const std::vector<Facet> seen_bodies = DepthRaster(bodies, view).visible(bodies);
-
-  const double width = view.width() + 160., height = view.height() + 24.;
+  const double             width = view.width() + 160., height = view.height() + 24.;
   return svg_head(width, height, title) + face_style +
          shifted(12., 12.,
                  "<path class=\"later\" d=\"" + outlines + "\"/>\n<g class=\"faces\">" +
                      facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
                      edge_path(skin, 0., view, &raster) + "\"/>\n<g class=\"faces\" opacity=\".82\">" +
-                     facet_paths(seen_bodies) + "</g>\n") +
-         shifted(view.width() + 28., 12., names) + "</svg>\n";
+                     facet_paths(body_facets(shapes, 0., view)) + "</g>\n") +
+         shifted(view.width() + 28., 12., body_names(shapes)) + "</svg>\n";
+}
+
+double MachineState::size() const
+{
+  std::vector<Vector3d> points = skin.points;
+  for (const Shape &shape : shapes)
+    points.insert(points.end(), shape.points.begin(), shape.points.end());
+  return Skin{points, {}, {}}.size();
+}
+
+double MachineState::largest_displacement() const
+{
+  double largest = skin.largest_displacement();
+  if (skin.points.empty())
+    for (const Shape &shape : shapes)
+      for (const Vector3d &u : shape.displacement)
+        largest = std::max(largest, u.norm());
+  return largest;
+}
+
+MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q)
+{
+  return {skin_of(scenery, q), mechanism_shapes(scenery, q), 1.};
+}
+
+MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape)
+{
+  constexpr double   little = 1e-6; // of the size, where places of bodies are linear in q
+  const double       most   = shape.size() > 0 ? shape.cwiseAbs().maxCoeff() : 0.;
+  const double       step   = most > 0. ? little * scenery.size() / most : 0.;
+  MachineState       state{skin_of(scenery, step * shape), mechanism_shapes(scenery, q0), 1.};
+  std::vector<Shape> moved   = mechanism_shapes(scenery, q0 + step * shape);
+  double             largest = state.skin.largest_displacement();
+  for (std::size_t i = 0; i < state.shapes.size(); ++i)
+    for (std::size_t j = 0; j < state.shapes[i].points.size(); ++j)
+    {
+      const Vector3d u =
+          moved[i].points[j] + moved[i].displacement[j] - state.shapes[i].points[j] - state.shapes[i].displacement[j];
+      state.shapes[i].displacement[j] = u;
+      largest                         = std::max(largest, u.norm());
+    }
+  const double normal = largest > 0. ? 1. / largest : 1.;
+  const auto   scale  = [&](std::vector<Vector3d> &displacement)
+  {
+    for (Vector3d &u : displacement)
+      u *= normal;
+  };
+  state.scale = step * normal;
+  scale(state.skin.displacement);
+  for (Shape &body : state.shapes)
+    scale(body.displacement);
+  return state;
+}
+
+double shown_enlargement(const MachineState &state)
+{
+  const double largest = state.largest_displacement(), size = state.size();
+  return largest > 0. && size > 0. ? round_number(shown_size * size / largest) : 0.;
+}
+
+double mode_enlargement(const MachineState &state)
+{
+  return shown_size * state.size();
+}
+
+std::string machine_state_svg(const MachineState &state, double enlargement, const std::string &title,
+                              const std::string &subtitle, const DisplayUnit &unit)
+{
+  const Skin           &skin    = state.skin;
+  const double          largest = skin.largest_displacement();
+  std::vector<Vector3d> seen    = moved_points(skin, enlargement);
+  seen.insert(seen.end(), skin.points.begin(), skin.points.end());
+  for (const Shape &shape : state.shapes)
+  {
+    const auto moved = moved_points({shape.points, shape.displacement, {}}, enlargement);
+    seen.insert(seen.end(), moved.begin(), moved.end());
+  }
+  if (seen.empty())
+    return "";
+  const View view(seen, picture_size);
+  double     top = largest; // of a mode, which has no size, the largest displacement of all
+  for (const Shape &shape : unit.unit.empty() ? state.shapes : std::vector<Shape>())
+    for (const Vector3d &u : shape.displacement)
+      top = std::max(top, u.norm());
+  const auto colour = [&](const std::array<int, 3> &t)
+  {
+    const double mean =
+        (skin.displacement[t[0]].norm() + skin.displacement[t[1]].norm() + skin.displacement[t[2]].norm()) / 3.;
+    return scale_colour(top > 0. ? mean / top : 0.);
+  };
+  const std::vector<Facet> facets = facets_of(skin, enlargement, view, colour);
+  const DepthRaster        raster(facets, view);
+  const double             names = 18. * static_cast<double>(state.shapes.size()) + 34.;
+  const double             bar   = std::min(std::max(view.height() - names, 60.), 160.);
+  const double             width = view.width() + 170., height = std::max(view.height() + 120., names + bar + 90.);
+  const bool               shows_bar = !unit.unit.empty() && largest > 0.;
+  return svg_head(width, height, title) + face_style + svg_text(12., 19., title, "title") +
+         svg_text(12., 35., subtitle, "small") +
+         shifted(12., 48.,
+                 "<path class=\"outline\" d=\"" + edge_path(skin, 0., view, nullptr) + "\"/>\n<g class=\"faces\">" +
+                     facet_paths(raster.visible(facets)) + "</g>\n<path class=\"edges\" d=\"" +
+                     edge_path(skin, enlargement, view, &raster) + "\"/>\n<g class=\"faces\" opacity=\".82\">" +
+                     facet_paths(body_facets(state.shapes, enlargement, view, coarse_piece)) + "</g>\n") +
+         shifted(view.width() + 28., 36., body_names(state.shapes)) +
+         (shows_bar ? shifted(view.width() + 28., 48. + names,
+                              svg_text(0., -12., "frame [" + unit.unit + "]", "small") + colour_bar(largest, unit, bar))
+                    : "") +
+         axes_triad(view, 44., height - 26.) + scale_bar(view, 110., height - 22., 140.) + "</svg>\n";
 }
 
 } // namespace gestell::apps

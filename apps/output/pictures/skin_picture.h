@@ -15,8 +15,8 @@ namespace gestell::apps
 /// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
 Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
 
-/// The scenery with a skin of so few triangles (12 000) that a picture stays below 200 kB.
-Scenery for_pictures(const Scenery &scenery);
+/// The scenery with a skin of so few triangles that a picture stays small, with 12 000 below 200 kB.
+Scenery for_pictures(const Scenery &scenery, std::size_t triangles = 12000);
 
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
 /// undeformed edges.  Seen in parallel projection from front right and above.
@@ -39,5 +39,39 @@ std::string field_picture_svg(const SkinField &field, const std::string &title, 
 /// edges of the bodies at another time.
 std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title,
                               const std::vector<Shape> &later = {});
+
+/// A machine in one state: its frame's skin and its bodies, displacements not yet enlarged.
+struct MachineState
+{
+  Skin               skin;
+  std::vector<Shape> shapes;
+  double             scale = 1.; ///< of a mode: what its shape was multiplied with
+
+  double size() const; ///< [m] diagonal of the box around all of it
+  /// Largest displacement [m] of the frame, of bodies where it has no skin.
+  double largest_displacement() const;
+};
+
+/// The machine for its coordinates q.
+MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q);
+
+/// A mode shape of frame and mechanism about the configuration q0: bodies move by the derivative of their places.  The
+/// largest displacement of all is 1 m.
+MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape);
+
+/// The enlargement, a round number, by which the largest displacement is at most a twentieth of the size; 0 where
+/// nothing moves.
+double shown_enlargement(const MachineState &state);
+
+/// Of a mode: its largest displacement, of frame or body, becomes a twentieth of the size.
+double mode_enlargement(const MachineState &state);
+
+/**
+ * The deformed machine: its frame coloured by displacement and moved by enlargement times displacement over its faint
+ * undeformed edges, the bodies seen through it; with axes and a scale of lengths, beside it the names of the bodies and
+ * the bar of colours (without one if `unit` is empty: the displacement of a mode has no size).
+ */
+std::string machine_state_svg(const MachineState &state, double enlargement, const std::string &title,
+                              const std::string &subtitle, const DisplayUnit &unit = {});
 
 } // namespace gestell::apps

@@ -10,6 +10,7 @@
 #include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/frequency_response_report.h"
+#include "apps/output/report/machine_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
 #include "apps/output/report/overview_report.h"
@@ -119,7 +120,8 @@ std::string peaks_table(const Result &result)
 
 std::string answer_section(const Result &result, Report &report)
 {
-  const std::string table = peaks_table(result), picture = machine_figure(result, report);
+  const std::string table   = peaks_table(result),
+                    picture = machine_figure(result, report) + peak_figure(result, report.charts);
   if (table.empty() && picture.empty())
     return "";
   return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
@@ -266,7 +268,8 @@ std::string modes_section(const Result &result, Report &report)
   std::string html;
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
-            energy_shares_table(result) + pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
+            energy_shares_table(result) + coupled_mode_pictures(result, report.charts) +
+            pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
   if (!result.poles.empty())
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
@@ -394,17 +397,15 @@ Report make_report(const Result &full)
 
   const std::string body =
       periodic_section(result, report.charts) + answer_section(result, report) +
-      compared_run_section(result, report.charts) + stage_section(result) + periodic_section(result, report.charts) +
-      answer_section(result, report) + section("view", "The machine to turn", machine_view(full)) +
+      section("view", "The machine to turn", machine_view(full)) + compared_run_section(result, report.charts) +
       stage_section(result) + budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
       stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
-      story_section(result) + events_section(result) + energy_section(result, charts) +
-      frequency_response_section(result, report.charts) + along_section(result, report.charts) +
-      compared_modes_section(result, report.charts) + spectrum_section(result, report.charts) + events_section(result) +
+      story_section(result) + spectrum_section(result, report.charts) + events_section(result) +
       energy_section(result, charts) + frequency_response_section(result, report.charts) +
-      along_section(result, report.charts) + modes_section(result, report) + numerics_section(result);
+      along_section(result, report.charts) + compared_modes_section(result, report.charts) +
+      modes_section(result, report) + numerics_section(result);
 
   report.html = page_html(
       {result.scene, result.description,

@@ -374,6 +374,8 @@ std::string summary_json(const Result &result)
     json["story"] = story_json(*result.story);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
+  if (result.peak)
+    json["main_peak"] = {{"signal", result.peak->signal}, {"value", result.peak->value}, {"t", result.peak->t}};
   json["signals"]  = signals_json(run.signals);
   json["events"]   = array_of(run.events, event_json);
   json["method"]   = run.method;

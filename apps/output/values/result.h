@@ -73,6 +73,14 @@ struct Request
   std::optional<coupling::RunOptions> run;  ///< of a run
 };
 
+/// The machine at the extreme of one signal.
+struct PeakState
+{
+  std::string     signal, unit;
+  double          value = 0., t = 0.; ///< in SI, [s]
+  Eigen::VectorXd q;
+};
+
 /// All that is written about one computation: plain values, gathered by whoever computed them.
 struct Result
 {
@@ -90,6 +98,8 @@ struct Result
   std::vector<coupling::Mode>                 frame_modes;
   std::vector<coupling::Mode>                 coupled_modes;
   std::optional<coupling::EnergyShares>       energy_shares;    ///< of the coupled modes
+  Eigen::VectorXd                             modes_at;         ///< q of the machine that they are linearised at
+  std::optional<PeakState>                    peak;             ///< of a run: see main_peak()
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
   std::optional<ComparedShapes>               compared_shapes;  ///< with those of another scene
   std::optional<ComparedRun>                  compared_run;     ///< of another scene

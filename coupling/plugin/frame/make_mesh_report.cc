@@ -1,11 +1,14 @@
 #include "coupling/plugin/frame/make_mesh_report.h"
 
+#include "coupling/plugin/frame/face_selector.h"
+#include "coupling/plugin/frame/file_unit.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesh_size.h"
 #include "fem/mesh/mesher.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gestell::coupling
 {
@@ -42,36 +45,6 @@ std::string shape_of(const fem::Face &face)
   return face.type;
 }
 
-std::string toml(const fem::Vector3 &v)
-{
-  std::string words = fem::text(v); // "(0 0 0.9)"
-  std::replace(words.begin(), words.end(), ' ', ',');
-  words.front() = '[';
-  words.back()  = ']';
-  for (std::size_t comma = words.find(','); comma != std::string::npos; comma = words.find(',', comma + 1))
-    words.insert(comma + 1, " ");
-  return words;
-}
-
-/// By the surface it lies on and, as others may lie on it too, by its box.
-std::string selector_of(const fem::Face &face, double margin)
-{
-  const fem::Vector3 aside{margin, margin, margin};
-  std::string        words;
-  if (face.kind == fem::FaceKind::plane)
-    words = "plane = { normal = " + toml(face.direction) + ", through = " + toml(face.through) + " }\n";
-  if (face.kind == fem::FaceKind::cylinder)
-    words = "cylinder = { axis = " + toml(face.direction) + ", through = " + toml(face.through) +
-            ", radius = " + fem::text(face.radius) + " }\n";
-  fem::Vector3 low, high;
-  for (int d = 0; d < 3; ++d)
-  {
-    low[d]  = face.min[d] - aside[d];
-    high[d] = face.max[d] + aside[d];
-  }
-  return words + "box = { min = " + toml(low) + ", max = " + toml(high) + " }\n";
-}
-
 std::vector<std::string> features_of(const fem::GeometryReport &geometry)
 {
   std::vector<std::string> lines;
@@ -103,6 +76,41 @@ std::string kinds_of(const fem::GeometryReport &geometry)
   return n == 1 ? last : "cells (" + counts + ")";
 }
 
+std::string kind_of(const fem::Face &face)
+{
+  return face.kind == fem::FaceKind::plane ? "plane" : face.kind == fem::FaceKind::cylinder ? "cylinder" : face.type;
+}
+
+/// Triangles of no face, between gmsh's surfaces, are left out.
+FacePicture picture_of(const fem::GeometryReport &geometry)
+{
+  std::map<int, int> index;
+  for (std::size_t i = 0; i < geometry.faces.size(); ++i)
+    index[geometry.faces[i].tag] = static_cast<int>(i);
+  const fem::Mesh &mesh = geometry.extracted.mesh;
+  FacePicture      picture;
+  std::vector<int> number(mesh.points.size(), -1);
+  for (std::size_t t = 0; t < mesh.skin.size(); ++t)
+  {
+    const auto face = index.find(geometry.extracted.skin_surface[t]);
+    if (face == index.end())
+      continue;
+    picture.face.push_back(face->second);
+    picture.triangles.emplace_back();
+    for (int k = 0; k < 3; ++k)
+    {
+      int &point = number[mesh.skin[t][k]];
+      if (point < 0)
+      {
+        point = static_cast<int>(picture.points.size());
+        picture.points.push_back(mesh.points[mesh.skin[t][k]]);
+      }
+      picture.triangles.back()[k] = point;
+    }
+  }
+  return picture;
+}
+
 } // namespace
 
 MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &progress)
@@ -131,8 +139,14 @@ MeshReport mesh_report(const fem::FrameSpecification &frame, const Progress &pro
   for (int d = 0; d < 3; ++d)
     diagonal = std::hypot(diagonal, geometry.max[d] - geometry.min[d]);
   for (const auto &face : geometry.faces)
-    report.surfaces.push_back({face.tag, names_of(face, geometry.surfaces), shape_of(face),
-                               selector_of(face, 1e-4 * diagonal), face.area, face.min, face.max, face.centre});
+  {
+    const FaceSelector own = selector_of(face, geometry.faces, diagonal);
+    report.surfaces.push_back({face.tag, names_of(face, geometry.surfaces), shape_of(face), own.text, face.area,
+                               face.min, face.max, face.centre, own.others, kind_of(face), face.direction, face.through,
+                               face.radius});
+  }
+  report.picture = picture_of(geometry);
+  report.unit    = file_unit(frame);
   return report;
 }
 

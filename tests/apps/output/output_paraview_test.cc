@@ -1,11 +1,16 @@
 #include "apps/output/paraview/paraview.h"
 #include "tests/support/output_example.h"
 
+#include "apps/output/paraview/face_surface.h"
+
 #include <gtest/gtest.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <fstream>
@@ -125,4 +130,84 @@ TEST_F(ParaviewFiles, StressHoldsInvariantsAndComponentsAtEveryPoint)
   EXPECT_EQ(field->GetArray("stress xx yy zz xy yz xz [Pa]")->GetNumberOfComponents(), 6);
   EXPECT_FLOAT_EQ(field->GetArray("stress xx yy zz xy yz xz [Pa]")->GetComponent(3, 2), 40e6f);
   EXPECT_FLOAT_EQ(field->GetArray("displacement [m]")->GetComponent(5, 0), 1e-4f);
+}
+
+TEST_F(ParaviewFiles, CoupledModesMoveFrameAndBodiesTogetherTheLargestByATwentiethOfTheMachine)
+{
+  Result result   = example_result();
+  result.modes_at = result.run->picture_states.front();
+  result.coupled_modes.front().shape << 2e-2, 0., 0., 1e-2; // the top sways twice as far as the slide slides
+  write_paraview(folder, result, names);
+  const auto sets = data_sets("coupled_modes.pvd");
+  ASSERT_EQ(sets.size(), 2u);
+  const auto largest = [](vtkPolyData *part)
+  { return part->GetPointData()->GetArray("displacement [m]")->GetRange(-1)[1]; };
+  vtkPolyData *frame = read(std::get<2>(sets[0]));
+  const double sway  = largest(frame);
+  EXPECT_FLOAT_EQ(frame->GetFieldData()->GetArray("frequency [Hz]")->GetTuple1(0), 11.58486756566711);
+  EXPECT_NEAR(sway, 0.05 * std::sqrt(1. + 1. + 2.3 * 2.3), 0.01); // the crank stands out above the box
+  vtkPolyData *mechanism = read(std::get<2>(sets[1]));
+  EXPECT_NEAR(largest(mechanism), sway, 1e-5); // of the crank, which the top carries
+  auto *names_of_bodies = vtkStringArray::SafeDownCast(mechanism->GetFieldData()->GetAbstractArray("body names"));
+  ASSERT_NE(names_of_bodies, nullptr);
+  EXPECT_EQ(names_of_bodies->GetValue(1), "slide");
+  for (vtkIdType i = 0; i < mechanism->GetNumberOfCells(); ++i)
+    if (mechanism->GetCellData()->GetArray("body")->GetTuple1(i) == 2)
+      EXPECT_NEAR(mechanism->GetPointData()
+                      ->GetArray("displacement [m]")
+                      ->GetComponent(mechanism->GetCell(i)->GetPointId(0), 2),
+                  -0.5 * sway, 1e-5); // down, along its axis
+}
+
+TEST_F(ParaviewFiles, VelocitiesAreThoseOfThePointsOfFrameAndBodies)
+{
+  Result result = example_result();
+  for (int k = 0; k < 3; ++k)
+    result.run->picture_velocities.push_back((Eigen::VectorXd(4) << 0.02, 0., 10., 0.5).finished());
+  write_paraview(folder, result, names);
+  const auto sets = data_sets("motion.pvd");
+  EXPECT_FLOAT_EQ(read(std::get<2>(sets[0]))->GetPointData()->GetArray("velocity [m/s]")->GetComponent(4, 0), 0.02f);
+  vtkPolyData *mechanism = read(std::get<2>(sets[1]));
+  auto        *velocity  = mechanism->GetPointData()->GetArray("velocity [m/s]");
+  ASSERT_NE(velocity, nullptr);
+  double rim = 0.;
+  for (vtkIdType i = 0; i < mechanism->GetNumberOfCells(); ++i)
+  {
+    const vtkIdType point = mechanism->GetCell(i)->GetPointId(0);
+    const double    body  = mechanism->GetCellData()->GetArray("body")->GetTuple1(i);
+    if (body == 1)
+      rim = std::max(rim, std::abs(velocity->GetComponent(point, 2))); // omega r at the outermost point aside
+    if (body == 2)
+      EXPECT_NEAR(velocity->GetComponent(point, 2), -0.5, 1e-6);
+  }
+  EXPECT_NEAR(rim, 10. * 0.3, 0.1);
+}
+
+TEST_F(ParaviewFiles, TheMacroBeginsAtTheMainPeak)
+{
+  Result result = example_result();
+  result.peak   = PeakState{"F_P", "N", 1e6, 0.21, result.run->picture_states[1]};
+  write_paraview(folder, result, names);
+  std::stringstream text;
+  text << std::ifstream(folder / "view.py").rdbuf();
+  EXPECT_NE(text.str().find("begin = 0.24 "), std::string::npos) << text.str(); // the first picture behind it
+  EXPECT_NE(text.str().find("PVDReader"), std::string::npos);
+}
+
+TEST_F(ParaviewFiles, FacesBearTheirNumbersAndSelectors)
+{
+  gestell::coupling::MeshReport report;
+  report.picture.points    = {{0., 0., 0.}, {1., 0., 0.}, {1., 1., 0.}, {0., 1., 0.}};
+  report.picture.triangles = {{0, 1, 2}, {0, 2, 3}};
+  report.picture.face      = {1, 0};
+  for (const int tag : {7, 12})
+    report.surfaces.push_back(
+        {tag, "", "plane", "plane = { normal = [0, 0, 1], through = [0, 0, 0] }\n", 0.5, {}, {}, {}});
+  EXPECT_EQ(write_face_surface(folder / "faces.vtp", report), "");
+  vtkPolyData *skin = read("faces.vtp");
+  EXPECT_EQ(skin->GetCellData()->GetArray("face")->GetTuple1(0), 12.);
+  auto *selectors = vtkStringArray::SafeDownCast(skin->GetFieldData()->GetAbstractArray("selectors"));
+  ASSERT_NE(selectors, nullptr);
+  EXPECT_EQ(selectors->GetValue(0),
+            "[frame.surface.\"face 7\"]\nplane = { normal = [0, 0, 1], through = [0, 0, 0] }\n");
 }

@@ -62,7 +62,8 @@ private:
   IntegrationWork work_;
 };
 
-RunResult recorded(double step, bool inside, double end, double output_step = 0., const StateRequest &states = {})
+RunResult recorded(double step, bool inside, double end, double output_step = 0., const StateRequest &states = {},
+                   double event = -1.)
 {
   const Machine             machine = slider();
   const std::vector<Signal> signals = {machine.signal("x", "x.displacement"), machine.signal("v", "x.velocity")};
@@ -82,7 +83,15 @@ RunResult recorded(double step, bool inside, double end, double output_step = 0.
     sine.advance();
     if (sine.time() > end)
       sine.cut(end);
+    const bool happens = sine.step_begin() < event && event < sine.time();
+    if (happens)
+      sine.cut(event);
     recorder.step();
+    if (happens)
+    {
+      recorder.jump("rod");
+      sine.restart();
+    }
   }
   recorder.finish();
   return result;
@@ -129,6 +138,23 @@ TEST(Recorder, TakesRowsAndPicturesFromTheDenseOutputWhereNoStepEnds)
   ASSERT_EQ(result.picture_times.size(), 51u);
   EXPECT_NEAR(result.picture_states[7][0], std::sin(omega * 0.07), 1e-14);
   EXPECT_NEAR(result.signals[0].final, std::sin(omega * 0.505), 1e-14);
+}
+
+TEST(Recorder, PicturesShowTheEventAndFollowCloselyBehindIt)
+{
+  const RunResult result = recorded(0.03, false, 1., 0.1, {}, 0.333);
+  // 0, 0.1 .. 0.3, the event, eight to a step from 0.3375 to 0.725 and 0.8, 0.9, 1
+  ASSERT_EQ(result.picture_times.size(), 4u + 1u + 32u + 3u);
+  EXPECT_EQ(result.picture_times[4], 0.333);
+  EXPECT_NEAR(result.picture_times[5], 0.3375, 1e-12);
+  EXPECT_NEAR(result.picture_times[36], 0.725, 1e-12);
+  EXPECT_EQ(result.picture_times.back(), 1.);
+  ASSERT_EQ(result.picture_velocities.size(), result.picture_times.size());
+  for (std::size_t k = 0; k < result.picture_times.size(); ++k)
+  {
+    EXPECT_NEAR(result.picture_states[k][0], std::sin(omega * result.picture_times[k]), 1e-12);
+    EXPECT_NEAR(result.picture_velocities[k][0], omega * std::cos(omega * result.picture_times[k]), 1e-12);
+  }
 }
 
 TEST(Recorder, RowsDoNotDependOnTheStep)

@@ -1,0 +1,240 @@
+#include "apps/output/faces/faces_page.h"
+
+#include "apps/output/faces/face_pictures.h"
+#include "apps/output/faces/faces_script.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
+#include "fem/values/number_text.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+using coupling::MeshReport;
+using coupling::SurfaceReport;
+using Triple = std::array<double, 3>;
+
+template <typename Number>
+std::string base64(const std::vector<Number> &numbers)
+{
+  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto       *bytes     = reinterpret_cast<const unsigned char *>(numbers.data());
+  const std::size_t n         = numbers.size() * sizeof(Number);
+  std::string       text;
+  for (std::size_t i = 0; i < n; i += 3)
+  {
+    const std::uint32_t three = static_cast<std::uint32_t>(bytes[i] << 16) |
+                                static_cast<std::uint32_t>(i + 1 < n ? bytes[i + 1] << 8 : 0) |
+                                static_cast<std::uint32_t>(i + 2 < n ? bytes[i + 2] : 0);
+    for (int k = 0; k < 4; ++k)
+      text += i + static_cast<std::size_t>(k) > n ? '=' : letters[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+/// "(0, -520, 2560) mm"; OpenCASCADE widens boxes by 1e-7 m, which is not shown.
+std::string place(const Triple &x, const coupling::LengthUnit &unit)
+{
+  std::string text = "(";
+  for (int d = 0; d < 3; ++d)
+    text += (d > 0 ? ", " : "") + short_text(std::round(x[d] * 1e6) * 1e-6 / unit.length + 0., 6);
+  return text + ") " + unit.name;
+}
+
+const coupling::LengthUnit metre;
+
+Triple edges_of(const SurfaceReport &face)
+{
+  return {face.max[0] - face.min[0], face.max[1] - face.min[1], face.max[2] - face.min[2]};
+}
+
+/// In the file's unit, and in metres where that is another one.
+template <typename Words>
+std::string twice(const coupling::LengthUnit &unit, const Words &words)
+{
+  return words(unit) + (unit.length == 1. ? "" : " = " + words(metre));
+}
+
+/// Without an exponent up to 10^9.
+std::string plain(double x)
+{
+  return std::abs(x) >= 1e6 && std::abs(x) < 1e9 ? std::to_string(std::lround(x)) : short_text(x, 5);
+}
+
+std::string area(const SurfaceReport &face, const coupling::LengthUnit &unit)
+{
+  return plain(face.area / (unit.length * unit.length)) + " " + unit.name + "²";
+}
+
+/// "cylinder, radius 120 mm = 0.12 m".
+std::string kind_words(const SurfaceReport &face, const coupling::LengthUnit &unit)
+{
+  const auto radius = [&](const auto &u) { return short_text(face.radius / u.length, 6) + " " + u.name; };
+  return face.kind + (face.radius > 0. ? ", radius " + twice(unit, radius) : "");
+}
+
+std::string direction_words(const Triple &e)
+{
+  std::string text = "(";
+  for (int d = 0; d < 3; ++d)
+    text += (d > 0 ? ", " : "") + short_text(std::round(e[d] * 1e6) * 1e-6 + 0., 5);
+  return text + ")";
+}
+
+/// Word and value, as the page shows them of the face that is chosen; the first is what it is.
+Json facts_of(const SurfaceReport &face, const coupling::LengthUnit &unit)
+{
+  const auto at    = [&](const Triple &x) { return twice(unit, [&](const auto &u) { return place(x, u); }); };
+  Json       facts = Json::array();
+  facts.push_back({"kind", kind_words(face, unit)});
+  if (face.kind == "plane")
+    facts.push_back({"outward normal", direction_words(face.direction)});
+  if (face.kind == "cylinder")
+    facts.push_back({"axis", direction_words(face.direction) + " through " + at(face.through)});
+  facts.push_back({"area", twice(unit, [&](const auto &u) { return area(face, u); })});
+  facts.push_back({"centre", at(face.centre)});
+  facts.push_back({"box from", at(face.min)});
+  facts.push_back({"to", at(face.max)});
+  facts.push_back({"edges of the box", at(edges_of(face))});
+  return facts;
+}
+
+/// What a reader must know where a face cannot be had alone.
+std::string others_of(const SurfaceReport &face)
+{
+  if (face.found_with.empty())
+    return "";
+  std::string list;
+  for (const int tag : face.found_with)
+    list += (list.empty() ? "" : ", ") + std::to_string(tag);
+  return "No selector parts this face from " + count_text(face.found_with.size(), "other") + ": face " + list +
+         ". Name it in the CAD program, or split it.";
+}
+
+Json list_of(const MeshReport &report)
+{
+  Json list = Json::array();
+  for (std::size_t i = 0; i < report.surfaces.size(); ++i)
+  {
+    const SurfaceReport &face   = report.surfaces[i];
+    const Colour         colour = face_colour(static_cast<int>(i));
+    list.push_back({{"tag", face.tag},
+                    {"name", face.name},
+                    {"rgb", {std::lround(colour[0]), std::lround(colour[1]), std::lround(colour[2])}},
+                    {"facts", facts_of(face, report.unit)},
+                    {"others", others_of(face)},
+                    {"selector", face.selector}});
+  }
+  return list;
+}
+
+/// The mesh in few bytes: points in steps of 1/65535 of the box.
+Json frame_json(const MeshReport &report)
+{
+  const coupling::FacePicture picture = light_picture(report.picture);
+  Triple                      low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  for (const Triple &x : picture.points)
+    for (int d = 0; d < 3; ++d)
+    {
+      low[d]  = std::min(low[d], x[d]);
+      high[d] = std::max(high[d], x[d]);
+    }
+  std::vector<std::uint16_t> points;
+  std::vector<std::uint32_t> triangles, face;
+  for (const Triple &x : picture.points)
+    for (int d = 0; d < 3; ++d)
+      points.push_back(static_cast<std::uint16_t>(
+          std::lround(high[d] > low[d] ? 65535. * (x[d] - low[d]) / (high[d] - low[d]) : 0.)));
+  for (const auto &t : picture.triangles)
+    for (const int point : t)
+      triangles.push_back(static_cast<std::uint32_t>(point));
+  for (const int index : picture.face)
+    face.push_back(static_cast<std::uint32_t>(index));
+  return {{"unit", report.unit.length},
+          {"unitName", report.unit.name},
+          {"min", low},
+          {"max", high},
+          {"points", base64(points)},
+          {"triangles", base64(triangles)},
+          {"face", base64(face)},
+          {"list", list_of(report)}};
+}
+
+/// "</script>" within a name ends no script.
+std::string safe_json(const Json &json)
+{
+  std::string       text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string end  = "</";
+  for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at + 3))
+    text.insert(at + 1, "\\");
+  return text;
+}
+
+std::string faces_table(const MeshReport &report)
+{
+  const std::string unit = report.unit.name;
+  HtmlTable         table({"face", "name", "kind", "along", "#radius [" + unit + "]", "#area [" + unit + "²]",
+                           "#centre [" + unit + "]", "#edges of its box [" + unit + "]"});
+  const auto        bare = [&](const Triple &x) { return place(x, {report.unit.length, ""}); };
+  for (const SurfaceReport &face : report.surfaces)
+    table.add({std::to_string(face.tag), face.name, face.kind,
+               face.kind == "plane" || face.kind == "cylinder" ? direction_words(face.direction) : "",
+               face.radius > 0. ? short_text(face.radius / report.unit.length, 6) : "",
+               plain(face.area / (report.unit.length * report.unit.length)), bare(face.centre), bare(edges_of(face))});
+  return table.scrolled_html();
+}
+
+const char *const board =
+    "<div id=\"board\"><div class=\"view\"><div class=\"tools\" id=\"views\"></div>"
+    "<canvas id=\"turn\" width=\"1000\" height=\"760\"></canvas><div id=\"tip\"></div>"
+    "<p class=\"soft\">Drag turns, with shift moves, the wheel zooms, a click chooses a face.</p></div>"
+    "<div class=\"card\"><p id=\"hint\" class=\"soft\">Click a face in a picture or its row in the table: its entry "
+    "for "
+    "the scene appears here.</p><div id=\"card\" hidden><h2 id=\"head\"></h2><table id=\"facts\"></table>"
+    "<p id=\"others\"></p><p><label>name in the scene <input type=\"text\" id=\"name\"></label> "
+    "<button id=\"copy\">copy</button></p><pre id=\"entry\"></pre></div></div></div>\n";
+
+std::string lead_of(const MeshReport &report)
+{
+  return count_text(report.surfaces.size(), "face") + " on " +
+         count_text(std::max<std::size_t>(report.solids.size(), 1), "solid") + "; the file's unit of length is " +
+         report.unit.name + ". An entry of a scene is in m.";
+}
+
+} // namespace
+
+std::string face_entry(const SurfaceReport &surface)
+{
+  return "[frame.surface.\"face " + std::to_string(surface.tag) + "\"]\n" + surface.selector;
+}
+
+std::string faces_page(const MeshReport &report, const std::string &file, const std::string &version)
+{
+  std::string entries, sides;
+  for (const SurfaceReport &face : report.surfaces)
+    entries += face_entry(face) + "\n";
+  for (const auto &[caption, svg] : face_pictures(report))
+    sides += figure(svg, caption);
+  const std::string body =
+      note_box(report.notes) + board + section("sides", "From all sides", "<div class=\"sides\">" + sides + "</div>") +
+      section("faces", "All faces",
+              "<p class=\"filter\"><label>only with <input type=\"search\" id=\"filter\" placeholder=\"plane, "
+              "cylinder, a name, a number\"></label></p>" +
+                  faces_table(report)) +
+      "<noscript><h2>Entries for the scene</h2><pre>" + escape_xml(entries) +
+      "</pre></noscript>\n<script>const frame = " + safe_json(frame_json(report)) + ";\n" + faces_script +
+      "</script>\n";
+  return page_html({"Faces of " + file, lead_of(report), body,
+                    "Made by gestell " + escape_xml(version) + ". The same faces open in ParaView: faces.vtp.",
+                    faces_style});
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,227 @@
+// The door of the plugin.
+#include "apps/show/renderer.h"
+
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkOggTheoraWriter.h>
+#include <vtkPNGWriter.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr double shown_size    = 0.05; ///< largest displacement as part of the machine's size
+constexpr int    swing_frames  = 24;
+constexpr double mode_in_files = 1.; ///< modes are written as they are shown
+
+void enclose(const Parts &parts, double *box)
+{
+  for (const auto &part : parts)
+  {
+    const double *own = part->GetBounds();
+    for (int d = 0; d < 3; ++d)
+    {
+      box[2 * d]     = std::min(box[2 * d], own[2 * d]);
+      box[2 * d + 1] = std::max(box[2 * d + 1], own[2 * d + 1]);
+    }
+  }
+}
+
+double diagonal(const double *box)
+{
+  return std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]);
+}
+
+double round_number(double x)
+{
+  const double power = std::pow(10., std::floor(std::log10(x)));
+  return x >= 5. * power ? 5. * power : x >= 2. * power ? 2. * power : power;
+}
+
+std::string number(double x)
+{
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string with(std::string text, const std::string &word, const std::string &value)
+{
+  if (const auto at = text.find(word); at != std::string::npos)
+    text.replace(at, word.size(), value);
+  return text;
+}
+
+std::string frequency_of(const Parts &parts)
+{
+  for (const auto &part : parts)
+    if (vtkDataArray *f = part->GetFieldData()->GetArray("frequency [Hz]"))
+      return number(std::round(f->GetTuple1(0) * 1e3) * 1e-3) + " Hz";
+  return "";
+}
+
+void write_png(vtkImageData *image, const fs::path &file)
+{
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(file.c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != 0 || !fs::exists(file))
+    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+/// Film of the images that are given to it.
+class Film
+{
+public:
+  Film(const fs::path &file, int rate) : file_(file)
+  {
+    writer_->SetFileName(file.c_str());
+    writer_->SetRate(rate);
+    writer_->SetQuality(2);
+  }
+  void add(vtkImageData *image)
+  {
+    writer_->SetInputData(image);
+    if (!started_)
+      writer_->Start();
+    started_ = true;
+    writer_->Write();
+    if (writer_->GetError())
+      throw std::runtime_error(file_.string() + ": cannot be written; is the disk full?");
+  }
+  void end() { started_ ? writer_->End() : void(); }
+
+private:
+  fs::path                   file_;
+  vtkNew<vtkOggTheoraWriter> writer_;
+  bool                       started_ = false;
+};
+
+/// One series after the other.
+class Drawing
+{
+public:
+  explicit Drawing(const PictureRequest &request) : request_(request), renderer_(request.width, request.height) {}
+
+  std::vector<std::string> draw(const PictureSeries &series, double done)
+  {
+    done_ = done;
+    files_.clear();
+    double box[6] = {1e300, -1e300, 1e300, -1e300, 1e300, -1e300}, most = 0.;
+    for (const PictureFrame &frame : series.frames)
+    {
+      const Parts parts = read_parts(frame);
+      enclose(parts, box);
+      most = std::max(most, largest_displacement({parts.front()}));
+    }
+    const double size  = diagonal(box);
+    double       times = series.swings               ? mode_in_files
+                         : request_.enlargement > 0. ? request_.enlargement
+                         : most > 0. && size > 0.    ? round_number(shown_size * size / most)
+                                                     : 1.;
+    renderer_.look_at(box);
+    series.swings ? mode(series, times, most) : motion(series, times, most);
+    return files_;
+  }
+
+private:
+  std::string caption(const PictureSeries &series, const PictureFrame &frame, const Parts &parts, double times) const
+  {
+    return with(with(with(series.caption, "{t}", number(frame.time)), "{times}", number(times)), "{frequency}",
+                frequency_of(parts));
+  }
+
+  fs::path file(const std::string &name)
+  {
+    files_.push_back((request_.folder / name).string());
+    return files_.back();
+  }
+
+  /// The largest swing as a picture, one cycle as a film that can be repeated.
+  void mode(const PictureSeries &series, double times, double most)
+  {
+    const Parts       parts = read_parts(series.frames.front());
+    const std::string words = caption(series, series.frames.front(), parts, times);
+    tell(series, 0.);
+    write_png(renderer_.draw(parts, times, most, words, Renderer::Sizes::unknown), file(series.name + ".png"));
+    if (!request_.films)
+      return;
+    Film film(file(series.name + ".ogv"), request_.frames_per_second);
+    for (int k = 0; k < 2 * swing_frames; ++k)
+      film.add(
+          renderer_.draw(parts, times * std::sin(2. * M_PI * k / swing_frames), most, words, Renderer::Sizes::unknown));
+    film.end();
+  }
+
+  void motion(const PictureSeries &series, double times, double most)
+  {
+    const bool     one    = series.frames.size() == 1;
+    const fs::path folder = request_.folder / series.name;
+    if (!one && request_.films)
+      fs::create_directories(folder);
+    std::unique_ptr<Film> film;
+    if (!one && request_.films)
+      film = std::make_unique<Film>(file(series.name + ".ogv"), request_.frames_per_second);
+    for (std::size_t k = 0; k < series.frames.size(); ++k)
+    {
+      if (!one && !request_.films) // its pictures are the frames of the film
+        break;
+      const PictureFrame &frame = series.frames[k];
+      const Parts         parts = read_parts(frame);
+      tell(series, static_cast<double>(k) / static_cast<double>(series.frames.size()));
+      const auto image =
+          renderer_.draw(parts, times, most, caption(series, frame, parts, times), Renderer::Sizes::told);
+      char digits[32];
+      std::snprintf(digits, sizeof digits, "%05zu", k);
+      write_png(image, one ? file(series.name + ".png") : folder / (series.name + "_" + digits + ".png"));
+      if (film)
+        film->add(image);
+    }
+    if (film)
+    {
+      film->end();
+      files_.push_back((folder / "*.png").string());
+    }
+  }
+
+  void tell(const PictureSeries &series, double share) const
+  {
+    if (request_.progress)
+      request_.progress("drawing " + series.name, done_ + share / static_cast<double>(request_.series.size()));
+  }
+
+  const PictureRequest    &request_;
+  Renderer                 renderer_;
+  std::vector<std::string> files_;
+  double                   done_ = 0.;
+};
+
+} // namespace
+
+} // namespace gestell::apps
+
+extern "C" __attribute__((visibility("default"))) std::vector<std::string>
+gestell_draw_pictures(const gestell::apps::PictureRequest &request)
+{
+  gestell::apps::Drawing   drawing(request);
+  std::vector<std::string> files;
+  for (std::size_t i = 0; i < request.series.size(); ++i)
+    for (const std::string &file :
+         drawing.draw(request.series[i], static_cast<double>(i) / static_cast<double>(request.series.size())))
+      files.push_back(file);
+  return files;
+}

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "apps/show/picture_request.h"
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+class vtkActor2D;
+class vtkImageData;
+class vtkPolyData;
+class vtkRenderWindow;
+class vtkRenderer;
+class vtkScalarBarActor;
+class vtkTextActor;
+
+namespace gestell::apps
+{
+
+/// Read parts of one frame.
+using Parts = std::vector<vtkSmartPointer<vtkPolyData>>;
+
+/// @throws std::invalid_argument of a file that is broken or has no points
+Parts read_parts(const PictureFrame &frame);
+
+/// Largest displacement of these parts [m] and the box around their points.
+double largest_displacement(const Parts &parts);
+
+/// Draws parts off screen: frames coloured by displacement, bodies each in a colour, axes, a bar of colours, a caption.
+class Renderer
+{
+public:
+  Renderer(int width, int height);
+  ~Renderer();
+
+  /// Looks so that the box [xmin, xmax, ymin, ...; m] fills the picture.
+  void look_at(const double *box);
+
+  /// Whether displacements have a size, which a bar of colours tells; those of modes have none.
+  enum class Sizes
+  {
+    told,
+    unknown
+  };
+
+  /// @param most  displacement [m] at the end of the colours
+  vtkSmartPointer<vtkImageData> draw(const Parts &parts, double enlargement, double most, const std::string &caption,
+                                     Sizes sizes);
+
+private:
+  void add_part(vtkPolyData *part, double enlargement, double most);
+  void add_names(vtkPolyData *part);
+
+  vtkNew<vtkRenderWindow>   window_;
+  vtkNew<vtkRenderer>       scene_, corner_;
+  vtkNew<vtkTextActor>      caption_;
+  vtkNew<vtkScalarBarActor> bar_;
+};
+
+} // namespace gestell::apps

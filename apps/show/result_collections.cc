@@ -1,0 +1,142 @@
+#include "apps/show/result_collections.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path &file, const std::string &reason)
+{
+  throw std::invalid_argument(file.string() + ": " + reason);
+}
+
+std::string content_of(const fs::path &file)
+{
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    refuse(file, "cannot be read; run the scene again");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// "5" of `part="5"` in the text of an element; nothing if it has no such attribute.
+std::optional<std::string> attribute(const std::string &element, const std::string &name)
+{
+  std::smatch found;
+  if (!std::regex_search(element, found, std::regex("\\b" + name + "\\s*=\\s*\"([^\"]*)\"")))
+    return {};
+  return found[1];
+}
+
+double number_in(const fs::path &pvd, const std::string &element, const std::string &name)
+{
+  const auto   text  = attribute(element, name);
+  char        *end   = nullptr;
+  const double value = text ? std::strtod(text->c_str(), &end) : 0.;
+  if (!text || text->empty() || *end != '\0' || !std::isfinite(value))
+    refuse(pvd, "broken: a DataSet without a number " + name + ": " + element.substr(0, 80));
+  return value;
+}
+
+fs::path file_in(const fs::path &pvd, const std::string &element)
+{
+  const auto name = attribute(element, "file");
+  if (!name || name->empty())
+    refuse(pvd, "broken: a DataSet without a file: " + element.substr(0, 80));
+  const fs::path file = pvd.parent_path() / *name;
+  if (!fs::is_regular_file(file))
+    refuse(file, "named in " + pvd.filename().string() + ", is missing; run the scene again");
+  return file;
+}
+
+std::vector<PictureFrame> collection_or_nothing(const fs::path &pvd)
+{
+  return fs::exists(pvd) ? read_collection(pvd) : std::vector<PictureFrame>();
+}
+
+/// The picture at the time nearest to that of the peak.
+PictureSeries at_peak(const std::vector<PictureFrame> &motion, double t)
+{
+  const auto nearer = [&](const PictureFrame &a, const PictureFrame &b)
+  { return std::abs(a.time - t) < std::abs(b.time - t); };
+  return {"machine_peak",
+          "The machine at its peak, t = {t} s, displacements {times} times",
+          {*std::min_element(motion.begin(), motion.end(), nearer)}};
+}
+
+void add_modes(const std::vector<PictureFrame> &modes, const std::string &name, const std::string &words,
+               std::size_t most, std::vector<PictureSeries> &series)
+{
+  for (std::size_t j = 0; j < std::min(modes.size(), most); ++j)
+    series.push_back({name + "_" + std::to_string(j + 1), words + " {t}: {frequency}", {modes[j]}, true});
+}
+
+} // namespace
+
+std::vector<PictureFrame> read_collection(const fs::path &pvd)
+{
+  const std::string text = content_of(pvd);
+  if (text.find("<VTKFile") == std::string::npos || text.find("</VTKFile>") == std::string::npos)
+    refuse(pvd, "is no whole collection of VTK; run the scene again");
+  std::map<double, std::map<double, fs::path>> frames; // by time, then part
+  const std::regex                             element("<DataSet\\b[^>]*>");
+  for (std::sregex_iterator it(text.begin(), text.end(), element), end; it != end; ++it)
+    frames[number_in(pvd, it->str(), "timestep")][number_in(pvd, it->str(), "part")] = file_in(pvd, it->str());
+  if (frames.empty())
+    refuse(pvd, "names no data set");
+  std::vector<PictureFrame> list;
+  for (const auto &[time, parts] : frames)
+  {
+    list.push_back({time, {}});
+    for (const auto &part : parts)
+      list.back().parts.push_back(part.second);
+  }
+  return list;
+}
+
+std::optional<double> peak_time(const fs::path &results)
+{
+  const fs::path file = results / "summary.json";
+  if (!fs::exists(file))
+    return {};
+  const auto summary = nlohmann::json::parse(content_of(file), nullptr, false);
+  if (summary.is_discarded())
+    refuse(file, "is no JSON; run the scene again");
+  const auto peak = summary.find("main_peak");
+  if (peak == summary.end() || !peak->is_object() || !peak->value("t", nlohmann::json()).is_number())
+    return {};
+  return peak->at("t").get<double>();
+}
+
+std::vector<PictureSeries> pictures_of(const fs::path &results, std::size_t most_modes)
+{
+  if (!fs::is_directory(results))
+    refuse(results, "is no folder of results; name the folder that `gestell run` or `gestell modes` wrote");
+  const auto motion = collection_or_nothing(results / "motion.pvd");
+
+  std::vector<PictureSeries> series;
+  if (const auto t = peak_time(results); t && !motion.empty())
+    series.push_back(at_peak(motion, *t));
+  if (!motion.empty())
+    series.push_back({"motion", "t = {t} s, displacements {times} times", motion});
+  add_modes(collection_or_nothing(results / "coupled_modes.pvd"), "mode", "Coupled mode", most_modes, series);
+  add_modes(collection_or_nothing(results / "frame_modes.pvd"), "frame_mode", "Mode of the frame", most_modes, series);
+  if (series.empty())
+    refuse(results,
+           "holds no motion.pvd, coupled_modes.pvd or frame_modes.pvd: run the scene with output.picture_step, "
+           "or `gestell modes`");
+  return series;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "fem/geometry/face.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// Entries of a `[frame.surface.NAME]` that mean one face.
+struct FaceSelector
+{
+  std::string      text;   ///< lines such as `plane = { normal = [0, 0, 1], through = [0, 0, 0.9] }`
+  std::vector<int> others; ///< tags of faces that no selector parts from it; `faces` in the text counts them
+};
+
+/**
+ * The plainest selector, with numbers rounded as they are written, by which fem::select_faces() finds this face alone:
+ * its plane or cylinder; that with its box; that through another of its points; its box; its name; the same within
+ * narrower tolerances.
+ *
+ * @param faces     all faces of the model
+ * @param diagonal  of the model [m]
+ */
+FaceSelector selector_of(const fem::Face &face, const std::vector<fem::Face> &faces, double diagonal);
+
+} // namespace gestell::coupling
