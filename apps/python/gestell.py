@@ -14,12 +14,13 @@ that fails ComputationFailed (a RuntimeError, with what was computed in its `res
 
 import itertools
 import json
+import pathlib
 
 import _gestell
 from _gestell import ComputationFailed, Event, Frame, InputError, Peak, Result
 
 __version__ = _gestell.version
-__all__ = ["ComputationFailed", "Event", "Frame", "InputError", "Peak", "Result", "Scene", "load", "loads"]
+__all__ = ["ComputationFailed", "Event", "Frame", "InputError", "Peak", "Result", "Scene", "example", "load", "loads"]
 
 
 def load(path) -> "Scene":
@@ -30,6 +31,19 @@ def load(path) -> "Scene":
 def loads(text: str, folder=".") -> "Scene":
     """The scene of a TOML text; relative paths in it start at `folder`."""
     return Scene._of(_gestell.Scene.of_text(text, str(folder)))
+
+
+def example(name: str) -> "Scene":
+    """A scene that Gestell ships, "press_minimal"."""
+    here = pathlib.Path(__file__).resolve()
+    folders = [here.parents[1] / "scenes"]  # of the sources
+    if len(here.parents) > 3:
+        folders.append(here.parents[3] / "share" / "gestell" / "scenes")  # of the prefix
+    for folder in folders:
+        if (folder / f"{name}.toml").exists():
+            return load(folder / f"{name}.toml")
+    names = sorted(path.stem for folder in folders for path in folder.glob("*.toml"))
+    raise InputError(f"example: there is no scene '{name}'; valid: {', '.join(names)}")
 
 
 class Scene:

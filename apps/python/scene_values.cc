@@ -12,36 +12,41 @@ using apps::Place;
 using apps::SceneNode;
 using Type = SceneNode::Type;
 
-SceneNode number_node(SceneNode node, py::handle value)
+[[noreturn]] void refuse(const SceneNode &node, const std::string &key, const std::string &what)
+{
+  node.place.fail((key.empty() ? "" : key + ": ") + what);
+}
+
+SceneNode number_node(SceneNode node, const std::string &key, py::handle value)
 {
   const bool whole = py::isinstance<py::int_>(value) || py::hasattr(value, "__index__");
   node.type        = whole ? Type::integer : Type::real;
   node.number      = value.cast<double>();
   if (!std::isfinite(node.number))
-    node.place.fail("got " + py::repr(value).cast<std::string>() + ", needs a finite number");
+    refuse(node, key, "got " + py::repr(value).cast<std::string>() + ", needs a finite number");
   node.text = whole ? py::str(py::int_(py::reinterpret_borrow<py::object>(value))).cast<std::string>()
                     : py::repr(py::float_(node.number)).cast<std::string>();
   return node;
 }
 
-SceneNode table_node(SceneNode node, const py::dict &values)
+SceneNode table_node(SceneNode node, const std::string &key, const py::dict &values)
 {
-  for (const auto &[key, value] : values)
+  for (const auto &[own, value] : values)
   {
-    if (!py::isinstance<py::str>(key))
-      node.place.fail("got the key " + py::repr(key).cast<std::string>() + "; keys of a scene are text");
-    const auto  name = key.cast<std::string>();
-    const Place place{node.place.file.empty() ? name : node.place.file + "." + name, 0};
-    node.entries.emplace_back(name, node_of(value, place, node.folder));
+    if (!py::isinstance<py::str>(own))
+      refuse(node, key, "got the key " + py::repr(own).cast<std::string>() + "; keys of a scene are text");
+    const auto name = own.cast<std::string>();
+    node.entries.emplace_back(
+        name, node_of(value, node.place, node.folder, (key.empty() ? "" : key + ".") + apps::written_key(name)));
   }
   return node;
 }
 
-SceneNode array_node(SceneNode node, py::handle values)
+SceneNode array_node(SceneNode node, const std::string &key, py::handle values)
 {
   node.type = Type::array;
   for (const py::handle &value : values)
-    node.elements.push_back(node_of(value, node.place, node.folder));
+    node.elements.push_back(node_of(value, node.place, node.folder, key));
   return node;
 }
 
@@ -55,13 +60,13 @@ std::string quoted(const std::string &text)
 
 } // namespace
 
-SceneNode node_of(py::handle value, const Place &place, const std::string &folder)
+SceneNode node_of(py::handle value, const Place &place, const std::string &folder, const std::string &key)
 {
   SceneNode node;
   node.place  = place;
   node.folder = folder;
   if (py::isinstance<py::dict>(value))
-    return table_node(node, py::reinterpret_borrow<py::dict>(value));
+    return table_node(node, key, py::reinterpret_borrow<py::dict>(value));
   if (py::isinstance<py::bool_>(value))
   {
     node.type    = Type::boolean;
@@ -78,13 +83,14 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
   if (py::hasattr(value, "tolist")) // of NumPy
   {
     const py::object plain = value.attr("tolist")();
-    return py::hasattr(plain, "tolist") ? node : node_of(plain, place, folder);
+    return py::hasattr(plain, "tolist") ? node : node_of(plain, place, folder, key);
   }
   if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value))
-    return number_node(node, value);
+    return number_node(node, key, value);
   if (py::isinstance<py::sequence>(value))
-    return array_node(node, value);
-  place.fail("got " + py::repr(value).cast<std::string>() + " of type " +
+    return array_node(node, key, value);
+  refuse(node, key,
+         "got " + py::repr(value).cast<std::string>() + " of type " +
              py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
              "; an entry of a scene is a number, text with a unit, True or False, a list or a dict");
 }
