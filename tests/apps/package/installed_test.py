@@ -78,12 +78,13 @@ class Prefix(Tree):
 
 class DebianPackage(Tree):
     def test_runs_unpacked(self):
-        begin = time.monotonic()
-        told = called("cpack", "--config", BUILD / "CPackConfig.cmake", "-G", "DEB", "-B", self.folder / "packed",
+        called("cpack", "--config", BUILD / "CPackConfig.cmake", "-G", "DEB", "-B", self.folder / "packed",
                       folder=self.folder)
         package, = (self.folder / "packed").glob("gestell_*.deb")
+        begin = time.monotonic()
         called("dpkg-deb", "-x", package, self.folder / "root", folder=self.folder)
         self.prefix = self.folder / "root/usr"
+        self.assertEqual([path.name for path in (self.folder / "root").iterdir()], ["usr"])
         self.computes(begin)
         self.lies_anywhere()
         depends = called("dpkg-deb", "-f", package, "Depends", folder=self.folder)
