@@ -17,10 +17,10 @@ import json
 import pathlib
 
 import _gestell
-from _gestell import ComputationFailed, Event, Frame, InputError, Peak, Result
+from _gestell import ComputationFailed, Event, Frame, InputError, Peak, Result, StateSpace
 
 __version__ = _gestell.version
-__all__ = ["ComputationFailed", "Event", "Frame", "InputError", "Peak", "Result", "Scene", "example", "load", "loads"]
+__all__ = ["ComputationFailed", "Event", "Frame", "InputError", "Peak", "Result", "Scene", "StateSpace", "example", "load", "loads"]
 
 
 def load(path) -> "Scene":
@@ -121,6 +121,14 @@ class Scene:
         texts = [text if isinstance(text, str) else f"{text} Hz" for text in (lowest, highest)]
         lists = [[names] if isinstance(names, str) else list(names) for names in (source, to)]
         return self._core.frequency_response(*lists, kind, at, *texts, points)._responses
+
+    def state_space(self, source, to, kind="receptance", at="start") -> StateSpace:
+        """The machine linearised there, x' = A x + B u, y = C x + D u: inputs are forces along `source`, outputs `to`.
+
+        A, B, C, D unpacks, as scipy.signal.StateSpace(*scene.state_space(...)).
+        """
+        lists = [[names] if isinstance(names, str) else list(names) for names in (source, to)]
+        return self._core.state_space(*lists, kind, at)
 
     def sweep(self, levels: dict, peaks=None):
         """Runs the scene at every combination of levels, {"parameters.c_P": [...], ...}; the scene stays as it is.

@@ -228,6 +228,33 @@ void bind_frame(py::module_ &module)
           py::return_value_policy::reference_internal, "Of the frame alone, interface free [Hz].");
 }
 
+template <Eigen::MatrixXd coupling::StateSpace::*Matrix>
+const Eigen::MatrixXd &matrix_of(const apps::StateSpaceModel &model)
+{
+  return model.system.*Matrix;
+}
+
+void bind_state_space(py::module_ &module)
+{
+  using apps::StateSpaceModel;
+  using coupling::StateSpace;
+  constexpr auto view = py::return_value_policy::reference_internal;
+  py::class_<StateSpaceModel, std::shared_ptr<StateSpaceModel>>(
+      module, "StateSpace", "x' = A x + B u, y = C x + D u about an operating point; x = (r, r'), q = Z r, all in SI.")
+      .def_property_readonly("A", &matrix_of<&StateSpace::A>, view)
+      .def_property_readonly("B", &matrix_of<&StateSpace::B>, view)
+      .def_property_readonly("C", &matrix_of<&StateSpace::C>, view)
+      .def_property_readonly("D", &matrix_of<&StateSpace::D>, view)
+      .def_property_readonly("Z", &matrix_of<&StateSpace::Z>, view)
+      .def_readonly("states", &StateSpaceModel::states)
+      .def_readonly("coordinates", &StateSpaceModel::coordinates)
+      .def_readonly("inputs", &StateSpaceModel::inputs)
+      .def_readonly("outputs", &StateSpaceModel::outputs)
+      .def_readonly("t", &StateSpaceModel::t, "[s] of the operating point")
+      .def("__iter__", [](const py::object &model)
+           { return py::iter(py::make_tuple(model.attr("A"), model.attr("B"), model.attr("C"), model.attr("D"))); });
+}
+
 void bind_scene(py::module_ &module)
 {
   const auto run = [](const PythonScene &scene, std::optional<std::vector<std::string>> peaks,
@@ -262,7 +289,18 @@ void bind_scene(py::module_ &module)
       .def("run", run, "peaks"_a, "sensitivities"_a)
       .def("modes", &PythonScene::modes)
       .def("frame", &PythonScene::frame)
-      .def("frequency_response", frf);
+      .def("frequency_response", frf)
+      .def("state_space",
+           [](const PythonScene &scene, std::vector<std::string> from, std::vector<std::string> to,
+              const std::string &kind, const std::string &at)
+           {
+             apps::FrfOptions options;
+             options.from = std::move(from);
+             options.to   = std::move(to);
+             options.kind = kind;
+             options.at   = at;
+             return scene.state_space(options);
+           });
 }
 
 } // namespace
@@ -276,5 +314,6 @@ PYBIND11_MODULE(_gestell, module)
   bind_values(module);
   bind_result(module);
   bind_frame(module);
+  bind_state_space(module);
   bind_scene(module);
 }

@@ -6,6 +6,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
+#include "apps/session/exchange/state_space_answer.h"
 #include "apps/study/runs/frame_shelf.h"
 #include "fem/values/nearest_name.h"
 
@@ -227,6 +228,14 @@ std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOpt
         auto answer  = session->frequency_response(options);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       });
+}
+
+std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const
+{
+  const Interruptible          interruptible;
+  const py::gil_scoped_release others_may_run;
+  const auto                   session = this->session(scene(), &interruptible.asked());
+  return std::make_shared<apps::StateSpaceModel>(apps::state_space_of(session->scene(), session->machine(), options));
 }
 
 std::shared_ptr<PythonFrame> PythonScene::frame() const

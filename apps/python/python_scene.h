@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/values/state_space_model.h"
 #include "apps/python/python_result.h"
 #include "apps/scene/file/scene_node.h"
 
@@ -44,10 +45,11 @@ public:
   std::vector<std::string> check() const; ///< warnings
 
   /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with what was computed in `result`
-  std::shared_ptr<PythonResult> run(const RunChoice &choice) const;
-  std::shared_ptr<PythonResult> modes() const;
-  std::shared_ptr<PythonFrame>  frame() const; ///< reduced
-  std::shared_ptr<PythonResult> frequency_response(const apps::FrfOptions &options) const;
+  std::shared_ptr<PythonResult>          run(const RunChoice &choice) const;
+  std::shared_ptr<PythonResult>          modes() const;
+  std::shared_ptr<PythonFrame>           frame() const; ///< reduced
+  std::shared_ptr<PythonResult>          frequency_response(const apps::FrfOptions &options) const;
+  std::shared_ptr<apps::StateSpaceModel> state_space(const apps::FrfOptions &options) const;
 
 private:
   PythonScene(apps::SceneNode root, std::string path) : root_(std::move(root)), path_(std::move(path)) {}

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -157,6 +158,84 @@ class Mistakes(unittest.TestCase):
 
     def test_of_methods_are_told_too(self):
         self.refused(["nothing was run"], lambda: short_press().modes().t)
+
+
+class StateSpaces(unittest.TestCase):
+    """H = C (i w - A)^-1 B + D is the frequency response, which is found otherwise."""
+
+    def check(self, scene, source, to, **options):
+        A, B, C, D = scene.state_space(source, to, **options)
+        frequencies, responses = scene.frequency_response(source, to, points=20, **options)
+        for i, name in enumerate(to):
+            expected = responses[source, name]
+            found = [(C[i] @ np.linalg.solve(2j * np.pi * f * np.eye(len(A)) - A, B[:, 0]) + D[i, 0]) for f in frequencies]
+            self.assertLess(abs(found - expected).max(), 1e-7 * abs(expected).max(), name)
+
+    def test_have_the_frequency_response_of_the_machine(self):
+        self.check(gestell.example("press_minimal"), "frame.crown.uz", ["frame.crown.uz", "F_P"])
+
+    def test_have_that_of_accelerations(self):
+        self.check(gestell.example("press_minimal"), "frame.crown.uz", ["frame.crown.uz"], kind="accelerance")
+
+    def test_have_that_of_machines_with_ideal_joints(self):
+        self.check(gestell.loads(PENDULUM), "bob.ux", ["bob.ux", "pin.fz", "pin.fx"], at="undeformed")
+
+    def test_are_written_as_matlab_and_matrix_market_files(self):
+        scene = pathlib.Path(gestell.__file__).resolve().parents[1] / "scenes" / "press_minimal.toml"
+        A = gestell.load(scene).state_space("frame.crown.uz", "F_P").A
+        with tempfile.TemporaryDirectory() as folder:
+            for form in ("mat", "matrix-market"):
+                subprocess.run([PROGRAM, "frf", scene, "--quiet", "--from", "frame.crown.uz", "--to", "F_P", "--points",
+                                "2", "--export", form, "-o", f"{folder}/{form}"], check=True, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+            lines = (pathlib.Path(folder) / "matrix-market/state_space_A.mtx").read_text().splitlines()
+            np.testing.assert_array_equal(mat_matrix(pathlib.Path(folder) / "mat/state_space.mat", "A"), A)
+            self.assertTrue(lines[0].startswith("%%MatrixMarket matrix array real"))
+
+
+def mat_matrix(path, wanted):
+    """A real matrix of a MATLAB file, version 5, not compressed, by the published layout."""
+    data = path.read_bytes()
+    assert data[124:128] == b"\x00\x01IM"
+    at = 128
+    while at < len(data):
+        kind, size = struct.unpack_from("<II", data, at)
+        assert kind == 14, "miMATRIX"
+        place, end, parts = at + 8, at + 8 + size, []
+        while place < end and len(parts) < 4:
+            tag, n = struct.unpack_from("<II", data, place)
+            if tag >> 16:  # small element
+                parts.append(data[place + 4:place + 4 + (tag >> 16)])
+                place += 8
+            else:
+                parts.append(data[place + 8:place + 8 + n])
+                place += 8 + (n + 7) // 8 * 8
+        if parts[2].decode() == wanted:
+            rows, columns = struct.unpack("<ii", parts[1])
+            return np.frombuffer(parts[3]).reshape(columns, rows).T
+        at = end
+    raise KeyError(wanted)
+
+
+PENDULUM = """gravity = [0, 0, "-9.81 m/s^2"]
+[body.bob]
+type     = "planar"
+normal   = [0, 1, 0]
+mass     = "2 kg"
+inertia  = "0.01 kg m^2"
+position = ["0.3 m", 0, "-0.4 m"]
+[joint.pin]
+type = "revolute"
+from = "bob"
+to   = "ground"
+at   = [0, 0, 0]
+[element.spring]
+type      = "spring-damper"
+from      = "bob"
+direction = [1, 0, 0]
+stiffness = "100 N/m"
+damping   = "3 N s/m"
+"""
 
 
 class Frames(unittest.TestCase):
