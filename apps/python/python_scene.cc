@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <type_traits>
 
 namespace gestell::python
 {
@@ -99,6 +100,37 @@ void raise_failure(const std::shared_ptr<PythonResult> &result)
     raise_with(py::module_::import("_gestell").attr("ComputationFailed")(run->failure), result);
 }
 
+/// Computes without the lock of the interpreter.  Ctrl-C is obeyed at the latest when it is done, whatever came of it.
+template <typename Compute>
+auto interruptibly(const Compute &compute)
+{
+  const Interruptible interruptible;
+  const auto          with_others = [&]
+  {
+    const py::gil_scoped_release others_may_run;
+    return compute(interruptible.asked());
+  };
+  decltype(with_others()) result;
+  try
+  {
+    result = with_others();
+  }
+  catch (const std::exception &)
+  {
+    if (!interruptible.asked())
+      throw;
+  }
+  if constexpr (std::is_same_v<decltype(result), std::shared_ptr<PythonResult>>)
+    if (result)
+      raise_failure(result);
+  if (interruptible.asked())
+  {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
+  }
+  return result;
+}
+
 } // namespace
 
 PythonScene PythonScene::of_file(const std::string &path)
@@ -177,26 +209,14 @@ std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const std::atom
   return result;
 }
 
-template <typename Compute>
-std::shared_ptr<PythonResult> PythonScene::computed(const Compute &compute) const
-{
-  const Interruptible           interruptible;
-  std::shared_ptr<PythonResult> result;
-  {
-    const py::gil_scoped_release others_may_run;
-    auto                         scene = this->scene();
-    result                             = compute(std::move(scene), interruptible.asked());
-  }
-  return result;
-}
-
 std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
 {
   if (!choice.sensitivities.empty() && !is_file_)
     throw std::invalid_argument("sensitivities: need a scene from a file, which is read again for each entry");
-  const auto result = computed(
-      [&](Scene scene, const std::atomic<bool> &stop)
+  return interruptibly(
+      [&](const std::atomic<bool> &stop)
       {
+        Scene scene = this->scene();
         apps::require_run(scene);
         if (choice.peaks)
           keep_peaks_alone(scene, *choice.peaks);
@@ -204,16 +224,14 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
         auto run     = session->run(choice.sensitivities);
         return std::make_shared<PythonResult>(std::move(session), std::move(run));
       });
-  raise_failure(result);
-  return result;
 }
 
 std::shared_ptr<PythonResult> PythonScene::modes() const
 {
-  return computed(
-      [&](Scene scene, const std::atomic<bool> &stop)
+  return interruptibly(
+      [&](const std::atomic<bool> &stop)
       {
-        auto session = this->session(std::move(scene), &stop);
+        auto session = this->session(scene(), &stop);
         auto modes   = session->modes();
         return std::make_shared<PythonResult>(std::move(session), std::move(modes));
       });
@@ -221,10 +239,10 @@ std::shared_ptr<PythonResult> PythonScene::modes() const
 
 std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOptions &options) const
 {
-  return computed(
-      [&](Scene scene, const std::atomic<bool> &stop)
+  return interruptibly(
+      [&](const std::atomic<bool> &stop)
       {
-        auto session = this->session(std::move(scene), &stop);
+        auto session = this->session(scene(), &stop);
         auto answer  = session->frequency_response(options);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       });
@@ -232,22 +250,28 @@ std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOpt
 
 std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const
 {
-  const Interruptible          interruptible;
-  const py::gil_scoped_release others_may_run;
-  const auto                   session = this->session(scene(), &interruptible.asked());
-  return std::make_shared<apps::StateSpaceModel>(apps::state_space_of(session->scene(), session->machine(), options));
+  return interruptibly(
+      [&](const std::atomic<bool> &stop)
+      {
+        const auto session = this->session(scene(), &stop);
+        return std::make_shared<apps::StateSpaceModel>(
+            apps::state_space_of(session->scene(), session->machine(), options));
+      });
 }
 
 std::shared_ptr<PythonFrame> PythonScene::frame() const
 {
-  const Interruptible          interruptible;
-  const py::gil_scoped_release others_may_run;
-  const Scene                  scene = this->scene();
-  auto                         frame = shared_frame(scene);
-  if (!frame)
-    throw std::invalid_argument(scene.frame.place + ": the scene has no frame that is reduced; its matrices are M, B, "
-                                                    "C of [frame], or reduction.method = \"craig-bampton\" reduces it");
-  return std::make_shared<PythonFrame>(std::move(frame));
+  return interruptibly(
+      [&](const std::atomic<bool> &)
+      {
+        const Scene scene = this->scene();
+        auto        frame = shared_frame(scene);
+        if (!frame)
+          throw std::invalid_argument(
+              scene.frame.place + ": the scene has no frame that is reduced; its matrices are M, B, C of [frame], or "
+                                  "reduction.method = \"craig-bampton\" reduces it");
+        return std::make_shared<PythonFrame>(std::move(frame));
+      });
 }
 
 } // namespace gestell::python

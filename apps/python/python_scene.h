@@ -56,8 +56,6 @@ private:
 
   apps::Scene                    scene() const { return apps::read_scene(root_, path_, fem::Scripts::harmless); }
   std::shared_ptr<apps::Session> session(apps::Scene scene, const std::atomic<bool> *stop) const;
-  template <typename Compute>
-  std::shared_ptr<PythonResult> computed(const Compute &compute) const;
 
   apps::SceneNode          root_;
   std::string              path_;            ///< of the file, or where it would be

@@ -1,5 +1,6 @@
 """What the module gives is what the program gives.  Its path is the first argument."""
 
+import concurrent.futures
 import gc
 import json
 import os
@@ -64,6 +65,12 @@ class Runs(unittest.TestCase):
             time.sleep(0.001)
         runner.join()
         self.assertGreater(steps, 20)
+
+    def test_side_by_side_are_those_alone(self):
+        alone = short_press().run(peaks="F_P").peaks["F_P"].max
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            found = list(pool.map(lambda _: short_press().run(peaks="F_P").peaks["F_P"].max, range(8)))
+        self.assertEqual(found, [alone] * 8)
 
     def test_end_on_interruption_with_what_they_have(self):
         threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
