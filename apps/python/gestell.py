@@ -12,6 +12,8 @@ Numbers are SI, text carries its unit, as in scene files.  Wrong input raises In
 that fails ComputationFailed (a RuntimeError, with what was computed in its `result`), Ctrl-C KeyboardInterrupt, likewise.
 """
 
+import collections
+import concurrent.futures
 import itertools
 import json
 import pathlib
@@ -130,17 +132,35 @@ class Scene:
         lists = [[names] if isinstance(names, str) else list(names) for names in (source, to)]
         return self._core.state_space(*lists, kind, at)
 
-    def sweep(self, levels: dict, peaks=None):
+    def sweep(self, levels: dict, peaks=None, jobs=1):
         """Runs the scene at every combination of levels, {"parameters.c_P": [...], ...}; the scene stays as it is.
 
-        Yields ({"parameters.c_P": value, ...}, result) one by one.  Files are read and frames reduced once.
+        Yields ({"parameters.c_P": value, ...}, result) one by one, in this order.  Files are read and frames reduced once.
+        jobs: threads that make runs side by side.
         """
+        points = [dict(zip(levels, values)) for values in itertools.product(*levels.values())]
+        if jobs == 1:
+            yield from ((point, self._at(point).run(peaks)) for point in points)
+            return
+        with concurrent.futures.ThreadPoolExecutor(jobs) as threads:
+            begun = collections.deque()  # no more than are soon taken: histories are large
+            try:
+                for point in points:
+                    begun.append((point, threads.submit(self._at(point).run, peaks)))
+                    if len(begun) > 2 * jobs:
+                        first, run = begun.popleft()
+                        yield first, run.result()
+                while begun:
+                    first, run = begun.popleft()
+                    yield first, run.result()
+            finally:
+                threads.shutdown(cancel_futures=True)
+
+    def _at(self, point: dict) -> "Scene":
         scene = self.copy()
-        keys = list(levels)
-        for values in itertools.product(*levels.values()):
-            for key, value in zip(keys, values):
-                scene[key] = value
-            yield dict(zip(keys, values)), scene.run(peaks)
+        for key, value in point.items():
+            scene[key] = value
+        return scene
 
     def __repr__(self) -> str:
         return f"<gestell.Scene {self.name}: signals {', '.join(self.signals)}>"

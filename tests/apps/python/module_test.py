@@ -72,6 +72,15 @@ class Runs(unittest.TestCase):
             found = list(pool.map(lambda _: short_press().run(peaks="F_P").peaks["F_P"].max, range(8)))
         self.assertEqual(found, [alone] * 8)
 
+    def test_of_a_sweep_come_in_its_order(self):
+        levels = {"parameters.c_P": [8e8, 9e8, 10e8], "parameters.s_cl": ["0.2 mm", "0.4 mm"]}
+        scene = short_press()
+        alone, together = ([(point, run.peaks["F_P"].max) for point, run in scene.sweep(levels, ["F_P"], jobs)]
+                           for jobs in (1, 3))
+        self.assertEqual(alone, together)
+        self.assertEqual([point["parameters.c_P"] for point, _ in alone], [8e8, 8e8, 9e8, 9e8, 10e8, 10e8])
+        self.assertEqual(scene["parameters.c_P"], "900 kN/mm")
+
     def test_end_on_interruption_with_what_they_have(self):
         threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt) as caught:
