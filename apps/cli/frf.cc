@@ -1,7 +1,9 @@
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/exchange/state_space_files.h"
 #include "apps/output/result_folder.h"
+#include "apps/session/exchange/state_space_answer.h"
 #include "apps/session/session.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -44,7 +46,18 @@ void print_response(const FrequencyResponse &response)
     print_pair(pair);
 }
 
-int find_response(const CommonOptions &options, const FrfOptions &asked)
+/// Files of the linear machine, for other programs.
+void export_machine(Session &session, const FrfOptions &asked, const std::string &format,
+                    const std::filesystem::path &folder)
+{
+  const auto model = state_space_of(session.scene(), session.machine(), asked);
+  const auto files = write_state_space(folder, model, format);
+  std::cout << "state space: " << model.states.size() << " states, " << model.inputs.size() << " inputs, "
+            << model.outputs.size() << " outputs: " << (folder / files.front()).string()
+            << (files.size() > 1 ? " ..." : "") << '\n';
+}
+
+int find_response(const CommonOptions &options, const FrfOptions &asked, const std::string &format)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
@@ -62,6 +75,8 @@ int find_response(const CommonOptions &options, const FrfOptions &asked)
     write_results(folder, result);
   }
   print_response(*result.frf);
+  if (!format.empty())
+    export_machine(session, asked, format, folder);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)
@@ -76,7 +91,8 @@ int find_response(const CommonOptions &options, const FrfOptions &asked)
 
 Command frf_command()
 {
-  const auto own = std::make_shared<FrfOptions>();
+  const auto own    = std::make_shared<FrfOptions>();
+  const auto format = std::make_shared<std::string>();
   return {
       "frf",
       "frequency responses of the machine linearised at an operating point",
@@ -95,8 +111,11 @@ Command frf_command()
            .above_zero(),
        CommandOption{"--spacing", &own->spacing, "of the frequencies: log (default) or linear"}.one_of(
            {"log", "linear"}),
-       {"--measured", &own->measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"}},
-      [own](const CommonOptions &options) { return find_response(options, *own); }};
+       {"--measured", &own->measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"},
+       CommandOption{"--export", format.get(),
+                     "the linear machine itself, x' = A x + B u, y = C x + D u, for other programs"}
+           .one_of(exchange_formats())},
+      [own, format](const CommonOptions &options) { return find_response(options, *own, *format); }};
 }
 
 } // namespace gestell::apps

@@ -185,12 +185,47 @@ void check_frf_options(const FrfOptions &options)
                                   option + " frame.crown.uz");
 }
 
+coupling::MachinePoint operating_point(const Scene &scene, coupling::Machine &machine, const std::string &at)
+{
+  return coupling::machine_point(machine, operating_state(scene, machine, at));
+}
+
+std::vector<NamedResponse> named_answers(const Scene &scene, const coupling::Machine &machine,
+                                         const FrfOptions &options, const coupling::MachinePoint &point)
+{
+  const auto                 of_scene = scene_signals(scene, machine);
+  std::vector<NamedResponse> answers;
+  for (const std::string &to : options.to)
+  {
+    const coupling::Signal signal = named_signal("--to", to, machine, of_scene);
+    answers.push_back(
+        {coupling::linear_signal(machine, signal, point), signal.unit, derivatives(options.kind, signal.unit)});
+  }
+  return answers;
+}
+
+std::pair<Eigen::MatrixXd, std::vector<std::string>> named_forces(const Scene &scene, const coupling::Machine &machine,
+                                                                  const FrfOptions             &options,
+                                                                  const coupling::MachinePoint &point)
+{
+  const auto               of_scene = scene_signals(scene, machine);
+  Eigen::MatrixXd          forces(machine.size(), Eigen::Index(options.from.size()));
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < options.from.size(); ++i)
+  {
+    const coupling::Signal signal = named_signal("--from", options.from[i], machine, of_scene);
+    forces.col(Eigen::Index(i))   = coupling::force_along(machine, signal, point);
+    units.push_back(signal.unit);
+  }
+  return {forces, units};
+}
+
 FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &prepared, const FrfOptions &options,
                                         const coupling::Progress &progress, std::vector<std::string> &warnings)
 {
   tell(progress, "frequency response");
   coupling::Machine           &machine = prepared.small();
-  const coupling::MachinePoint point   = coupling::machine_point(machine, operating_state(scene, machine, options.at));
+  const coupling::MachinePoint point   = operating_point(scene, machine, options.at);
   for (const std::string &name : point.touching)
   {
     const bool closed = std::find(point.closed.begin(), point.closed.end(), name) != point.closed.end();
@@ -200,8 +235,7 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
                        ", which no real motion keeps to; give it a play above zero, a load that closes it, or another "
                        "--at");
   }
-  const auto                    of_scene = scene_signals(scene, machine);
-  const coupling::ReducedFrame *frame    = machine.model().reduced_frame();
+  const coupling::ReducedFrame *frame = machine.model().reduced_frame();
   FrequencyResponse             response;
   response.kind            = options.kind;
   response.at              = options.at;
@@ -212,22 +246,19 @@ FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &pre
   response.logarithmic     = options.spacing == "log";
   coupling::LinearResponse linear(machine, point.point);
   warn_of_growth(linear, response.moves, warnings);
-  ResponseSweep                 sweep(std::move(linear), coupling::dense_mass(machine).diagonal());
-  std::vector<coupling::Signal> answers;
-  for (const std::string &to : options.to)
+  ResponseSweep sweep(std::move(linear), coupling::dense_mass(machine).diagonal());
+  const auto    answers      = named_answers(scene, machine, options, point);
+  const auto [forces, along] = named_forces(scene, machine, options, point);
+  for (const NamedResponse &answer : answers)
+    sweep.add_answer(answer.answer, answer.derivatives);
+  for (std::size_t j = 0; j < options.from.size(); ++j)
   {
-    answers.push_back(named_signal("--to", to, machine, of_scene));
-    sweep.add_answer(coupling::linear_signal(machine, answers.back(), point),
-                     derivatives(options.kind, answers.back().unit));
-  }
-  for (const std::string &from : options.from)
-  {
-    const coupling::Signal force = named_signal("--from", from, machine, of_scene);
-    sweep.add_force(coupling::force_along(machine, force, point));
+    sweep.add_force(forces.col(Eigen::Index(j)));
     for (std::size_t i = 0; i < answers.size(); ++i)
     {
-      const int d = derivatives(options.kind, answers[i].unit);
-      response.pairs.push_back({from, options.to[i], response_unit(answers[i].unit, d, force.unit), d, {}, {}});
+      const int d = answers[i].derivatives;
+      response.pairs.push_back(
+          {options.from[j], options.to[i], response_unit(answers[i].unit, d, along[j]), d, {}, {}});
     }
   }
   const double limit = frame && frame->frequency_limit_hz > 0. ? frame->frequency_limit_hz : std::nan("");

@@ -2,6 +2,11 @@
 
 #include "apps/session/frf_options.h"
 #include "apps/session/prepared_machine.h"
+#include "coupling/modes/operating_point.h"
+
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -15,5 +20,24 @@ void check_frf_options(const FrfOptions &options);
 /// @throws std::invalid_argument for options that do not fit
 FrequencyResponse frequency_response_of(const Scene &scene, PreparedMachine &prepared, const FrfOptions &options,
                                         const coupling::Progress &progress, std::vector<std::string> &warnings);
+
+/// The machine of a scene at an operating point of FrfOptions.
+coupling::MachinePoint operating_point(const Scene &scene, coupling::Machine &machine, const std::string &at);
+
+/// What a force acts along, or what answers.
+struct NamedResponse
+{
+  coupling::LinearAnswer answer;
+  std::string            unit;            ///< "m" of the signal itself
+  int                    derivatives = 0; ///< by time, that `kind` asks for
+};
+
+/// Answers in the order of options.to.
+std::vector<NamedResponse> named_answers(const Scene &scene, const coupling::Machine &machine,
+                                         const FrfOptions &options, const coupling::MachinePoint &point);
+/// Unit forces [n x inputs] in the order of options.from, and the unit of what each acts along.
+std::pair<Eigen::MatrixXd, std::vector<std::string>> named_forces(const Scene &scene, const coupling::Machine &machine,
+                                                                  const FrfOptions             &options,
+                                                                  const coupling::MachinePoint &point);
 
 } // namespace gestell::apps

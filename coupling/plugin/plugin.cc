@@ -11,14 +11,49 @@ namespace gestell::coupling
 
 namespace fs = std::filesystem;
 
+namespace
+{
+
+/// The file that this code was loaded from: the program, or the library of whoever computes without it.
+fs::path own_file()
+{
+  std::error_code ignored;
+  Dl_info         own{};
+  const bool      known = dladdr(reinterpret_cast<const void *>(&find_plugin), &own) != 0 && own.dli_fname;
+  const fs::path  named = known ? fs::canonical(own.dli_fname, ignored) : fs::path();
+  return named.empty() ? fs::read_symlink("/proc/self/exe", ignored) : named;
+}
+
+bool has_file(const fs::path &file)
+{
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+constexpr int most_levels = 4; ///< of lib/python3/dist-packages/gestell.so below the prefix
+
+/// Beside the file in a build; installed, in lib/gestell of the prefix that it lies below.
+fs::path plugin_of(const fs::path &file, const char *library)
+{
+  fs::path folder = file.parent_path();
+  if (has_file(folder / library))
+    return folder / library;
+  for (int level = 0; level < most_levels; ++level, folder = folder.parent_path())
+    if (const fs::path installed = folder / "lib" / "gestell" / library; has_file(installed))
+      return installed;
+  return {};
+}
+
+} // namespace
+
 fs::path find_plugin(const char *library)
 {
   std::error_code ignored;
-  const fs::path  beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / library;
-  if (fs::exists(beside, ignored))
-    return beside;
+  for (const fs::path &file : {own_file(), fs::read_symlink("/proc/self/exe", ignored)})
+    if (const fs::path found = plugin_of(file, library); !found.empty())
+      return found;
   const char *folder = std::getenv("GESTELL_PLUGIN_DIR");
-  return folder && fs::exists(fs::path(folder) / library, ignored) ? fs::path(folder) / library : fs::path();
+  return folder && has_file(fs::path(folder) / library) ? fs::path(folder) / library : fs::path();
 }
 
 void *load_plugin(const fs::path &file)

@@ -5,7 +5,8 @@
 namespace gestell::coupling
 {
 
-/// The file of a plugin: in the folder of the running program, else in the one that the environment variable
+/// The file of a plugin: in the folder of the program, or of the library that computes in its place; else in
+/// lib/gestell of the prefix where that is installed; else in the folder that the environment variable
 /// GESTELL_PLUGIN_DIR names; empty if there is none.
 std::filesystem::path find_plugin(const char *library);
 

@@ -106,4 +106,6 @@ TEST(Libraries, AreIncludedWhereTheyBelong)
       lines(includes_matching(tree(), sources, {"fem/assembly/", "fem/recovery/", "fem/parallel/"}, "deal\\.II/")), "");
   EXPECT_EQ(lines(includes_matching(tree(), sources, {"fem/geometry/", "fem/mesh/"}, "gmsh")), "");
   EXPECT_EQ(lines(includes_matching(tree(), {"apps/session/"}, {}, "iostream")), "");
+  EXPECT_EQ(lines(includes_matching(tree(), sources, {"apps/python/"}, "pybind11/")), "");
+  EXPECT_EQ(lines(includes_matching(tree(), sources, {"apps/output/exchange/"}, "matio\\.h")), "");
 }

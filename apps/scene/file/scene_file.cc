@@ -79,11 +79,9 @@ void leave_out_listed(SceneNode &base, SceneNode &own)
   remove(own, "without");
 }
 
-SceneNode read_with_base(const std::string &path, std::vector<std::string> files)
+SceneNode with_base(SceneNode own, const std::string &path, std::vector<std::string> files)
 {
-  const auto identity = std::filesystem::weakly_canonical(path).string();
-  SceneNode  own      = parse_toml_file(path);
-  files.push_back(identity);
+  files.push_back(std::filesystem::weakly_canonical(path).string());
 
   const SceneNode *extends = own.find("extends");
   if (const SceneNode *without = own.find("without"); without && !extends)
@@ -98,7 +96,7 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
   if (std::count(files.begin(), files.end(), std::filesystem::weakly_canonical(next).string()))
     extends->place.fail("extends = \"" + extends->text + "\": the scenes extend each other in a circle");
 
-  SceneNode base = read_with_base(next, files);
+  SceneNode base = with_base(parse_toml_file(next), next, files);
   remove(own, "extends");
   leave_out_listed(base, own);
   remove(base, "name"); // a scene that extends another is not that other one
@@ -114,9 +112,14 @@ SceneNode read_with_base(const std::string &path, std::vector<std::string> files
 
 } // namespace
 
+SceneNode with_extended(const SceneNode &own, const std::string &path)
+{
+  return with_base(own, path, {});
+}
+
 SceneNode read_scene_file(const std::string &path, const std::vector<std::string> &overrides)
 {
-  SceneNode root = read_with_base(path, {});
+  SceneNode root = with_base(parse_toml_file(path), path, {});
   for (const auto &text : overrides)
     apply_override(root, text);
   return root;

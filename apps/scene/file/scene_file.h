@@ -21,4 +21,7 @@ namespace gestell::apps
  */
 SceneNode read_scene_file(const std::string &path, const std::vector<std::string> &overrides);
 
+/// The same of a scene that is no file but stands as if it were this one.
+SceneNode with_extended(const SceneNode &own, const std::string &path);
+
 } // namespace gestell::apps

@@ -33,10 +33,10 @@ std::string first_line(const std::string &message)
   return line;
 }
 
-std::string line_of(const std::string &path, std::size_t number)
+std::string line_of(const std::string &text, std::size_t number)
 {
-  std::ifstream in(path);
-  std::string   line;
+  std::istringstream in(text);
+  std::string        line;
   for (std::size_t i = 0; i < number && std::getline(in, line); ++i)
     ;
   return line;
@@ -151,31 +151,22 @@ SceneNode converted(const toml::value &value, const Place &place, const std::str
 
 } // namespace
 
-SceneNode parse_toml_file(const std::string &path)
+SceneNode parse_toml_text(const std::string &text, const std::string &name, const std::string &folder)
 {
   const auto fail = [&](int line, const std::string &what) {
-    throw std::invalid_argument(Place{path, line}.text() + ": " + what);
+    throw std::invalid_argument(Place{name, line}.text() + ": " + what);
   };
-  if (!std::filesystem::exists(path))
-    fail(0, "there is no such scene file; give the path of a .toml file");
-  if (std::filesystem::is_directory(path))
-    fail(0, "is a folder; give the path of a .toml file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in)
-    fail(0, "cannot be read; check its permissions");
-  const auto        folder = std::filesystem::absolute(path).parent_path().lexically_normal().string();
-  std::stringstream text;
-  text << in.rdbuf();
-  if (const int line = too_deep(text.str()); line > 0)
+  if (const int line = too_deep(text); line > 0)
     fail(line, "tables and arrays stand in each other more than " + std::to_string(deepest) +
                    " deep here; a scene needs six at most");
   try
   {
-    return converted(toml::parse(text, path), Place{path, 1}, folder);
+    std::istringstream in(text);
+    return converted(toml::parse(in, name), Place{name, 1}, folder);
   }
   catch (const toml::exception &e)
   {
-    const auto hint = toml_hint(line_of(path, e.location().line()));
+    const auto hint = toml_hint(line_of(text, e.location().line()));
     fail(e.location().line(), "is not TOML here: " + (hint.empty() ? first_line(e.what()) : hint));
   }
   catch (const std::exception &e)
@@ -183,6 +174,21 @@ SceneNode parse_toml_file(const std::string &path)
     fail(0, std::string("is not a TOML file: ") + first_line(e.what()));
   }
   return {};
+}
+
+SceneNode parse_toml_file(const std::string &path)
+{
+  const auto fail = [&](const std::string &what) { throw std::invalid_argument(path + ": " + what); };
+  if (!std::filesystem::exists(path))
+    fail("there is no such scene file; give the path of a .toml file");
+  if (std::filesystem::is_directory(path))
+    fail("is a folder; give the path of a .toml file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    fail("cannot be read; check its permissions");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return parse_toml_text(text.str(), path, std::filesystem::absolute(path).parent_path().lexically_normal().string());
 }
 
 std::optional<SceneNode> parse_toml_value(const std::string &text, const Place &place, const std::string &folder)

@@ -1,7 +1,7 @@
 #include "coupling/periodic/response/linear_response.h"
 
-#include "coupling/periodic/base_receptance.h"
 #include "coupling/periodic/response/growing_motions.h"
+#include "coupling/periodic/response/linearised_system.h"
 
 #include <Eigen/LU>
 
@@ -68,33 +68,6 @@ MatrixXd bound_motions(const SecondOrderSystem &system, const LocalState &at)
 }
 
 } // namespace
-
-/// The linear machine, without a frequency.
-struct LinearisedSystem
-{
-  /// An entry of M, B or C that is not zero.
-  struct BaseEntry
-  {
-    Eigen::Index i, j;
-    double       M, B, C;
-  };
-
-  std::vector<BaseEntry>        base;
-  MatrixXd                      M, B, C;
-  Eigen::SparseMatrix<double>   W;
-  MatrixXd                      K_u, B_u, M_u; ///< D(w) = K_u + i w B_u - w^2 M_u [n_u x n_u]
-  MatrixXd                      E;
-  Index                         n_c = 0;
-  std::optional<BaseReceptance> modes;
-  std::string                   not_condensed;
-
-  Index     n() const { return M.rows(); }
-  Index     n_u() const { return W.cols(); }
-  MatrixXcd D(double omega) const
-  {
-    return (K_u - omega * omega * M_u).cast<Complex>() + Complex(0., omega) * B_u.cast<Complex>();
-  }
-};
 
 namespace
 {

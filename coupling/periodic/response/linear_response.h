@@ -75,6 +75,8 @@ public:
   /// @throws ConvergenceFailure if the machine has an undamped mode at omega
   Vibration at(double omega, const Eigen::MatrixXd &forces) const;
 
+  const LinearisedSystem &parts() const { return *parts_; }
+
   /// Why the whole equations are solved at every frequency; empty: they are condensed.
   const std::string &not_condensed() const;
 

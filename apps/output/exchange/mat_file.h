@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A file of MATLAB in version 5, which NumPy (scipy.io), Octave and Julia read as well.
+class MatFile
+{
+public:
+  static bool available(); ///< built with libmatio
+
+  /// @throws std::runtime_error if it cannot be written
+  MatFile(const std::filesystem::path &path, const std::string &title);
+  ~MatFile();
+  MatFile(const MatFile &) = delete;
+
+  void add(const std::string &name, const Eigen::MatrixXd &matrix);
+  void add(const std::string &name, const std::vector<std::string> &texts); ///< a column of cells
+
+private:
+  std::string path_;
+  void       *file_ = nullptr;
+};
+
+} // namespace gestell::apps

@@ -1,0 +1,15 @@
+# Writes scenes, studies and meshes of `top` into `share`, with the paths of meshes as they lie there.
+set(staged "$ENV{DESTDIR}${share}") # as file(INSTALL) does by itself
+file(INSTALL "${top}/meshes/" DESTINATION "${share}/meshes" PATTERN README.md EXCLUDE)
+file(GLOB_RECURSE files RELATIVE "${top}/apps" "${top}/apps/scenes/*" "${top}/apps/studies/*")
+foreach(name IN LISTS files)
+  if(name MATCHES "\\.toml$")
+    file(READ "${top}/apps/${name}" text)
+    string(REPLACE "\"../../meshes/" "\"../meshes/" text "${text}")
+    message(STATUS "Installing: ${staged}/${name}")
+    file(CONFIGURE OUTPUT "${staged}/${name}" CONTENT "@text@" @ONLY)
+  else()
+    cmake_path(GET name PARENT_PATH folder)
+    file(INSTALL "${top}/apps/${name}" DESTINATION "${share}/${folder}")
+  endif()
+endforeach()

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "apps/output/values/state_space_model.h"
+#include "apps/python/python_result.h"
+#include "apps/scene/file/scene_node.h"
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::python
+{
+
+/// What is computed of a run: of all signals their history, pictures and energy, or as in studies the peaks of some.
+struct RunChoice
+{
+  std::optional<std::vector<std::string>> peaks{};         ///< signals; none: all that the scene asks for
+  std::string                             sensitivities{}; ///< entries, as at Session::run()
+};
+
+/**
+ * A scene as data: entries can be read and set, then computed.  A change costs its reading; frames are reduced once and
+ * kept in memory for all scenes of the process (apps::FrameShelf).
+ *
+ * Wrong input throws std::invalid_argument, a computation that fails std::runtime_error.  Computing leaves the lock of
+ * the interpreter to others.
+ */
+class PythonScene
+{
+public:
+  static PythonScene of_file(const std::string &path);
+  /// @param folder  relative paths start here
+  static PythonScene of_text(const std::string &text, const std::string &folder);
+  static PythonScene of_values(const pybind11::dict &values, const std::string &folder);
+
+  /// One entry, "parameters.c_P".  @throws std::invalid_argument for a parameter that the scene does not have
+  void                     set(const std::string &key, pybind11::handle value);
+  pybind11::object         get(const std::string &key) const; ///< @throws pybind11::key_error
+  pybind11::object         values() const;                    ///< all, as a dict
+  std::string              name() const;
+  std::vector<std::string> signals() const;
+  std::vector<std::string> check() const; ///< warnings
+
+  /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with what was computed in `result`
+  std::shared_ptr<PythonResult>          run(const RunChoice &choice) const;
+  std::shared_ptr<PythonResult>          modes() const;
+  std::shared_ptr<PythonFrame>           frame() const; ///< reduced
+  std::shared_ptr<PythonResult>          frequency_response(const apps::FrfOptions &options) const;
+  std::shared_ptr<apps::StateSpaceModel> state_space(const apps::FrfOptions &options) const;
+
+private:
+  PythonScene(apps::SceneNode root, std::string path) : root_(std::move(root)), path_(std::move(path)) {}
+
+  apps::Scene                    scene() const { return apps::read_scene(root_, path_, fem::Scripts::harmless); }
+  std::shared_ptr<apps::Session> session(apps::Scene scene, const std::atomic<bool> *stop) const;
+
+  apps::SceneNode          root_;
+  std::string              path_;            ///< of the file, or where it would be
+  bool                     is_file_ = false; ///< it can be read again
+  std::vector<std::string> overrides_;       ///< "key=value" of what was set
+};
+
+} // namespace gestell::python

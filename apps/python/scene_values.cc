@@ -1,0 +1,147 @@
+#include "apps/python/scene_values.h"
+
+#include <cmath>
+
+namespace gestell::python
+{
+namespace
+{
+
+namespace py = pybind11;
+using apps::Place;
+using apps::SceneNode;
+using Type = SceneNode::Type;
+
+[[noreturn]] void refuse(const SceneNode &node, const std::string &key, const std::string &what)
+{
+  node.place.fail((key.empty() ? "" : key + ": ") + what);
+}
+
+SceneNode number_node(SceneNode node, const std::string &key, py::handle value)
+{
+  const bool whole = py::isinstance<py::int_>(value) || py::hasattr(value, "__index__");
+  node.type        = whole ? Type::integer : Type::real;
+  node.number      = value.cast<double>();
+  if (!std::isfinite(node.number))
+    refuse(node, key, "got " + py::repr(value).cast<std::string>() + ", needs a finite number");
+  node.text = whole ? py::str(py::int_(py::reinterpret_borrow<py::object>(value))).cast<std::string>()
+                    : py::repr(py::float_(node.number)).cast<std::string>();
+  return node;
+}
+
+SceneNode table_node(SceneNode node, const std::string &key, const py::dict &values)
+{
+  for (const auto &[own, value] : values)
+  {
+    if (!py::isinstance<py::str>(own))
+      refuse(node, key, "got the key " + py::repr(own).cast<std::string>() + "; keys of a scene are text");
+    const auto name = own.cast<std::string>();
+    node.entries.emplace_back(
+        name, node_of(value, node.place, node.folder, (key.empty() ? "" : key + ".") + apps::written_key(name)));
+  }
+  return node;
+}
+
+SceneNode array_node(SceneNode node, const std::string &key, py::handle values)
+{
+  node.type = Type::array;
+  for (const py::handle &value : values)
+    node.elements.push_back(node_of(value, node.place, node.folder, key));
+  return node;
+}
+
+std::string quoted(const std::string &text)
+{
+  std::string escaped = "\"";
+  for (const char c : text)
+    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
+  return escaped + '"';
+}
+
+} // namespace
+
+SceneNode node_of(py::handle value, const Place &place, const std::string &folder, const std::string &key)
+{
+  SceneNode node;
+  node.place  = place;
+  node.folder = folder;
+  if (py::isinstance<py::dict>(value))
+    return table_node(node, key, py::reinterpret_borrow<py::dict>(value));
+  if (py::isinstance<py::bool_>(value))
+  {
+    node.type    = Type::boolean;
+    node.boolean = value.cast<bool>();
+    node.text    = node.boolean ? "true" : "false";
+    return node;
+  }
+  if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__"))
+  {
+    node.type = Type::text;
+    node.text = py::str(value).cast<std::string>();
+    return node;
+  }
+  if (py::hasattr(value, "tolist")) // of NumPy
+  {
+    const py::object plain = value.attr("tolist")();
+    return py::hasattr(plain, "tolist") ? node : node_of(plain, place, folder, key);
+  }
+  if (py::isinstance<py::int_>(value) || py::isinstance<py::float_>(value))
+    return number_node(node, key, value);
+  if (py::isinstance<py::sequence>(value))
+    return array_node(node, key, value);
+  refuse(node, key,
+         "got " + py::repr(value).cast<std::string>() + " of type " +
+             py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
+             "; an entry of a scene is a number, text with a unit, True or False, a list or a dict");
+}
+
+py::object value_of(const SceneNode &node)
+{
+  switch (node.type)
+  {
+  case Type::table:
+  {
+    py::dict table;
+    for (const auto &[key, value] : node.entries)
+      table[py::str(key)] = value_of(value);
+    return table;
+  }
+  case Type::array:
+  {
+    py::list list;
+    for (const SceneNode &element : node.elements)
+      list.append(value_of(element));
+    return list;
+  }
+  case Type::boolean:
+    return py::bool_(node.boolean);
+  case Type::integer:
+    return py::int_(static_cast<long long>(node.number));
+  case Type::real:
+    return py::float_(node.number);
+  default:
+    return py::str(node.text);
+  }
+}
+
+std::string toml_of(const SceneNode &node)
+{
+  std::string text;
+  switch (node.type)
+  {
+  case Type::table:
+    for (const auto &[key, value] : node.entries)
+      text += (text.empty() ? "" : ", ") + apps::written_key(key) + " = " + toml_of(value);
+    return "{ " + text + " }";
+  case Type::array:
+    for (const SceneNode &element : node.elements)
+      text += (text.empty() ? "" : ", ") + toml_of(element);
+    return '[' + text + ']';
+  case Type::text:
+    return quoted(node.text);
+  default:
+    return node.text;
+  }
+}
+
+} // namespace gestell::python
