@@ -94,6 +94,13 @@ void StudyAnalysis::go_on() const
     throw StudyInterrupted();
 }
 
+/// The page of a run whose results were kept, from the folder of the study; "" if there is none.
+std::string StudyAnalysis::link_of(int number) const
+{
+  const std::filesystem::path page = std::filesystem::path(run_folder(number)) / "report.html";
+  return study_.keep && std::filesystem::exists(file_.parent_path() / page) ? page.generic_string() : "";
+}
+
 int StudyAnalysis::next_number()
 {
   const std::lock_guard<std::mutex> alone(mutex_);
@@ -180,7 +187,10 @@ StudyOptimum StudyAnalysis::optimum_of(const StudyAnswer &answer, const OutputMo
   optimum.nominal = middle_run(answer.table);
   if (!runs && asked.verify)
     if (const Eigen::VectorXd values = run_at(optimum.found.coded, Derivatives::none).values; values.allFinite())
+    {
       optimum.verified = values;
+      optimum.link     = link_of(number_);
+    }
   if (!optimum.nominal && asked.verify)
     optimum.nominal = run_at(Eigen::VectorXd::Zero(optimum.found.coded.size()), Derivatives::none).values;
   return optimum;
@@ -219,8 +229,10 @@ StudyFindings StudyAnalysis::of(const StudyAnswer &answer)
   findings.version     = version;
   findings.design      = answer.design;
   findings.table       = answer.table;
-  number_              = answer.table.n_runs();
-  server_              = std::make_unique<RunServer>(runner_, text_, request_.most_side_by_side(jobs_), stop_);
+  for (int run = 0; run < findings.table.n_runs(); ++run)
+    findings.table.runs[std::size_t(run)].link = link_of(run + 1);
+  number_ = answer.table.n_runs();
+  server_ = std::make_unique<RunServer>(runner_, text_, request_.most_side_by_side(jobs_), stop_);
   try
   {
     find(answer, findings);

@@ -28,6 +28,7 @@ public:
 private:
   void            find(const StudyAnswer &answer, StudyFindings &findings);
   std::string     lacking_surface(const std::vector<ResponseSurface> &surfaces) const;
+  std::string     link_of(int number) const;
   void            go_on() const;
   int             next_number();
   void            keep_row(const RunRow &row, const Eigen::VectorXd &levels);

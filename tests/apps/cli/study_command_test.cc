@@ -131,6 +131,21 @@ TEST(StudyCommand, RefusesALimitInAnotherUnitAtItsFirstRunAndGoesOnOnceThatIsCur
   expect_answer(gestell(study + "--resume"), 0, {"5 runs made", "optimum on the surface"});
 }
 
+TEST(StudyCommand, LinksTheRunsThatItKeeps)
+{
+  const Folder folder("study_kept");
+  expect_answer(gestell("study " + folder.file("s.toml", text) + folder.option() +
+                        "--set design.runs=4 --set run.end=\"5 ms\" --set keep=true --set optimise.goals.F.scale=1"),
+                0, {"by a run"});
+  const std::string page = read(folder.results() / "report.html");
+  for (const char *run : {"run_1", "run_4", "run_5"}) // the last verifies the optimum
+  {
+    const std::string link = std::string(run) + "/report.html";
+    EXPECT_EQ(count(page, "href=\"" + link + '"'), 1) << link;
+    EXPECT_TRUE(std::filesystem::exists(folder.results() / link));
+  }
+}
+
 // A cosine of 44 000 turns over the range, 5509.2 from one run to the next, is noise to a parabola.
 TEST(StudyCommand, WarnsOfASurfaceThatForetellsNothing)
 {

@@ -283,6 +283,26 @@ TEST(OptimumScene, HasNothingOfTheTablesThatTheStudyReplaces)
   EXPECT_EQ(written.find("run")->find("order")->number, 4.);
 }
 
+TEST(OptimumScene, LeavesOutWhatLiesDeeperThanANamedEntry)
+{
+  const Folder    folder("study_optimum_deep");
+  const StudyFile study = read_study(shipped_studies + "crane_braking.toml", {});
+  Eigen::VectorXd levels(5);
+  levels << 2., 0.8, 1.24, 0., 0.; // two ramps
+  const SceneVariants variants(study, fem::Scripts::harmless);
+  folder.file("optimum.toml", optimum_scene(study, variants, levels, folder / ""));
+  const SceneNode  written = read_scene_file((folder / "optimum.toml").string(), {});
+  const SceneNode *brake   = written.find("joint")->find("cylinder")->find("motion")->find("brake");
+  EXPECT_EQ(brake->find("family")->text, "shaped");
+  EXPECT_EQ(brake->find("ramps")->elements.size(), 2u);
+  folder.file("wrong.toml", "extends = 'optimum.toml'\nwithout = ['joint.cylinder.motion.break']\n");
+  expect_refusal([&] { read_scene_file((folder / "wrong.toml").string(), {}); },
+                 "without: 'joint.cylinder.motion.break': the scene that is extended has no such entry");
+  folder.file("plain.toml", "extends = 'optimum.toml'\nwithout = ['joint.cylinder.motion.brake']\n");
+  const SceneNode plain = read_scene_file((folder / "plain.toml").string(), {});
+  EXPECT_FALSE(plain.find("joint")->find("cylinder")->find("motion")->find("brake"));
+}
+
 /// The press by a controlled step, and what it makes of stiffness and play.
 const std::string fine_study =
     "[scene]\nfile = '" + press +
