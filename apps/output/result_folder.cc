@@ -50,8 +50,7 @@ void remove_earlier_results(const fs::path &folder)
                [](const fs::path &path)
                {
                  return std::any_of(result_files().begin(), result_files().end(),
-                                    [&](const ResultFile &file)
-                                    { return file.several && file.has_name(path.filename().string()); });
+                                    [&](const ResultFile &file) { return file.has_name(path.filename().string()); });
                });
   for (const ResultFile &file : result_files())
     if (const fs::path inner = folder / file.folder; !file.folder.empty() && fs::is_directory(inner))
