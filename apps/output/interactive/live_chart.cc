@@ -93,8 +93,8 @@ bool can_live(const Chart &chart)
   if (page_libraries().empty() || chart.panels.size() != 1 || !chart.panels[0].tiles.empty())
     return false;
   const std::vector<Curve> &curves = chart.panels[0].curves;
-  return !curves.empty() && std::all_of(curves.begin(), curves.end(),
-                                        [](const Curve &curve) { return !curve.x.empty() && ascending(curve.x); });
+  return std::any_of(curves.begin(), curves.end(), [](const Curve &curve) { return !curve.x.empty(); }) &&
+         std::all_of(curves.begin(), curves.end(), [](const Curve &curve) { return ascending(curve.x); });
 }
 
 Json number(double x)
