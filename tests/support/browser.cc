@@ -77,11 +77,12 @@ Browser::Browser(const std::filesystem::path &page)
   session_          = call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
   for (const char *domain : {"Runtime.enable", "Log.enable", "Page.enable", "Network.enable"})
     call(domain);
-  const double asked = now();
+  const double asked = now(), cpu = cpu_seconds();
   call("Page.navigate", {{"url", address_}});
   while (!loaded_)
     note(next_message());
-  load_seconds_ = now() - asked;
+  load_seconds_     = now() - asked;
+  load_cpu_seconds_ = cpu_seconds() - cpu;
 }
 
 Browser::~Browser()
@@ -166,10 +167,12 @@ double Browser::cpu_seconds() const
   for (const auto &entry : std::filesystem::directory_iterator("/proc"))
   {
     const std::string name = entry.path().filename().string();
-    std::ifstream     file(entry.path() / "stat");
-    std::string       text((std::istreambuf_iterator<char>(file)), {});
-    if (name.find_first_not_of("0123456789") != std::string::npos || text.find(')') == std::string::npos)
+    if (name.find_first_not_of("0123456789") != std::string::npos)
       continue;
+    std::ifstream file(entry.path() / "stat");
+    std::string   text;
+    if (!std::getline(file, text) || text.find(')') == std::string::npos)
+      continue; // it has ended meanwhile
     std::istringstream     fields(text.substr(text.rfind(')') + 1));
     std::string            field;
     std::array<double, 14> number{};

@@ -35,8 +35,9 @@ public:
   /// Processor time of the browser and all processes it has started [s].
   double cpu_seconds() const;
 
-  double                          load_seconds() const { return load_seconds_; } ///< from the request to the load event
-  const std::vector<std::string> &errors() const { return errors_; }             ///< of the console, and exceptions
+  double load_seconds() const { return load_seconds_; }                  ///< from the request to the load event
+  double load_cpu_seconds() const { return load_cpu_seconds_; }          ///< what it took of the processors
+  const std::vector<std::string> &errors() const { return errors_; }     ///< of the console, and exceptions
   const std::vector<std::string> &requests() const { return requests_; } ///< addresses asked for, but the page's own
 
 private:
@@ -48,7 +49,7 @@ private:
   int                      process_ = -1, to_ = -1, from_ = -1, id_ = 0;
   std::string              session_, buffer_, address_;
   bool                     loaded_       = false;
-  double                   load_seconds_ = 0.;
+  double                   load_seconds_ = 0., load_cpu_seconds_ = 0.;
   std::vector<std::string> errors_, requests_;
   std::filesystem::path    profile_;
 };

@@ -93,8 +93,22 @@ bool can_live(const Chart &chart)
   if (page_libraries().empty() || chart.panels.size() != 1 || !chart.panels[0].tiles.empty())
     return false;
   const std::vector<Curve> &curves = chart.panels[0].curves;
-  return !curves.empty() && std::all_of(curves.begin(), curves.end(),
-                                        [](const Curve &curve) { return !curve.x.empty() && ascending(curve.x); });
+  return std::any_of(curves.begin(), curves.end(), [](const Curve &curve) { return !curve.x.empty(); }) &&
+         std::all_of(curves.begin(), curves.end(), [](const Curve &curve) { return ascending(curve.x); });
+}
+
+/// Rows from first to before last where y is smallest and largest; what is no number is gone over.
+std::pair<std::size_t, std::size_t> extremes(const std::vector<double> &y, std::size_t first, std::size_t last)
+{
+  std::size_t low = first, high = first;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    if (!(y[i] >= y[low])) // it is smaller, or one of them is no number
+      low = std::isnan(y[i]) ? low : i;
+    if (!(y[i] <= y[high]))
+      high = std::isnan(y[i]) ? high : i;
+  }
+  return {low, high};
 }
 
 Json number(double x)
@@ -119,10 +133,8 @@ std::vector<std::size_t> telling_rows(const std::vector<double> &x, const std::v
     rows.push_back(first);
     for (const Curve &curve : curves)
     {
-      const auto [low, high] =
-          std::minmax_element(curve.y.begin() + static_cast<long>(first), curve.y.begin() + static_cast<long>(last));
-      rows.push_back(static_cast<std::size_t>(low - curve.y.begin()));
-      rows.push_back(static_cast<std::size_t>(high - curve.y.begin()));
+      const auto [low, high] = extremes(curve.y, first, last);
+      rows.insert(rows.end(), {low, high});
     }
     first = last;
   }

@@ -5,7 +5,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_frame_triangles = 5000, most_body_triangles = 3000;
+constexpr std::size_t most_frame_triangles = 6500, most_body_triangles = 3000;
 constexpr int         most_columns = 400; ///< coordinates of a reduced frame
 
 CoarseMesh coarse(const Skin &skin, std::size_t most)
@@ -13,7 +13,7 @@ CoarseMesh coarse(const Skin &skin, std::size_t most)
   double     edge = skin.size() / 150.;
   CoarseMesh mesh = coarse_mesh(skin, edge);
   while (mesh.triangles.size() > most)
-    mesh = coarse_mesh(skin, edge *= 1.3);
+    mesh = coarse_mesh(skin, edge *= 1.15);
   return mesh;
 }
 

@@ -71,7 +71,7 @@ std::string model_text(const ModelFacts &model)
   std::string text;
   if (model.dofs >= 0)
     text += " with " + count_text(static_cast<std::size_t>(model.dofs), "coordinate");
-  if (model.frame_dofs > 0 && model.interface >= 0 && model.modes >= 0)
+  if (model.interface >= 0 && model.modes >= 0 && model.frame_dofs > model.interface + model.modes)
     text += ", " + std::to_string(model.interface + model.modes) + " of them in place of the " +
             std::to_string(model.frame_dofs) + " of the frame";
   return text;
@@ -131,10 +131,10 @@ std::vector<KeyNumber> key_numbers(const Result &result)
     for (const Peak &peak : main_peaks(*result.run))
       numbers.push_back({quantity_text(peak.value, peak.signal->unit),
                          peak.signal->name + (peak.value >= 0. ? ", largest" : ", smallest")});
-  if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))
-    numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the machine"});
   if (const coupling::Mode *first = first_that_vibrates(result.frame_modes))
     numbers.push_back({short_text(first->frequency_hz) + " Hz", "lowest mode of the frame"});
+  else if (const coupling::Mode *lowest = first_that_vibrates(result.coupled_modes))
+    numbers.push_back({short_text(lowest->frequency_hz) + " Hz", "lowest mode of the machine"});
   if (result.stress)
   {
     double most = 0.;

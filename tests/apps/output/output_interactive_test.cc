@@ -73,6 +73,21 @@ TEST(LiveChart, KeepsEveryExtremeAndTheRowsAboutAMark)
     EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), i)) << i;
 }
 
+/// A gap at the begin of a stretch must not hide the peak behind it.
+TEST(LiveChart, KeepsThePeakBehindAGap)
+{
+  Curve               curve;
+  std::vector<double> x;
+  for (int i = 0; i < 100; ++i)
+  {
+    x.push_back(i);
+    curve.y.push_back(i < 10 ? std::nan("") : i == 37 ? 9. : 0.);
+  }
+  const auto rows = telling_rows(x, {curve}, {}, 2);
+  EXPECT_TRUE(std::binary_search(rows.begin(), rows.end(), 37u));
+  EXPECT_TRUE(telling_rows({}, {}, {}, 10).empty());
+}
+
 TEST(LiveChart, LeavesPanelsPictures)
 {
   Chart chart;

@@ -1,14 +1,12 @@
 #include "tests/apps/pages/page_measures.h"
 #include "tests/support/program.h"
 
-#include <algorithm>
-
 using namespace gestell;
 using tests::Browser;
 
 /// What the press on its frame of finite elements must reach on a machine without graphics.  What others do on the
 /// machine at the time of the test is not the page's: 30 pictures a second are reached if a picture takes a thirtieth
-/// of a second of one processor, in all processes of the browser; that it opens, by the best of three times.
+/// of a second of one processor, in all processes of the browser, and it opens in two if it takes no more of that.
 TEST(PressPage, IsBelow5MBOpensWithin2SecondsAndMovesAt30PicturesASecond)
 {
   GESTELL_NEEDS_BROWSER();
@@ -17,21 +15,16 @@ TEST(PressPage, IsBelow5MBOpensWithin2SecondsAndMovesAt30PicturesASecond)
   const auto report = folder.results() / "report.html";
   EXPECT_LT(std::filesystem::file_size(report), 5000000u);
 
-  double opened = 1e9;
-  for (int i = 0; i < 3 && !(opened < 2.); ++i)
-  {
-    Browser page(report);
-    opened = std::min(opened, page.load_seconds());
-  }
-  EXPECT_LT(opened, 2.);
-
-  Browser           page(report);
+  Browser page(report);
+  EXPECT_TRUE(page.load_seconds() < 2. || page.load_cpu_seconds() < 2.)
+      << page.load_seconds() << " s, " << page.load_cpu_seconds() << " s of processors";
   const double      seen = tests::seconds_to_the_machine(page);
   const tests::Pace pace = tests::pace(page, 4);
   EXPECT_TRUE(pace.pictures_per_second >= 30. || pace.cpu_per_picture <= 1. / 30.)
       << pace.pictures_per_second << " pictures a second, " << pace.cpu_per_picture << " s of processors each";
   EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
   EXPECT_TRUE(page.requests().empty()) << tests::texts(page.requests());
-  std::cout << "opened in " << opened << " s, machine seen after " << seen << " s, " << pace.pictures_per_second
+  std::cout << "opened in " << page.load_seconds() << " s with " << page.load_cpu_seconds()
+            << " s of processors, machine seen after " << seen << " s, " << pace.pictures_per_second
             << " pictures a second, " << pace.cpu_per_picture << " s of processors each\n";
 }
