@@ -20,6 +20,7 @@ namespace
 constexpr std::size_t most_cycles = 8;
 constexpr double      mostly_open = 0.3;  ///< kappa below which the motion is far from harmonic
 constexpr double      decays      = 0.3;  ///< share of the amplitude lost until the next cycle
+constexpr double      same_place  = 0.1;  ///< of the range of a cycle
 constexpr double      bent        = 0.05; ///< of its way, that a deflection may deviate from a straight one
 constexpr double      step        = 1e-7; ///< [m, rad] of a difference quotient
 
@@ -118,45 +119,72 @@ double softened_hz(const Result &result, const Eigen::MatrixXd &K_modes, double 
   return std::sqrt(std::max(0., solver.eigenvalues()[nearest])) / two_pi;
 }
 
-/// Cycles between events of the kind that comes first among those that repeat.
-std::vector<PlayEstimate> cycles_of(const coupling::RunResult &run, const PlayedElement &played)
-{
-  std::vector<PlayEstimate> cycles;
-  std::string               kind;
-  for (std::size_t e = 0; e < run.events.size() && kind.empty(); ++e)
-    for (std::size_t f = e + 1; f < run.events.size() && kind.empty(); ++f)
-      if (run.events[e].name == played.placement->name && run.events[f].name == run.events[e].name &&
-          run.events[f].kind == run.events[e].kind)
-        kind = run.events[e].kind;
-  double before = std::numeric_limits<double>::quiet_NaN();
-  for (const coupling::Event &event : run.events)
-    if (event.name == played.placement->name && event.kind == kind)
-    {
-      if (before < event.t && cycles.size() < most_cycles)
-      {
-        PlayEstimate cycle;
-        cycle.element = played.placement->name;
-        cycle.begin   = before;
-        cycle.end     = event.t;
-        cycle.seen_hz = 1. / (event.t - before);
-        cycles.push_back(cycle);
-      }
-      before = event.t;
-    }
-  return cycles;
-}
-
-void add_amplitude(const HistoryRows &rows, std::size_t signal, PlayEstimate &cycle)
+double range_between(const HistoryRows &rows, std::size_t signal, double begin, double end, double *middle = nullptr)
 {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows.t(i) >= cycle.begin && rows.t(i) <= cycle.end)
+    if (rows.t(i) >= begin && rows.t(i) <= end)
     {
       low  = std::min(low, rows.at(i, signal + 1));
       high = std::max(high, rows.at(i, signal + 1));
     }
-  cycle.amplitude = 0.5 * (high - low);
-  cycle.mean      = 0.5 * (high + low);
+  if (middle)
+    *middle = 0.5 * (high + low);
+  return high - low;
+}
+
+/// The deflection in the row behind an instant.
+double deflection_at(const HistoryRows &rows, std::size_t signal, double t)
+{
+  std::size_t i = 0;
+  while (i + 1 < rows.size() && rows.t(i) < t)
+    ++i;
+  return rows.at(i, signal + 1);
+}
+
+/// Whether two events of one kind are the begin of two cycles: at the same deflection, not on the other side of the
+/// play.
+bool same_side(const HistoryRows &rows, std::size_t signal, double begin, double end)
+{
+  const double moved = deflection_at(rows, signal, end) - deflection_at(rows, signal, begin);
+  return std::abs(moved) < same_place * range_between(rows, signal, begin, end);
+}
+
+/// The kind of its events that repeats first; empty: none does.
+std::string repeated_kind(const coupling::RunResult &run, const std::string &element)
+{
+  for (std::size_t e = 0; e < run.events.size(); ++e)
+    for (std::size_t f = e + 1; f < run.events.size(); ++f)
+      if (run.events[e].name == element && run.events[f].name == element && run.events[f].kind == run.events[e].kind)
+        return run.events[e].kind;
+  return "";
+}
+
+std::vector<PlayEstimate> cycles_of(const coupling::RunResult &run, const PlayedElement &played)
+{
+  std::vector<PlayEstimate> cycles;
+  const HistoryRows         rows(run);
+  const std::string         kind   = repeated_kind(run, played.placement->name);
+  double                    before = std::numeric_limits<double>::quiet_NaN();
+  for (const coupling::Event &event : run.events)
+  {
+    if (cycles.size() == most_cycles || event.name != played.placement->name || event.kind != kind)
+      continue;
+    if (before < event.t && !same_side(rows, played.signal, before, event.t))
+      continue;
+    if (before < event.t)
+    {
+      PlayEstimate cycle;
+      cycle.element   = played.placement->name;
+      cycle.begin     = before;
+      cycle.end       = event.t;
+      cycle.seen_hz   = 1. / (event.t - before);
+      cycle.amplitude = 0.5 * range_between(rows, played.signal, before, event.t, &cycle.mean);
+      cycles.push_back(cycle);
+    }
+    before = event.t;
+  }
+  return cycles;
 }
 
 std::string limits_of(const PlayEstimate &cycle, const PlayEstimate *next)
@@ -195,10 +223,9 @@ struct ClosedMode
 void estimate(const coupling::Machine &machine, const PlayedElement &played, const coupling::Signal &signal,
               const Eigen::VectorXd &u, const ClosedMode &closed, const Result &result, PlayEstimate &cycle)
 {
-  cycle.signal    = signal.name;
-  cycle.mode      = closed.mode;
-  cycle.closed_hz = result.coupled_modes[std::size_t(closed.mode)].frequency_hz;
-  add_amplitude(HistoryRows(*result.run), played.signal, cycle);
+  cycle.signal          = signal.name;
+  cycle.mode            = closed.mode;
+  cycle.closed_hz       = result.coupled_modes[std::size_t(closed.mode)].frequency_hz;
   cycle.stiffness_share = stiffness_share(machine, played, signal, u, closed.d, cycle);
   if (std::isfinite(cycle.stiffness_share))
     cycle.frequency_hz = softened_hz(result, closed.K_modes, cycle.stiffness_share, closed.mode);

@@ -18,6 +18,7 @@ namespace
 {
 
 constexpr int         told_twice     = 2;
+constexpr double      rounding       = 1e-6; ///< of the largest value
 constexpr std::size_t most_sentences = 60;
 constexpr double      near_mode      = 0.25; ///< relative difference of frequencies up to which a mode carries
 constexpr double      no_momentum    = 1e-3; ///< of the largest force times the time it acts
@@ -206,7 +207,8 @@ void Story::add_extreme(std::size_t s, bool largest)
   const coupling::SignalSummary &own = result_.run->signals[s];
   const double                   x = largest ? own.max : own.min, t = largest ? own.t_max : own.t_min;
   const bool                     inside = rows_.size() > 2 && t > rows_.t(0) && t < rows_.t(rows_.size() - 1);
-  if (inside && x != 0. && own.max - own.min > 0.)
+  const double                   size   = std::max(std::abs(own.min), std::abs(own.max));
+  if (inside && std::abs(x) > rounding * size)
     sentences_.push_back(
         {t, own.name + " is " + (largest ? "largest" : "smallest") + " of the run: " + shown(x, own) + carried_by(s, t),
          true});

@@ -53,7 +53,9 @@ TEST(EnergyShares, SumUpToOne)
     {
       EXPECT_NEAR(shares.kinetic.col(j).sum(), 1., 1e-10);
       if (result.coupled_modes[std::size_t(j)].frequency_hz > 0.)
+      {
         EXPECT_NEAR(shares.strain.col(j).sum(), 1., 1e-5); // springs below 1e-6 are left out
+      }
     }
   }
   const auto press = *Session(shipped("press_minimal.toml")).modes().energy_shares;
@@ -87,7 +89,7 @@ TEST(ComparedModes, OfARigidFrameFindTheirPartners)
   for (int j = 0; j < 4; ++j)
   {
     EXPECT_EQ(shapes.match.pairs[std::size_t(j)].b, j);
-    EXPECT_GT(shapes.match.pairs[std::size_t(j)].assurance, 0.9);
+    EXPECT_GT(shapes.match.pairs[std::size_t(j)].assurance, 0.85); // f4: the crown no longer rests
   }
   EXPECT_GT(shapes.a.modes[3].frequency_hz, shapes.b.modes[3].frequency_hz); // stiffer
 }
