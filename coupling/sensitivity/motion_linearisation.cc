@@ -311,7 +311,14 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
   int         most   = 0;
   for (const ConstraintBlock &block : blocks)
     most = std::max(most, block.n_measures);
-  VectorXd below(Gamma.rows()), above(Gamma.rows()), p_below = VectorXd::Zero(Gamma.cols()), p_above = p_below;
+  VectorXd   below(Gamma.rows()), above(Gamma.rows()), p_below = VectorXd::Zero(Gamma.cols()), p_above = p_below;
+  const auto terms = [&](VectorXd &of_joints, ConstraintJacobian &G)
+  {
+    if (P)
+      joint_terms(machine_, moved_, of_joints, G);
+    else // G does not depend on u'
+      machine_.joints().rates(moved_, rate_, of_joints);
+  };
   for (int j = 0; j < most; ++j)
   {
     const auto way = [&](const ConstraintBlock &block)
@@ -327,9 +334,9 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
           (moved_.*moved)[block.first_measure + j] += sign * way(block);
     };
     move(-1.);
-    joint_terms(machine_, moved_, below, G_minus_);
+    terms(below, G_minus_);
     move(1.);
-    joint_terms(machine_, moved_, above, G_plus_);
+    terms(above, G_plus_);
     if (P)
     {
       G_minus_.set_forces(state.local.lambda, p_below);

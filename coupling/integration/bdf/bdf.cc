@@ -119,8 +119,12 @@ void Bdf::begin_from(double t)
     first.w += product_;
     find_implied(first);
   }
-  else if (depend_on_accelerations(system_, local_)) // else the first row tells forces without accelerations
-    find_implied(first);
+  else
+  {
+    ++work_.evaluations;
+    if (depend_on_accelerations(system_, local_)) // the first row tells forces as those behind it do
+      find_implied(first);
+  }
   virtual_rates_.settle(first.q, first.v, local_);
   first.u_rate = local_.v;
   now_known_   = false;

@@ -160,7 +160,13 @@ void BdfControlled::restart()
   implicit_.forget_contraction();
   system_.forces().force(local_, local_.p);
   ++work_.evaluations;
-  if ((is_implied() || depend_on_accelerations(system_, local_)) && has_consistent())
+  bool follow = is_implied();
+  if (!follow)
+  {
+    ++work_.evaluations;
+    follow = depend_on_accelerations(system_, local_);
+  }
+  if (follow && has_consistent())
     close_joints(); // and the accelerations on which forces depend
   virtual_rates_.settle(z_.head(n_), z_.segment(n_, n_), local_);
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
