@@ -155,7 +155,8 @@ public:
     {
       const Parts parts = read_parts(frame);
       enclose(parts, box);
-      most = std::max(most, largest_displacement({parts.front()}));
+      // of the frame; of a mode, which has no size, of all that moves
+      most = std::max(most, largest_displacement(series.swings ? parts : Parts{parts.front()}));
     }
     const double size  = diagonal(box);
     double       times = series.swings               ? mode_in_files
