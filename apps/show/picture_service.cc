@@ -1,4 +1,5 @@
 // The door of the plugin.
+#include "apps/show/animated_png.h"
 #include "apps/show/renderer.h"
 
 #include <vtkDataArray.h>
@@ -9,10 +10,12 @@
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
@@ -83,13 +86,32 @@ void write_png(vtkImageData *image, const fs::path &file)
     throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
 }
 
-/// Film of the images that are given to it.
+/// The bytes of the picture as PNG.
+std::string png_of(vtkImageData *image)
+{
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  const vtkUnsignedCharArray *bytes = writer->GetResult();
+  return {reinterpret_cast<const char *>(const_cast<vtkUnsignedCharArray *>(bytes)->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+void write_bytes(const std::string &bytes, const fs::path &file)
+{
+  if (!(std::ofstream(file, std::ios::binary) << bytes << std::flush))
+    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
+/// Film of the images that are given to it, twice: for players of films and for browsers.
 class Film
 {
 public:
-  Film(const fs::path &file, int rate) : file_(file)
+  /// @param file  without ending
+  Film(const std::string &file, int rate) : file_(file), browser_(rate)
   {
-    writer_->SetFileName(file.c_str());
+    writer_->SetFileName((file + ".ogv").c_str());
     writer_->SetRate(rate);
     writer_->SetQuality(2);
   }
@@ -101,14 +123,21 @@ public:
     started_ = true;
     writer_->Write();
     if (writer_->GetError())
-      throw std::runtime_error(file_.string() + ": cannot be written; is the disk full?");
+      throw std::runtime_error(file_ + ".ogv: cannot be written; is the disk full?");
+    browser_.add(png_of(image));
   }
-  void end() { started_ ? writer_->End() : void(); }
+  void end()
+  {
+    if (started_)
+      writer_->End();
+    write_bytes(browser_.bytes(), file_ + ".apng");
+  }
 
 private:
-  fs::path                   file_;
-  vtkNew<vtkOggTheoraWriter> writer_;
-  bool                       started_ = false;
+  std::string                         file_;
+  vtkSmartPointer<vtkOggTheoraWriter> writer_ = vtkSmartPointer<vtkOggTheoraWriter>::New();
+  AnimatedPng                         browser_;
+  bool                                started_ = false;
 };
 
 /// One series after the other.
@@ -126,7 +155,8 @@ public:
     {
       const Parts parts = read_parts(frame);
       enclose(parts, box);
-      most = std::max(most, largest_displacement({parts.front()}));
+      // of the frame; of a mode, which has no size, of all that moves
+      most = std::max(most, largest_displacement(series.swings ? parts : Parts{parts.front()}));
     }
     const double size  = diagonal(box);
     double       times = series.swings               ? mode_in_files
@@ -151,6 +181,13 @@ private:
     return files_.back();
   }
 
+  Film film_of(const PictureSeries &series)
+  {
+    file(series.name + ".ogv");
+    file(series.name + ".apng");
+    return Film((request_.folder / series.name).string(), request_.frames_per_second);
+  }
+
   /// The largest swing as a picture, one cycle as a film that can be repeated.
   void mode(const PictureSeries &series, double times, double most)
   {
@@ -160,8 +197,8 @@ private:
     write_png(renderer_.draw(parts, times, most, words, Renderer::Sizes::unknown), file(series.name + ".png"));
     if (!request_.films)
       return;
-    Film film(file(series.name + ".ogv"), request_.frames_per_second);
-    for (int k = 0; k < 2 * swing_frames; ++k)
+    Film film = film_of(series);
+    for (int k = 0; k < swing_frames; ++k)
       film.add(
           renderer_.draw(parts, times * std::sin(2. * M_PI * k / swing_frames), most, words, Renderer::Sizes::unknown));
     film.end();
@@ -175,7 +212,7 @@ private:
       fs::create_directories(folder);
     std::unique_ptr<Film> film;
     if (!one && request_.films)
-      film = std::make_unique<Film>(file(series.name + ".ogv"), request_.frames_per_second);
+      film = std::make_unique<Film>(film_of(series));
     for (std::size_t k = 0; k < series.frames.size(); ++k)
     {
       if (!one && !request_.films) // its pictures are the frames of the film

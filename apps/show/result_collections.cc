@@ -92,7 +92,10 @@ std::vector<PictureFrame> read_collection(const fs::path &pvd)
   std::map<double, std::map<double, fs::path>> frames; // by time, then part
   const std::regex                             element("<DataSet\\b[^>]*>");
   for (std::sregex_iterator it(text.begin(), text.end(), element), end; it != end; ++it)
-    frames[number_in(pvd, it->str(), "timestep")][number_in(pvd, it->str(), "part")] = file_in(pvd, it->str());
+  {
+    const double time = number_in(pvd, it->str(), "timestep"), part = number_in(pvd, it->str(), "part");
+    frames[time][part] = file_in(pvd, it->str());
+  }
   if (frames.empty())
     refuse(pvd, "names no data set");
   std::vector<PictureFrame> list;

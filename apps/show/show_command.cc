@@ -71,7 +71,7 @@ Command show_command()
 {
   const auto own = std::make_shared<ShowOptions>();
   return {"show",
-          "draw a result: the machine at its peak, its motion, its modes, as PNG pictures and OGV films",
+          "draw a result: the machine at its peak, its motion, its modes, as PNG pictures and films (APNG, OGV)",
           {"gestell show results/press", "gestell show results/press --no-films --times 500"},
           CommandInput::none,
           {{"DIR", &own->folder, "folder that `gestell run` or `gestell modes` wrote"},

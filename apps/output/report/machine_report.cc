@@ -33,10 +33,11 @@ std::string peak_figure(const Result &result, Pictures &pictures)
   if (svg.empty())
     return "";
   pictures.emplace_back("machine-peak", svg);
+  const std::string enlarged =
+      times > 0. ? "; displacements of elasticity and play are drawn " + short_text(times) + " times as large" : "";
+  const std::string edges = times > 0. && result.scenery.has_skin() ? ", the faint edges show the frame at rest" : "";
   return figure(svg, "The machine at its peak, " + escape_xml(when) +
-                         ", the extreme of the first force asked for, or " +
-                         "of the first signal; displacements of elasticity and play are drawn " + short_text(times) +
-                         " times as large, the faint edges show the frame at rest.");
+                         ", the extreme of the first force asked for, or of the first signal" + enlarged + edges + ".");
 }
 
 std::string coupled_mode_pictures(const Result &result, Pictures &pictures)

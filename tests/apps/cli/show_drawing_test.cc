@@ -39,6 +39,7 @@ TEST(Show, DrawsPeakMotionAndModesAndLeavesNoServerBehind)
       0, {"machine_peak.png", "motion.ogv", "mode_1.png", "mode_1.ogv"});
   EXPECT_EQ(size_of_png(pictures / "machine_peak.png"), std::pair(400, 320));
   EXPECT_EQ(read(pictures / "mode_1.ogv").substr(0, 4), "OggS");
+  EXPECT_EQ(count(read(pictures / "mode_1.apng"), "fcTL"), 24); // a control for each picture of a cycle
   EXPECT_TRUE(std::filesystem::exists(pictures / "motion" / "motion_00005.png"));
 
   std::ofstream(folder.results() / "motion" / "mechanism_00000.vtp") << "broken";
