@@ -13,9 +13,9 @@ using Eigen::Index;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double rounding    = 1e-9;  ///< of the largest value of a signal: what is smaller is zero but for rounding
-constexpr double of_values   = 1e-13; ///< of the same, rounding of one value
-constexpr double distinct    = 30.;   ///< times its rounding is a second derivative at least
+constexpr double rounding  = 1e-9;  ///< of the largest value of a signal: what is smaller is zero but for rounding
+constexpr double of_values = 1e-13; ///< of the same, rounding of one value
+constexpr double distinct  = 30.;   ///< times its rounding is a second derivative at least
 
 const double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace

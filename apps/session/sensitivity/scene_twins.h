@@ -34,8 +34,8 @@ struct SceneFileAt
   fem::Scripts scripts;
 };
 
-/// The frame of all is that of `prepared`; with entries on which it depends it is moved by its derivative, a quotient of
-/// two reductions.
+/// The frame of all is that of `prepared`; with entries on which it depends it is moved by its derivative, a quotient
+/// of two reductions.
 /// @param keys      without those that are left out; those of the frame are told how its derivative was found
 /// @param left_out  gets a sentence for each key that has no derivative, and is left out; null: it is refused
 /// @param progress  of reductions

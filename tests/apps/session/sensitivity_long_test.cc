@@ -1,4 +1,4 @@
-// Derivatives by all parameters of the light press and of the crane, against quotients of converged runs: minutes.
+// Derivatives by all parameters of the light press and of the crane, against quotients of converged runs.
 
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
