@@ -229,7 +229,7 @@ void Renderer::add_names(vtkPolyData *part)
     name->GetTextProperty()->SetFontSize(17);
     name->GetTextProperty()->BoldOn();
     name->GetTextProperty()->SetColor(body_colours[i % 8][0], body_colours[i % 8][1], body_colours[i % 8][2]);
-    name->SetPosition(.84 * window_->GetSize()[0], window_->GetSize()[1] - 64. - 22. * static_cast<double>(i));
+    name->SetPosition(.8 * window_->GetSize()[0], window_->GetSize()[1] - 64. - 22. * static_cast<double>(i));
     scene_->AddActor2D(name);
   }
 }

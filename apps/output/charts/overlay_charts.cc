@@ -66,13 +66,12 @@ std::vector<SignalChart> overlay_charts(const std::string &scene, const coupling
     Chart      chart  = overlay(scene, run, other, shared);
     const auto number = std::to_string(n);
     const bool force  = run.signals[shared.a].unit == "N" || run.signals[shared.a].unit == "N m";
-    charts.push_back(
-        {"compared-" + number, chart.title, chart_svg(chart), force ? ChartTopic::force : ChartTopic::motion});
+    charts.push_back({"compared-" + number, chart_svg(chart), force ? ChartTopic::force : ChartTopic::motion, chart});
     if (!force || !(shock.second > shock.first))
       continue;
     chart.title += ", around the main shock";
     std::tie(chart.x.begin, chart.x.end) = shock;
-    charts.push_back({"compared-" + number + "-shock", chart.title, chart_svg(chart), ChartTopic::force});
+    charts.push_back({"compared-" + number + "-shock", chart_svg(chart), ChartTopic::force, chart, true});
   }
   return charts;
 }

@@ -16,9 +16,9 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr std::size_t most_triangles = 30000;
-constexpr double      picture_size   = 480.;
-constexpr double      least_room     = 160.; ///< of a face for its number [units^2]
+constexpr std::size_t most_triangles = 55000, most_bytes = 1200000;
+constexpr double      picture_size = 480.;
+constexpr double      least_room   = 160.; ///< of a face for its number [units^2]
 
 struct Side
 {
@@ -169,7 +169,7 @@ coupling::FacePicture light_picture(const coupling::FacePicture &picture)
   if (picture.triangles.size() <= most_triangles)
     return picture;
   const Skin skin   = skin_of_picture(picture);
-  double     edge   = skin.size() / 150.;
+  double     edge   = skin.size() / 1000.;
   CoarseMesh coarse = coarse_mesh(skin, edge);
   while (coarse.triangles.size() > most_triangles)
     coarse = coarse_mesh(skin, edge *= 1.3);
@@ -189,8 +189,13 @@ std::vector<std::pair<std::string, std::string>> face_pictures(const coupling::M
   std::vector<std::pair<std::string, std::string>> pictures;
   if (skin.triangles.empty())
     return pictures;
+  std::size_t bytes = 0;
   for (const Side &side : sides)
-    pictures.emplace_back(side.caption, side_svg(report, skin, picture.face, side));
+    if (bytes < most_bytes)
+    {
+      pictures.emplace_back(side.caption, side_svg(report, skin, picture.face, side));
+      bytes += pictures.back().second.size();
+    }
   return pictures;
 }
 

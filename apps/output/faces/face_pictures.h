@@ -13,12 +13,12 @@ namespace gestell::apps
 /// Colour of a face by its index, far from those of the indices beside it.
 Colour face_colour(int index);
 
-/// The picture on so few triangles (30 000) that a page with it stays small; faces keep at least their own triangles
-/// that are larger than a hundredth of the frame.
+/// The picture on so few triangles (55 000) that a page with it stays small; what is finer than some thousandths of the
+/// frame is drawn together where there are more.
 coupling::FacePicture light_picture(const coupling::FacePicture &picture);
 
-/// The frame from eight sides, as caption and SVG: paths bear the index of their face as `data-f`, and where there is
-/// room its number stands on it.
+/// The frame from eight sides, or as many of them as 1.2 MB hold, as caption and SVG: paths bear the index of their
+/// face as `data-f`, and where there is room its number stands on it.
 std::vector<std::pair<std::string, std::string>> face_pictures(const coupling::MeshReport &report);
 
 } // namespace gestell::apps

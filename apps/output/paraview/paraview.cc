@@ -215,11 +215,9 @@ std::vector<Eigen::Vector3d> body_velocities(const Scenery &scenery, const Eigen
   const std::vector<Shape> before  = mechanism_shapes(scenery, q - dt * v),
                            after   = mechanism_shapes(scenery, q + dt * v);
   std::vector<Eigen::Vector3d> velocities;
-  for (std::size_t i = 0; i < after.size(); ++i)
-    for (std::size_t j = 0; j < after[i].points.size(); ++j)
-      velocities.push_back(
-          (after[i].points[j] + after[i].displacement[j] - before[i].points[j] - before[i].displacement[j]) /
-          (2. * dt));
+  for (const auto &shape : differences(scenery, before, after))
+    for (const Eigen::Vector3d &moved : shape)
+      velocities.push_back(moved / (2. * dt));
   return velocities;
 }
 

@@ -55,6 +55,11 @@ struct MachineState
 /// The machine for its coordinates q.
 MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q);
 
+/// How far [m] each point of `after` is from where it was in `before`, by shape.  The two ends of a round bar move as
+/// wholes: about its own axis nothing tells how it has turned.
+std::vector<std::vector<Eigen::Vector3d>> differences(const Scenery &scenery, const std::vector<Shape> &before,
+                                                      const std::vector<Shape> &after);
+
 /// A mode shape of frame and mechanism about the configuration q0: bodies move by the derivative of their places.  The
 /// largest displacement of all is 1 m.
 MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape);

@@ -3,6 +3,7 @@
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/charts/overlay_charts.h"
 #include "apps/output/charts/shape_pairs.h"
+#include "apps/output/interactive/live_chart.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/text/html.h"
 #include "fem/values/number_text.h"
@@ -82,7 +83,7 @@ std::string compared_run_section(const Result &result, Pictures &pictures)
   for (const SignalChart &chart : overlay_charts(result.scene, *result.run, other))
   {
     pictures.emplace_back(chart.name, chart.svg);
-    html += figure(chart.svg);
+    html += live_figure(chart.chart, chart.svg, chart.is_part ? ChartLink::cursor : ChartLink::time);
   }
   return section("compared-run", "The run beside that of " + escape_xml(other.scene), html);
 }

@@ -72,6 +72,22 @@ Eigen::Vector4d state(double sway, double lift, double angle, double way)
 
 } // namespace
 
+TEST(Differences, OfABarAreThoseOfItsEndsHoweverItHasTurnedAboutItsAxis)
+{
+  Scenery scenery;
+  scenery.bars.push_back({"rope", {}, {}});
+  Shape before, after;
+  before.name = after.name = "rope";
+  add_bar(before, {0., 0., 0.}, {0., 0., 1.}, 0.02);
+  before.displacement.assign(before.points.size(), Eigen::Vector3d::Zero());
+  after = before;
+  for (Eigen::Vector3d &x : after.points)
+    x = Eigen::Vector3d(-x[1] + 1e-3 * x[2], x[0], x[2]); // a quarter turn, and its upper end aside
+  const auto moved = differences(scenery, {before}, {after});
+  for (std::size_t j = 0; j < before.points.size(); ++j)
+    EXPECT_NEAR((moved[0][j] - Eigen::Vector3d(before.points[j][2] > 0.5 ? 1e-3 : 0., 0., 0.)).norm(), 0., 1e-12) << j;
+}
+
 TEST(MechanismShapes, AreClosedAndLookOutwards)
 {
   const auto shapes = mechanism_shapes(example_result().scenery, state(0., 0., 0.7, 0.02));
