@@ -16,7 +16,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr std::size_t most_triangles = 12000; ///< of a closed skin; about a third of them is seen
+constexpr std::size_t most_triangles = 9000; ///< of a closed skin; about a third of them is seen
 constexpr double      shown_size     = 0.05;  ///< largest displacement as part of the frame's size
 constexpr double      picture_size   = 400.;  ///< units of the picture's longer side
 constexpr double      fine_piece     = 7.;    ///< longest edge of a body's triangles in a picture [units]

@@ -15,8 +15,8 @@ namespace gestell::apps
 /// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
 Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
 
-/// The scenery with a skin of so few triangles that a picture stays small, with 12 000 below 200 kB.
-Scenery for_pictures(const Scenery &scenery, std::size_t triangles = 12000);
+/// The scenery with a skin of so few triangles that a picture stays small, with 9000 below 150 kB.
+Scenery for_pictures(const Scenery &scenery, std::size_t triangles = 9000);
 
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
 /// undeformed edges.  Seen in parallel projection from front right and above.

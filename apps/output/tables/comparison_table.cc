@@ -1,5 +1,6 @@
 #include "apps/output/tables/comparison_table.h"
 
+#include "apps/output/tables/noise.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -100,11 +101,14 @@ std::string compared_run_text(const coupling::RunResult &run, const ComparedRun 
   std::ostringstream text;
   text << "beside " << other.scene << ": " << std::left << "\n  " << std::setw(12) << "signal" << std::right
        << std::setw(5) << "" << std::setw(16) << "here" << std::setw(16) << "there" << std::setw(10) << "ratio" << '\n';
+  const Noise noise = noise_of(run.signals);
+  const auto  shown = [&](const std::string &unit, double x) { return short_text(noise.without(unit, x), 6); };
   for (const SharedSignal shared : shared_signals(run, other.run))
     for (const ComparedExtreme &own : extremes_of(run.signals[shared.a], other.run.signals[shared.b]))
       text << "  " << std::left << std::setw(12) << run.signals[shared.a].name << std::setw(5) << own.which
-           << std::right << std::setw(16) << short_text(own.value, 6) << std::setw(16) << short_text(own.other, 6)
-           << std::setw(10) << short_text(own.ratio()) << "  " << run.signals[shared.a].unit << '\n';
+           << std::right << std::setw(16) << shown(run.signals[shared.a].unit, own.value) << std::setw(16)
+           << shown(run.signals[shared.a].unit, own.other) << std::setw(10) << short_text(own.ratio()) << "  "
+           << run.signals[shared.a].unit << '\n';
   return text.str();
 }
 
