@@ -131,9 +131,11 @@ OwnMotion integrate(const OwnSystem &system, const std::vector<double> &q, const
     throw std::invalid_argument("integrate: n is " + std::to_string(system.n) + ", n_u " + std::to_string(system.n_u) +
                                 "; n must be 1 or more, n_u 0 or more");
   require_grid(end, output_step);
-  const Adapter           adapter(system);
+  const Adapter adapter(system);
+  if (!Eigen::FullPivLU<Matrix>(matrix_of("M", system.M, system.n, system.n)).isInvertible())
+    throw std::invalid_argument("integrate: M is singular; give every coordinate a mass, or leave it out");
   coupling::MethodOptions options = coupling::options_of(method.name, method.order);
-  options.step                    = method.step;
+  options.step                    = method.step == 0. && method.tolerance > 0. ? end : method.step;
   options.tolerance               = method.tolerance;
   const auto integrator           = coupling::make_integrator(adapter, options);
   Vector     q_t = start_of("q", q, system.n), v_t = start_of("v", v, system.n);

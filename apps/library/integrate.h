@@ -36,7 +36,7 @@ struct OwnMethod
 {
   std::string name      = "bdf"; ///< "newmark", "hht", "generalised-alpha", "central-difference", "exact" ...
   int         order     = 2;
-  double      step      = 0.; ///< [s] fixed, or with a tolerance the largest
+  double      step      = 0.; ///< [s] fixed; or with a tolerance the largest, 0: `end`
   double      tolerance = 0.; ///< of the local error; 0: fixed step
 };
 

@@ -111,28 +111,25 @@ void require_writable(const fs::path &folder)
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     refuse(folder, "this is a file, not a folder");
 
-  // What is missing on the way is made for the test and taken away again, the innermost first.
-  std::vector<fs::path> made;
-  for (fs::path path = fs::absolute(folder); !fs::exists(path, error) && path.has_relative_path();
-       path          = path.parent_path())
-    made.push_back(path);
-  fs::create_directories(folder, error);
-  const std::string not_created = error ? error.message() : "";
-  const std::string not_written = error ? "" : probe(folder);
-  for (const fs::path &path : made)
-    fs::remove(path, error);
-  if (!not_created.empty())
-    refuse(folder, "it cannot be created (" + not_created + ")");
-  if (!not_written.empty())
-    refuse(folder, "it cannot be written (" + not_written + ")");
+  // What is missing is made when there is something to put into it: others may be at the same place.
+  fs::path there = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(there, error) && there.has_relative_path())
+    there = there.parent_path();
+  const bool        whole   = fs::exists(folder, error);
+  const std::string failure = fs::is_directory(there, error) ? probe(there) : "Not a directory";
+  if (!failure.empty())
+    refuse(folder, std::string("it cannot be ") + (whole ? "written (" : "created (") + failure + ")");
 }
 
 void prepare_folder(const fs::path &folder)
 {
   require_writable(folder);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    refuse(folder, "it cannot be created (" + error.message() + ")");
   try
   {
-    fs::create_directories(folder);
     remove_earlier_results(folder);
   }
   catch (const fs::filesystem_error &problem)

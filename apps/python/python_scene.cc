@@ -221,7 +221,7 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
         if (choice.peaks)
           keep_peaks_alone(scene, *choice.peaks);
         auto session = this->session(std::move(scene), &stop);
-        auto run     = session->run(choice.sensitivities);
+        auto run     = choice.sensitivities.empty() ? session->run() : session->run(choice.sensitivities);
         return std::make_shared<PythonResult>(std::move(session), std::move(run));
       });
 }

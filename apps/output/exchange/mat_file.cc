@@ -1,6 +1,7 @@
 #include "apps/output/exchange/mat_file.h"
 
 #include <stdexcept>
+#include <unistd.h>
 
 #ifdef GESTELL_MATIO
 #include <matio.h>
@@ -37,7 +38,8 @@ bool MatFile::available()
 }
 
 MatFile::MatFile(const std::filesystem::path &path, const std::string &title)
-    : path_(path.string()), file_(Mat_CreateVer(path_.c_str(), title.c_str(), MAT_FT_MAT5))
+    : path_(path.string()), beside_(path_ + ".unfinished-" + std::to_string(getpid())),
+      file_(Mat_CreateVer(beside_.c_str(), title.c_str(), MAT_FT_MAT5))
 {
   if (!file_)
     throw std::runtime_error(path_ + ": cannot be written; check folder and permissions");
@@ -45,7 +47,24 @@ MatFile::MatFile(const std::filesystem::path &path, const std::string &title)
 
 MatFile::~MatFile()
 {
+  if (!file_)
+    return;
   Mat_Close(static_cast<mat_t *>(file_));
+  std::error_code error;
+  std::filesystem::remove(beside_, error);
+}
+
+void MatFile::finish()
+{
+  std::error_code error;
+  const bool      closed = Mat_Close(static_cast<mat_t *>(file_)) == 0;
+  file_                  = nullptr;
+  if (closed)
+    std::filesystem::rename(beside_, path_, error);
+  if (closed && !error)
+    return;
+  std::filesystem::remove(beside_, error);
+  throw std::runtime_error(path_ + ": cannot be written; is the disk full?");
 }
 
 void MatFile::add(const std::string &name, const Eigen::MatrixXd &matrix)
@@ -79,6 +98,7 @@ MatFile::MatFile(const std::filesystem::path &, const std::string &)
 
 MatFile::~MatFile() = default;
 
+void MatFile::finish() {}
 void MatFile::add(const std::string &, const Eigen::MatrixXd &) {}
 void MatFile::add(const std::string &, const std::vector<std::string> &) {}
 

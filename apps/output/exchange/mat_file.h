@@ -9,7 +9,8 @@
 namespace gestell::apps
 {
 
-/// A file of MATLAB in version 5, which NumPy (scipy.io), Octave and Julia read as well.
+/// A file of MATLAB in version 5, which NumPy (scipy.io), Octave and Julia read as well.  It is whole or not there:
+/// what is written stands beside its place until finish().
 class MatFile
 {
 public:
@@ -22,9 +23,10 @@ public:
 
   void add(const std::string &name, const Eigen::MatrixXd &matrix);
   void add(const std::string &name, const std::vector<std::string> &texts); ///< a column of cells
+  void finish();                                                            ///< @throws std::runtime_error
 
 private:
-  std::string path_;
+  std::string path_, beside_;
   void       *file_ = nullptr;
 };
 

@@ -58,6 +58,7 @@ std::vector<std::string> write_mat(const fs::path &folder, const StateSpaceModel
     file.add(matrix_name, *matrix);
   for (const auto &[kind, names] : names_of(model))
     file.add(kind, *names);
+  file.finish();
   return {name};
 }
 

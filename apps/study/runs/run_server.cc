@@ -110,6 +110,7 @@ RunServer::RunServer(StudyRunner &runner, const RowsText &text, int jobs, const 
 {
   if (jobs < 2)
     return;
+  std::signal(SIGPIPE, SIG_IGN); // a worker that died is noticed where it is asked
   void *memory = mmap(nullptr, sizeof *stop_of_workers_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
     throw std::runtime_error(std::string("study: no shared memory for --jobs: ") + std::strerror(errno));
@@ -153,7 +154,14 @@ void RunServer::begin_worker()
     }
     close(questions[1]);
     close(replies[0]);
-    serve(questions[0], replies[1], runner_, text_, *stop_of_workers_);
+    try
+    {
+      serve(questions[0], replies[1], runner_, text_, *stop_of_workers_);
+    }
+    catch (const std::exception &) // the stack below is the parent's
+    {
+      _exit(1);
+    }
     _exit(0);
   }
   close(questions[0]);
