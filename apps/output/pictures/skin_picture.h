@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/pictures/skin.h"
 #include "apps/output/values/scenery.h"
@@ -11,9 +12,6 @@
 
 namespace gestell::apps
 {
-
-/// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
-Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
 
 /// The scenery with a skin of so few triangles that a picture stays small, with 9000 below 150 kB.
 Scenery for_pictures(const Scenery &scenery, std::size_t triangles = 9000);
@@ -39,37 +37,6 @@ std::string field_picture_svg(const SkinField &field, const std::string &title, 
 /// edges of the bodies at another time.
 std::string scene_picture_svg(const Skin &skin, const std::vector<Shape> &shapes, const std::string &title,
                               const std::vector<Shape> &later = {});
-
-/// A machine in one state: its frame's skin and its bodies, displacements not yet enlarged.
-struct MachineState
-{
-  Skin               skin;
-  std::vector<Shape> shapes;
-  double             scale = 1.; ///< of a mode: what its shape was multiplied with
-
-  double size() const; ///< [m] diagonal of the box around all of it
-  /// Largest displacement [m] of the frame, of bodies where it has no skin.
-  double largest_displacement() const;
-};
-
-/// The machine for its coordinates q.
-MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q);
-
-/// How far [m] each point of `after` is from where it was in `before`, by shape.  The two ends of a round bar move as
-/// wholes: about its own axis nothing tells how it has turned.
-std::vector<std::vector<Eigen::Vector3d>> differences(const Scenery &scenery, const std::vector<Shape> &before,
-                                                      const std::vector<Shape> &after);
-
-/// A mode shape of frame and mechanism about the configuration q0: bodies move by the derivative of their places.  The
-/// largest displacement of all is 1 m.
-MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape);
-
-/// The enlargement, a round number, by which the largest displacement is at most a twentieth of the size; 0 where
-/// nothing moves.
-double shown_enlargement(const MachineState &state);
-
-/// Of a mode: its largest displacement, of frame or body, becomes a twentieth of the size.
-double mode_enlargement(const MachineState &state);
 
 /**
  * The deformed machine: its frame coloured by displacement and moved by enlargement times displacement over its faint

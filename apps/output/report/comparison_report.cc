@@ -25,12 +25,13 @@ std::string deviation(double ratio)
 
 std::string pairs_html(const ComparedShapes &shapes)
 {
-  HtmlTable table({"#mode", "#f [Hz]", "#other mode", "#f [Hz]", "#higher by", "#MAC", "#seen", "#seen of the other"});
+  HtmlTable table(
+      {"#mode", "#f [Hz]", "#other mode", "#f [Hz]", "#other higher by", "#MAC", "#seen", "#seen of the other"});
   for (const coupling::ModePair &pair : shapes.match.pairs)
     table.add({std::to_string(pair.a + 1), short_text(shapes.a.modes[std::size_t(pair.a)].frequency_hz, 6),
                std::to_string(pair.b + 1), short_text(shapes.b.modes[std::size_t(pair.b)].frequency_hz, 6),
                deviation(frequency_ratio(shapes, pair)), short_text(pair.assurance, 4),
-               gestell::percent(shapes.match.seen_a[pair.a], 2), gestell::percent(shapes.match.seen_b[pair.b], 2)});
+               gestell::percent(shapes.match.seen_a[pair.a]), gestell::percent(shapes.match.seen_b[pair.b])});
   return table.html();
 }
 
@@ -46,7 +47,10 @@ std::string mac_html(const ComparedShapes &shapes)
     for (Eigen::Index j = 0; j < shapes.match.mac.cols(); ++j)
     {
       const double mac = shapes.match.mac(Eigen::Index(i), j);
-      row.push_back(peak(short_text(std::round(100. * mac) / 100., 2), mac >= coupling::least_assurance));
+      const bool   matched =
+          std::any_of(shapes.match.pairs.begin(), shapes.match.pairs.end(),
+                      [&](const coupling::ModePair &pair) { return pair.a == int(i) && pair.b == int(j); });
+      row.push_back(peak(short_text(std::round(100. * mac) / 100., 2), matched));
     }
     table.add(row);
   }

@@ -121,9 +121,8 @@ TEST(LongRun, IsToldWhereItIsAskedFor)
   EXPECT_EQ(result.entries.size(), 1u);
   request.along = "parameters.x";
   request.from = request.to = "1";
-  expect_refusal(
-      [&] { motions_of(test::quoted("[parameters]\nx = 1\n") + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); },
-      "one motion");
+  const std::string named   = test::quoted("gravity = [0, 0, 'x']\n[parameters]\nx = 1\n");
+  expect_refusal([&] { motions_of(named + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "one motion");
   request.along   = "";
   request.section = 10;
   expect_refusal([&] { motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "at least 64");

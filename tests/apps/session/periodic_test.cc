@@ -277,7 +277,9 @@ TEST(PeriodicScene, RefusesWhatHasNoPeriodWithTheWayOut)
   along.along = "parameters.x";
   along.from  = "1 m";
   along.to    = "2 s";
-  EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),
+  EXPECT_THAT(words(test::quoted("gravity = [0, 0, 'x/(1 s^2)']\n[parameters]\nx = '1 m'\n") + slide +
+                        cosine_load("slide", 1., 2.),
+                    along),
               testing::HasSubstr("one unit"));
   along.along = "parameters.y";
   EXPECT_THAT(words(test::quoted("[parameters]\nx = '1 m'\n") + slide + cosine_load("slide", 1., 2.), along),

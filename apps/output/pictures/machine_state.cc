@@ -1,0 +1,133 @@
+#include "apps/output/pictures/machine_state.h"
+
+#include "apps/output/pictures/mechanism_shapes.h"
+#include "apps/output/pictures/picture_margin.h"
+
+#include <algorithm>
+#include <array>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+/// Gives the points of each end of a bar their mean displacement.
+void move_ends(const std::vector<Vector3d> &points, std::vector<Vector3d> &displacement)
+{
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d &x : points)
+    middle += x / static_cast<double>(points.size());
+  Vector3d along = Vector3d::Zero(); // the point farthest from the middle lies at an end
+  for (const Vector3d &x : points)
+    along = (x - middle).norm() > along.norm() ? x - middle : along;
+  std::array<Vector3d, 2> sum = {Vector3d::Zero(), Vector3d::Zero()};
+  std::array<int, 2>      n   = {0, 0};
+  const auto              end = [&](std::size_t j) { return (points[j] - middle).dot(along) > 0. ? 1u : 0u; };
+  for (std::size_t j = 0; j < points.size(); ++j)
+  {
+    sum[end(j)] += displacement[j];
+    ++n[end(j)];
+  }
+  for (std::size_t j = 0; j < points.size(); ++j)
+    displacement[j] = sum[end(j)] / n[end(j)];
+}
+
+} // namespace
+
+Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p)
+{
+  Skin skin;
+  for (const auto &x : scenery.points)
+    skin.points.emplace_back(x[0], x[1], x[2]);
+  skin.displacement.assign(skin.points.size(), Vector3d::Zero());
+  skin.triangles = scenery.triangles;
+  if (skin.points.empty())
+    return skin;
+  const Eigen::VectorXd u = scenery.displacement(p.head(scenery.n_frame));
+  for (std::size_t i = 0; i < skin.points.size(); ++i)
+    skin.displacement[i] = u.segment<3>(3 * static_cast<long>(i));
+  return skin;
+}
+
+double MachineState::size() const
+{
+  std::vector<Vector3d> points = skin.points;
+  for (const Shape &shape : shapes)
+    points.insert(points.end(), shape.points.begin(), shape.points.end());
+  return Skin{points, {}, {}}.size();
+}
+
+double MachineState::largest_displacement() const
+{
+  double largest = skin.largest_displacement();
+  if (skin.points.empty())
+    for (const Shape &shape : shapes)
+      for (const Vector3d &u : shape.displacement)
+        largest = std::max(largest, u.norm());
+  return largest;
+}
+
+MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q)
+{
+  return {skin_of(scenery, q), mechanism_shapes(scenery, q), 1.};
+}
+
+std::vector<std::vector<Vector3d>> differences(const Scenery &scenery, const std::vector<Shape> &before,
+                                               const std::vector<Shape> &after)
+{
+  std::vector<std::vector<Vector3d>> moved;
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    moved.emplace_back();
+    for (std::size_t j = 0; j < before[i].points.size(); ++j)
+      moved.back().push_back(after[i].points[j] + after[i].displacement[j] - before[i].points[j] -
+                             before[i].displacement[j]);
+    const auto bar = std::find_if(scenery.bars.begin(), scenery.bars.end(),
+                                  [&](const coupling::DrawnBar &one) { return one.name == before[i].name; });
+    if (bar != scenery.bars.end())
+      move_ends(before[i].points, moved.back());
+  }
+  return moved;
+}
+
+MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape)
+{
+  constexpr double little = 1e-6; // of the size, where places of bodies are linear in q
+  const double     most   = shape.size() > 0 ? shape.cwiseAbs().maxCoeff() : 0.;
+  const double     step   = most > 0. ? little * scenery.size() / most : 0.;
+  MachineState     state{skin_of(scenery, step * shape), mechanism_shapes(scenery, q0), 1.};
+  const auto       moved   = differences(scenery, state.shapes, mechanism_shapes(scenery, q0 + step * shape));
+  double           largest = state.skin.largest_displacement();
+  for (std::size_t i = 0; i < state.shapes.size(); ++i)
+  {
+    state.shapes[i].displacement = moved[i];
+    for (const Vector3d &u : moved[i])
+      largest = std::max(largest, u.norm());
+  }
+  const double normal = largest > 0. ? 1. / largest : 1.;
+  const auto   scale  = [&](std::vector<Vector3d> &displacement)
+  {
+    for (Vector3d &u : displacement)
+      u *= normal;
+  };
+  state.scale = step * normal;
+  scale(state.skin.displacement);
+  for (Shape &body : state.shapes)
+    scale(body.displacement);
+  return state;
+}
+
+double shown_enlargement(const MachineState &state)
+{
+  const double largest = state.largest_displacement(), size = state.size();
+  return largest > 0. && size > 0. ? round_number(shown_size * size / largest) : 0.;
+}
+
+double mode_enlargement(const MachineState &state)
+{
+  return shown_size * state.size();
+}
+
+} // namespace gestell::apps
