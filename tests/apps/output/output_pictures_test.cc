@@ -75,7 +75,7 @@ Eigen::Vector4d state(double sway, double lift, double angle, double way)
 TEST(Differences, OfABarAreThoseOfItsEndsHoweverItHasTurnedAboutItsAxis)
 {
   Scenery scenery;
-  scenery.bars.push_back({"rope", {}, {}});
+  scenery.bars.emplace_back().name = "rope";
   Shape before, after;
   before.name = after.name = "rope";
   add_bar(before, {0., 0., 0.}, {0., 0., 1.}, 0.02);

@@ -44,10 +44,18 @@ class Tree(unittest.TestCase):
         self.call("/usr/bin/python3" if os.path.exists("/usr/bin/python3") else sys.executable, "-c",
                   "import gestell; print(gestell.__file__); gestell.example('press_minimal').run(peaks='F_P')")
 
+    def tells_of_itself(self):
+        """Man page, completion, scenes to start from."""
+        for name, words in (("man/man1/gestell.1", ".TH GESTELL 1"), ("zsh/vendor-completions/_gestell", "#compdef gestell"),
+                            ("bash-completion/completions/gestell", "complete -F")):
+            self.assertIn(words, (self.prefix / "share" / name).read_text(encoding="utf-8"))
+        self.call(self.prefix / "bin/gestell", "new", "press")
+        self.assertIn("is well formed", self.call(self.prefix / "bin/gestell", "check", "press.toml"))
+
     def lies_anywhere(self):
         """No run path leads into the build."""
         for path in self.prefix.rglob("*"):
-            if path.is_file() and (path.suffix == ".so" or path.name == "gestell" or ".so." in path.name):
+            if path.is_file() and path.open("rb").read(4) == b"\x7fELF":
                 self.assertNotIn(str(BUILD), self.call("readelf", "-d", path))
 
 
@@ -59,6 +67,7 @@ class Prefix(Tree):
         (self.folder / "installed").rename(self.prefix)
         self.computes(begin)
         self.lies_anywhere()
+        self.tells_of_itself()
         self.builds_examples()
 
     def builds_examples(self):
@@ -87,6 +96,7 @@ class DebianPackage(Tree):
         self.assertEqual([path.name for path in (self.folder / "root").iterdir()], ["usr"])
         self.computes(begin)
         self.lies_anywhere()
+        self.tells_of_itself()
         depends = called("dpkg-deb", "-f", package, "Depends", folder=self.folder)
         for needed in ("libdeal.ii", "libvtk9", "libopenblas0", "python3-numpy", "libpetsc-real"):
             self.assertIn(needed, depends)
