@@ -140,7 +140,8 @@
       let k = 0;
       while (k + 2 < this.times.length && this.times[k + 1] <= t) ++k;
       if (this.times.length < 2) return [0, 0];
-      const share = Math.min(1, Math.max(0, (t - this.times[k]) / (this.times[k + 1] - this.times[k])));
+      const step = this.times[k + 1] - this.times[k]; // none where single precision tells no difference
+      const share = step > 0 ? Math.min(1, Math.max(0, (t - this.times[k]) / step)) : 1;
       return this.smooth ? [k, share] : [share < 0.5 ? k : k + 1, 0];
     }
   }
