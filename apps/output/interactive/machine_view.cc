@@ -7,6 +7,7 @@
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/json.h"
+#include "apps/output/values/body_colours.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -193,14 +194,13 @@ std::string machine_view(const Result &result)
   const Json shows = shows_json(machine, result);
   if (shows.empty())
     return "";
-  std::vector<std::string> colours;
+  std::vector<std::string> colours, of_bodies;
   for (int i = 0; i < 32; ++i)
     colours.push_back(hex(scale_colour((i + 0.5) / 32.), 1.));
-  const Json        data = {{"size", machine.size()},
-                            {"has_frame", machine.has_frame()},
-                            {"colours", colours},
-                            {"parts", parts_json(machine)},
-                            {"shows", shows}};
+  for (const Colour &colour : body_colours)
+    of_bodies.push_back(hex(colour, 1.));
+  const Json        data = {{"size", machine.size()},    {"has_frame", machine.has_frame()}, {"colours", colours},
+                            {"body_colours", of_bodies}, {"parts", parts_json(machine)},     {"shows", shows}};
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) +
          "</script></div>\n<noscript><p class=\"soft\">With JavaScript the machine can be turned and seen in motion "

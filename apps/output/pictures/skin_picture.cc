@@ -3,6 +3,7 @@
 #include "apps/output/pictures/picture_margin.h"
 #include "apps/output/pictures/projection.h"
 #include "apps/output/text/svg.h"
+#include "apps/output/values/body_colours.h"
 
 #include <Eigen/Geometry>
 
@@ -17,11 +18,11 @@ namespace
 using Eigen::Vector3d;
 
 constexpr std::size_t most_triangles = 9000; ///< of a closed skin; about a third of them is seen
-constexpr double      shown_size     = 0.05;  ///< largest displacement as part of the frame's size
-constexpr double      picture_size   = 400.;  ///< units of the picture's longer side
-constexpr double      fine_piece     = 7.;    ///< longest edge of a body's triangles in a picture [units]
-constexpr double      coarse_piece   = 14.;   ///< the same where there are many pictures
-constexpr double      sharp          = 35.;   ///< degrees
+constexpr double      shown_size     = 0.05; ///< largest displacement as part of the frame's size
+constexpr double      picture_size   = 400.; ///< units of the picture's longer side
+constexpr double      fine_piece     = 7.;   ///< longest edge of a body's triangles in a picture [units]
+constexpr double      coarse_piece   = 14.;  ///< the same where there are many pictures
+constexpr double      sharp          = 35.;  ///< degrees
 
 /// Facets of the skin, moved by enlargement times displacement; `colour_of` gives the colour of a triangle.
 template <typename ColourOf>
@@ -78,15 +79,6 @@ const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke
                                "stroke-opacity:.55;stroke-linecap:round}.gst .later{fill:none;stroke:var(--ink);"
                                "stroke-width:.8;opacity:.5}</style>\n";
 
-const std::array<Colour, 8> body_colours = {{{0, 114, 178},
-                                             {213, 94, 0},
-                                             {0, 158, 115},
-                                             {176, 80, 143},
-                                             {200, 150, 0},
-                                             {70, 160, 215},
-                                             {120, 90, 70},
-                                             {110, 115, 125}}};
-
 /// Facets of the bodies, moved; small, as bodies pass through each other and only small triangles can be put in the
 /// order of their depth.
 /// @param piece  longest edge of a triangle [units]
@@ -97,8 +89,7 @@ std::vector<Facet> body_facets(const std::vector<Shape> &shapes, double enlargem
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     const Skin small = refined({shapes[i].points, shapes[i].displacement, shapes[i].triangles}, piece / view.scale());
-    const auto own =
-        facets_of(small, enlargement, view, [&](const auto &) { return body_colours[i % body_colours.size()]; });
+    const auto own   = facets_of(small, enlargement, view, [&](const auto &) { return body_colour(i); });
     facets.insert(facets.end(), own.begin(), own.end());
   }
   return DepthRaster(facets, view).visible(facets);
@@ -110,7 +101,7 @@ std::string body_names(const std::vector<Shape> &shapes)
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     const double y = 26. + 18. * static_cast<double>(i);
-    names += "<g class=\"faces\"><path color=\"" + hex(body_colours[i % body_colours.size()], 1.) + "\" d=\"M0 " +
+    names += "<g class=\"faces\"><path color=\"" + hex(body_colour(i), 1.) + "\" d=\"M0 " +
              std::to_string(static_cast<int>(y)) + "h12v-9h-12z\"/></g>" + svg_text(18., y, shapes[i].name, "label");
   }
   return names;

@@ -4,6 +4,7 @@
 #include "apps/output/interactive/short_motion.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/base64.h"
+#include "apps/output/text/html.h"
 #include "tests/support/output_example.h"
 
 #include <gtest/gtest.h>
