@@ -35,7 +35,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
+constexpr std::size_t most_mode_pictures = 9, mode_triangles = 3500, most_accuracy_rows = 40;
 constexpr double      seen_motion = 0.02; ///< of the machine's size
 
 /// A table of two columns for facts; those without a value are left out.
@@ -72,29 +72,31 @@ bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after
   return way > seen_motion * machine_size;
 }
 
-/// Picture of the machine at the start of the run; empty if there is nothing to be seen.
+/// Picture of the machine at the start of the run, without one where its modes are taken; empty if there is nothing to
+/// be seen.
 std::string machine_figure(const Result &result, Report &report)
 {
   const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
+  const bool            runs      = result.run && !result.run->picture_states.empty();
+  const Eigen::VectorXd first     = runs ? result.run->picture_states.front() : result.modes_at;
   std::vector<Shape>    shapes, later;
-  std::string           caption = "The frame.";
-  if (result.run && !result.run->picture_states.empty())
-    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
-  if (!shapes.empty())
-  {
-    caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
-              short_text(result.run->picture_times.front()) + " s.";
+  if (first.size() > 0)
+    shapes = mechanism_shapes(result.scenery, first);
+  if (runs)
     later = mechanism_shapes(result.scenery, result.run->picture_states.back());
-    if (!far_apart(shapes, later, result.scenery.size()))
-      later.clear();
-    else
-      caption.insert(caption.size() - 1, ", in outline at t = " + short_text(result.run->picture_times.back()) + " s");
-  }
+  if (!runs || !far_apart(shapes, later, result.scenery.size()))
+    later.clear();
+  std::string caption = "The frame";
+  if (!shapes.empty())
+    caption = std::string("The mechanism") + (result.scenery.has_skin() ? ", seen through the frame," : "") +
+              (runs ? " at t = " + short_text(result.run->picture_times.front()) + " s" : " where its modes are taken");
+  if (!later.empty())
+    caption += ", in outline at t = " + short_text(result.run->picture_times.back()) + " s";
   const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene, later);
   if (svg.empty())
     return "";
   report.charts.emplace_back("machine", svg);
-  return figure(svg, caption);
+  return figure(svg, caption + ".");
 }
 
 std::string peaks_table(const Result &result)
@@ -265,7 +267,9 @@ std::string modes_section(const Result &result, Report &report)
     }
     return html + "</div>\n";
   };
-  std::string html;
+  const Scenery light    = for_pictures(result.scenery, mode_triangles);
+  const auto    of_frame = [&](const Result &all, std::size_t j) { return frame_mode_svg(all, light, j); };
+  std::string   html;
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
             energy_shares_table(result) + coupled_mode_pictures(result, report.charts) +
@@ -274,7 +278,7 @@ std::string modes_section(const Result &result, Report &report)
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
     html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
-            pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
+            pictures(result.frame_modes, "frame", of_frame, !result.scenery.has_skin());
   return section("modes", "Natural frequencies and modes", html);
 }
 
