@@ -105,12 +105,12 @@ double angle_arm(const Result &result)
   return arm(result.scenery);
 }
 
-std::string frame_mode_svg(const Result &result, const Scenery &scenery, std::size_t j)
+std::string frame_mode_svg(const Result &result, std::size_t j)
 {
   const coupling::Mode &mode = result.frame_modes[j];
-  if (!scenery.has_skin())
+  if (!result.scenery.has_skin())
     return shape_svg(result, "Frame " + heading(j, mode), mode);
-  return mode_picture_svg(skin_of(scenery, mode.shape), heading(j, mode), damping_text(mode));
+  return mode_picture_svg(skin_of(result.scenery, mode.shape), heading(j, mode), damping_text(mode));
 }
 
 std::string coupled_mode_svg(const Result &result, std::size_t j)

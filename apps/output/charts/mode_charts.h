@@ -8,13 +8,12 @@ namespace gestell::apps
 {
 
 /**
- * Picture of the frame mode j (from 0): the deformed skin as drawn of that scenery, or for a frame without one its
- * coordinates as bars.
+ * Picture of the frame mode j (from 0): the deformed skin, or for a frame without one its coordinates as bars.
  *
  * Bars show the coordinates that have a physical meaning, the largest one as 1.  Rotations are compared with
  * displacements by a length, the radius of the first crank or else 1 m, that stands below.
  */
-std::string frame_mode_svg(const Result &result, const Scenery &scenery, std::size_t j);
+std::string frame_mode_svg(const Result &result, std::size_t j);
 
 /// The coordinates of coupled mode j (from 0) as bars: interfaces of the frame and bodies, at most the ten largest.
 std::string coupled_mode_svg(const Result &result, std::size_t j);

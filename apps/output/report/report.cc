@@ -35,7 +35,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9, mode_triangles = 3500, most_accuracy_rows = 40;
+constexpr std::size_t most_mode_pictures = 9, most_skins = 6, most_accuracy_rows = 40;
 constexpr double      seen_motion = 0.02; ///< of the machine's size
 
 /// A table of two columns for facts; those without a value are left out.
@@ -255,21 +255,29 @@ std::string pole_table(const std::vector<coupling::Pole> &poles)
   return "<h3>With drives and controllers, at the speeds of the start</h3>" + table.html();
 }
 
+/// A line that names the pictures of modes from number `first` on, of n; empty if there are none.
+std::string named_pictures(const std::string &stem, std::size_t first, std::size_t n)
+{
+  std::string names;
+  for (std::size_t j = first; j <= n; ++j)
+    names += (names.empty() ? "" : ", ") + stem + std::to_string(j) + ".svg";
+  return names.empty() ? "" : "<p class=\"soft\">Pictures of further modes, in charts/: " + names + ".</p>\n";
+}
+
 std::string modes_section(const Result &result, Report &report)
 {
   const auto pictures = [&](const std::vector<coupling::Mode> &modes, const std::string &name, auto svg_of, bool wide)
   {
-    std::string html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
-    for (std::size_t j = 0; j < std::min(modes.size(), most_mode_pictures); ++j)
+    std::string       html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
+    const std::size_t n = std::min(modes.size(), most_mode_pictures), seen = wide ? n : std::min(n, most_skins);
+    for (std::size_t j = 0; j < n; ++j)
     {
       report.charts.emplace_back("mode-" + name + "-" + std::to_string(j + 1), svg_of(result, j));
-      html += figure(report.charts.back().second);
+      html += j < seen ? figure(report.charts.back().second) : "";
     }
-    return html + "</div>\n";
+    return html + "</div>\n" + named_pictures("mode-" + name + "-", seen + 1, n);
   };
-  const Scenery light    = for_pictures(result.scenery, mode_triangles);
-  const auto    of_frame = [&](const Result &all, std::size_t j) { return frame_mode_svg(all, light, j); };
-  std::string   html;
+  std::string html;
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
             energy_shares_table(result) + coupled_mode_pictures(result, report.charts) +
@@ -278,7 +286,7 @@ std::string modes_section(const Result &result, Report &report)
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
     html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
-            pictures(result.frame_modes, "frame", of_frame, !result.scenery.has_skin());
+            pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
   return section("modes", "Natural frequencies and modes", html);
 }
 
