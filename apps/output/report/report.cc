@@ -35,7 +35,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9, most_skins = 6, most_accuracy_rows = 40;
+constexpr std::size_t most_mode_pictures = 9, most_skins = 3, most_accuracy_rows = 40;
 constexpr double      seen_motion = 0.02; ///< of the machine's size
 
 /// A table of two columns for facts; those without a value are left out.
