@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/pictures/skin.h"
+#include "apps/output/pictures/scenery_skin.h"
 #include "apps/output/values/scenery.h"
 #include "fem/values/number_text.h"
 
@@ -11,12 +11,6 @@
 
 namespace gestell::apps
 {
-
-/// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
-Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
-
-/// The scenery with a skin of so few triangles that a picture stays small, with 9000 below 150 kB.
-Scenery for_pictures(const Scenery &scenery, std::size_t triangles = 9000);
 
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
 /// undeformed edges.  Seen in parallel projection from front right and above.
