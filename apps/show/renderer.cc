@@ -1,5 +1,7 @@
 #include "apps/show/renderer.h"
 
+#include "apps/output/values/body_colours.h"
+
 #include <vtkActor.h>
 #include <vtkActor2DCollection.h>
 #include <vtkAxesActor.h>
@@ -37,9 +39,6 @@ namespace
 
 constexpr const char *displacement = "displacement [m]";
 
-const double body_colours[8][3] = {{0., .45, .70}, {.84, .37, 0.},  {0., .62, .45},  {.69, .31, .56},
-                                   {.78, .59, 0.}, {.27, .63, .84}, {.47, .35, .27}, {.43, .45, .49}};
-
 /// Dark blue to yellow, as in the report.
 vtkSmartPointer<vtkLookupTable> displacement_colours(double most)
 {
@@ -66,7 +65,10 @@ vtkSmartPointer<vtkLookupTable> bodies_table(int n)
   vtkSmartPointer<vtkLookupTable> table = vtkSmartPointer<vtkLookupTable>::New();
   table->SetNumberOfTableValues(n);
   for (int i = 0; i < n; ++i)
-    table->SetTableValue(i, body_colours[i % 8][0], body_colours[i % 8][1], body_colours[i % 8][2]);
+  {
+    const auto &c = body_colour(static_cast<std::size_t>(i));
+    table->SetTableValue(i, c[0] / 255., c[1] / 255., c[2] / 255.);
+  }
   table->SetTableRange(1., std::max(n, 2));
   return table;
 }
@@ -228,7 +230,8 @@ void Renderer::add_names(vtkPolyData *part)
     name->SetInput(names->GetValue(i).c_str());
     name->GetTextProperty()->SetFontSize(17);
     name->GetTextProperty()->BoldOn();
-    name->GetTextProperty()->SetColor(body_colours[i % 8][0], body_colours[i % 8][1], body_colours[i % 8][2]);
+    const auto &c = body_colour(static_cast<std::size_t>(i));
+    name->GetTextProperty()->SetColor(c[0] / 255., c[1] / 255., c[2] / 255.);
     name->SetPosition(.8 * window_->GetSize()[0], window_->GetSize()[1] - 64. - 22. * static_cast<double>(i));
     scene_->AddActor2D(name);
   }

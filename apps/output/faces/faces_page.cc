@@ -2,11 +2,11 @@
 
 #include "apps/output/faces/face_pictures.h"
 #include "apps/output/faces/faces_script.h"
+#include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
+#include "apps/output/text/json.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,28 +17,9 @@ namespace gestell::apps
 namespace
 {
 
-using Json = nlohmann::ordered_json;
 using coupling::MeshReport;
 using coupling::SurfaceReport;
 using Triple = std::array<double, 3>;
-
-template <typename Number>
-std::string base64(const std::vector<Number> &numbers)
-{
-  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto       *bytes     = reinterpret_cast<const unsigned char *>(numbers.data());
-  const std::size_t n         = numbers.size() * sizeof(Number);
-  std::string       text;
-  for (std::size_t i = 0; i < n; i += 3)
-  {
-    const std::uint32_t three = static_cast<std::uint32_t>(bytes[i] << 16) |
-                                static_cast<std::uint32_t>(i + 1 < n ? bytes[i + 1] << 8 : 0) |
-                                static_cast<std::uint32_t>(i + 2 < n ? bytes[i + 2] : 0);
-    for (int k = 0; k < 4; ++k)
-      text += i + static_cast<std::size_t>(k) > n ? '=' : letters[three >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 /// "(0, -520, 2560) mm"; OpenCASCADE widens boxes by 1e-7 m, which is not shown.
 std::string place(const Triple &x, const coupling::LengthUnit &unit)
@@ -168,16 +149,6 @@ Json frame_json(const MeshReport &report)
           {"list", list_of(report)}};
 }
 
-/// "</script>" within a name ends no script.
-std::string safe_json(const Json &json)
-{
-  std::string       text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const std::string end  = "</";
-  for (std::size_t at = text.find(end); at != std::string::npos; at = text.find(end, at + 3))
-    text.insert(at + 1, "\\");
-  return text;
-}
-
 std::string faces_table(const MeshReport &report)
 {
   const std::string unit = report.unit.name;
@@ -230,7 +201,8 @@ std::string faces_page(const MeshReport &report, const std::string &file, const 
               "cylinder, a name, a number\"></label></p>" +
                   faces_table(report)) +
       "<noscript><h2>Entries for the scene</h2><pre>" + escape_xml(entries) +
-      "</pre></noscript>\n<script>const frame = " + safe_json(frame_json(report)) + ";\n" + faces_script +
+      "</pre></noscript>\n<script>const frame = " +
+      inside_script(frame_json(report).dump(-1, ' ', false, Json::error_handler_t::replace)) + ";\n" + faces_script +
       "</script>\n";
   return page_html({"Faces of " + file, lead_of(report), body,
                     "Made by gestell " + escape_xml(version) + ". The same faces open in ParaView: faces.vtp.",

@@ -40,7 +40,7 @@
     }
 
     read_colours() {
-      const style = getComputedStyle(this.figure.querySelector("svg"));
+      const style = getComputedStyle(this.figure.querySelector("svg") || document.querySelector("figure.live svg"));
       const colour = (name) => style.getPropertyValue("--" + name).trim();
       return {
         series: this.data.curves.map((curve) => colour("s" + (curve.colour % 7))),

@@ -4,6 +4,7 @@
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/json.h"
+#include "apps/output/text/svg.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,31 @@ Json number(double x)
   return std::isnan(x) ? Json() : Json(x);
 }
 
+std::string data_element(const Chart &chart, ChartLink link)
+{
+  Json data = {{"title", chart.title},
+               {"note", chart.note},
+               {"link", link == ChartLink::time     ? "time"
+                        : link == ChartLink::cursor ? "cursor"
+                                                    : ""},
+               {"height", chart.height},
+               {"x_label", chart.x.label},
+               {"y_label", chart.y.label},
+               {"x_window", {number(chart.x.begin), number(chart.x.end)}},
+               {"y_window", {number(chart.y.begin), number(chart.y.end)}},
+               {"logarithmic", {chart.x.scale == Scale::logarithmic, chart.y.scale == Scale::logarithmic}},
+               {"curves", Json::array()},
+               {"marks", Json::array()},
+               {"levels", Json::array()}};
+  add_curves(data, chart);
+  for (const Mark &mark : chart.marks)
+    data["marks"].push_back({mark.x, mark.text, mark.number, mark.colour});
+  for (const Level &level : chart.levels)
+    data["levels"].push_back({level.y, level.name});
+  const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return "<script type=\"application/json\">" + inside_script(json) + "</script>";
+}
+
 } // namespace
 
 std::vector<std::size_t> telling_rows(const std::vector<double> &x, const std::vector<Curve> &curves,
@@ -155,28 +181,16 @@ std::string live_figure(const Chart &chart, const std::string &svg, ChartLink li
 {
   if (!can_live(chart))
     return figure(svg, caption);
-  Json data = {{"title", chart.title},
-               {"note", chart.note},
-               {"link", link == ChartLink::time     ? "time"
-                        : link == ChartLink::cursor ? "cursor"
-                                                    : ""},
-               {"height", chart.height},
-               {"x_label", chart.x.label},
-               {"y_label", chart.y.label},
-               {"x_window", {number(chart.x.begin), number(chart.x.end)}},
-               {"y_window", {number(chart.y.begin), number(chart.y.end)}},
-               {"logarithmic", {chart.x.scale == Scale::logarithmic, chart.y.scale == Scale::logarithmic}},
-               {"curves", Json::array()},
-               {"marks", Json::array()},
-               {"levels", Json::array()}};
-  add_curves(data, chart);
-  for (const Mark &mark : chart.marks)
-    data["marks"].push_back({mark.x, mark.text, mark.number, mark.colour});
-  for (const Level &level : chart.levels)
-    data["levels"].push_back({level.y, level.name});
-  const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return "<figure class=\"live\">" + svg + "<script type=\"application/json\">" + inside_script(json) + "</script>" +
+  return "<figure class=\"live\">" + svg + data_element(chart, link) +
          (caption.empty() ? "" : "<figcaption>" + caption + "</figcaption>") + "</figure>\n";
+}
+
+std::string live_figure_of_file(const Chart &chart, const std::string &svg, const std::string &name, ChartLink link)
+{
+  if (!can_live(chart))
+    return figure(svg);
+  return "<figure class=\"live\"><p class=\"soft still\">" + escape_xml(chart.title) + ": charts/" + escape_xml(name) +
+         ".svg</p>" + data_element(chart, link) + "</figure>\n";
 }
 
 } // namespace gestell::apps

@@ -30,4 +30,9 @@ std::vector<std::size_t> telling_rows(const std::vector<double> &x, const std::v
 std::string live_figure(const Chart &chart, const std::string &svg, ChartLink link = ChartLink::none,
                         const std::string &caption = "");
 
+/// The same of a page with many: on paper and without script a line names the file `name`.svg in charts/.  A figure
+/// with its picture must stand on the page, too: the colours are read from there.
+std::string live_figure_of_file(const Chart &chart, const std::string &svg, const std::string &name,
+                                ChartLink link = ChartLink::none);
+
 } // namespace gestell::apps

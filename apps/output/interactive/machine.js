@@ -1,7 +1,6 @@
 "use strict";
 // The machine in three.js: it turns, moves as computed, in its modes and under stress.  Elements of class "machine" hold the data.
 (function () {
-  const body_colours = ["#0072b2", "#d55e00", "#009e73", "#b0508f", "#c89600", "#46a0d7", "#785a46", "#6e737d"];
   const frame_colour = [0.72, 0.75, 0.79], loop_seconds = 8, mode_seconds = 2;
   const slow = 1 / 34, coarsest = 0.4; // seconds between pictures at which they get fewer pixels, and the fewest
 
@@ -140,7 +139,8 @@
       let k = 0;
       while (k + 2 < this.times.length && this.times[k + 1] <= t) ++k;
       if (this.times.length < 2) return [0, 0];
-      const share = Math.min(1, Math.max(0, (t - this.times[k]) / (this.times[k + 1] - this.times[k])));
+      const step = this.times[k + 1] - this.times[k]; // none where single precision tells no difference
+      const share = step > 0 ? Math.min(1, Math.max(0, (t - this.times[k]) / step)) : 1;
       return this.smooth ? [k, share] : [share < 0.5 ? k : k + 1, 0];
     }
   }
@@ -167,6 +167,7 @@
 
     colour_of(i) {
       if (this.data.has_frame && i === 0) return frame_colour;
+      const { body_colours } = this.data;
       return rgb(body_colours[(i - (this.data.has_frame ? 1 : 0)) % body_colours.length]);
     }
 

@@ -7,6 +7,7 @@
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/json.h"
+#include "apps/output/values/body_colours.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -73,17 +74,13 @@ double largest_of(const Displacements &all)
 }
 
 /// Whether the straight line between neighbouring instants tells what lies between.
-bool is_smooth(const std::vector<PartMotion> &motions, const SeenMachine &machine)
+bool is_smooth(const std::vector<PartMotion> &motions, const std::vector<double> &times, const SeenMachine &machine)
 {
   for (std::size_t i = 0; i < motions.size(); ++i)
   {
     const Shape &part = machine.parts()[i];
-    const double size = Skin{part.points, part.displacement, {}}.size();
-    for (Eigen::Index k = 1; k + 1 < motions[i].ideal.cols(); ++k)
-      if (const Eigen::VectorXd off =
-              motions[i].ideal.col(k) - 0.5 * (motions[i].ideal.col(k - 1) + motions[i].ideal.col(k + 1));
-          largest_displacement(off) > smooth_turn * size)
-        return false;
+    if (!is_straight(motions[i].ideal, times, smooth_turn * Skin{part.points, part.displacement, {}}.size()))
+      return false;
   }
   return true;
 }
@@ -91,29 +88,29 @@ bool is_smooth(const std::vector<PartMotion> &motions, const SeenMachine &machin
 /// An enlargement of two digits that people can read.
 double round_enlargement(double x)
 {
-  const double unit = std::pow(10., std::floor(std::log10(x)));
-  return x >= 1. ? std::max(1., std::round(x / unit) * unit) : 1.;
+  if (!(x >= 1.))
+    return 1.;
+  const double digit = std::floor(std::log10(x)) - 1.;
+  return digit >= 0. ? std::round(x / std::pow(10., digit)) * std::pow(10., digit) : std::round(10. * x) / 10.;
 }
 
-Json motion_json(const SeenMachine &machine, const coupling::RunResult &run)
+Json motion_json(const SeenMachine &machine, const Result &result)
 {
-  const std::size_t            every = (run.picture_states.size() + most_instants - 1) / most_instants;
-  std::vector<Eigen::VectorXd> states;
-  std::vector<float>           times;
-  for (std::size_t k = 0; k < run.picture_states.size(); k += every)
-  {
-    states.push_back(run.picture_states[k]);
-    times.push_back(static_cast<float>(run.picture_times[k]));
-  }
-  const std::vector<PartMotion> motions = machine.motion(states);
+  const SeenInstants            seen = seen_instants(result, most_instants);
+  const std::vector<float>      times(seen.times.begin(), seen.times.end());
+  const std::vector<PartMotion> motions = machine.motion(seen.states);
   double                        most    = 0.;
   for (const PartMotion &part : motions)
     most = std::max(most, largest_displacement(part.displacement));
   const double enlargement = most > 0. ? round_enlargement(motion_size * machine.size() / most) : 1.;
 
-  Json show = {
-      {"kind", "motion"}, {"name", "motion"},       {"times", base64(times)}, {"smooth", is_smooth(motions, machine)},
-      {"top", most},      {"enlarge", enlargement}, {"parts", Json::array()}};
+  Json show = {{"kind", "motion"},
+               {"name", "motion"},
+               {"times", base64(times)},
+               {"smooth", is_smooth(motions, seen.times, machine)},
+               {"top", most},
+               {"enlarge", enlargement},
+               {"parts", Json::array()}};
   for (const PartMotion &part : motions)
     show["parts"].push_back({{"ideal", field_json(part.ideal, exactness * machine.size())},
                              {"moved", field_json(part.displacement, exactness * machine.size() / enlargement)}});
@@ -175,7 +172,7 @@ Json shows_json(const SeenMachine &machine, const Result &result)
 {
   Json shows = Json::array();
   if (result.run && !result.run->picture_states.empty())
-    shows.push_back(motion_json(machine, *result.run));
+    shows.push_back(motion_json(machine, result));
   const double size = mode_size * machine.size();
   for (std::size_t j = 0; j < std::min(result.coupled_modes.size(), most_modes); ++j)
     shows.push_back(still_json("mode", mode_name("coupled", j, result.coupled_modes[j]),
@@ -197,14 +194,13 @@ std::string machine_view(const Result &result)
   const Json shows = shows_json(machine, result);
   if (shows.empty())
     return "";
-  std::vector<std::string> colours;
+  std::vector<std::string> colours, of_bodies;
   for (int i = 0; i < 32; ++i)
     colours.push_back(hex(scale_colour((i + 0.5) / 32.), 1.));
-  const Json        data = {{"size", machine.size()},
-                            {"has_frame", machine.has_frame()},
-                            {"colours", colours},
-                            {"parts", parts_json(machine)},
-                            {"shows", shows}};
+  for (const Colour &colour : body_colours)
+    of_bodies.push_back(hex(colour, 1.));
+  const Json        data = {{"size", machine.size()},    {"has_frame", machine.has_frame()}, {"colours", colours},
+                            {"body_colours", of_bodies}, {"parts", parts_json(machine)},     {"shows", shows}};
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) +
          "</script></div>\n<noscript><p class=\"soft\">With JavaScript the machine can be turned and seen in motion "

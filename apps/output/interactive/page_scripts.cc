@@ -60,11 +60,4 @@ std::string page_scripts(bool charts, bool machine)
 
 #undef GESTELL_TEXT
 
-std::string inside_script(std::string json)
-{
-  for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
-    json.replace(at, 1, "\\u003c");
-  return json;
-}
-
 } // namespace gestell::apps

@@ -19,7 +19,4 @@ std::vector<PageLibrary> page_libraries();
 /// licence, then our own.  Empty without either, or if this build has no libraries.
 std::string page_scripts(bool charts, bool machine);
 
-/// Text that may stand within a script element as JSON.
-std::string inside_script(std::string json);
-
 } // namespace gestell::apps

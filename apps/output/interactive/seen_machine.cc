@@ -1,5 +1,7 @@
 #include "apps/output/interactive/seen_machine.h"
 
+#include <algorithm>
+
 namespace gestell::apps
 {
 namespace
@@ -43,9 +45,44 @@ Eigen::VectorXd column(const std::vector<Eigen::Vector3d> &points)
   return all;
 }
 
+/// Where linearised modes hold; without such, the first picture of the run.
+Eigen::VectorXd rest_of(const Result &result)
+{
+  if (result.modes_at.size() > 0 || !result.run || result.run->picture_states.empty())
+    return result.modes_at;
+  return result.run->picture_states.front();
+}
+
+void add_instant(SeenInstants &seen, double t, const Eigen::VectorXd &q)
+{
+  const auto at = std::lower_bound(seen.times.begin(), seen.times.end(), t);
+  if (at != seen.times.end() && *at == t)
+    return;
+  seen.states.insert(seen.states.begin() + (at - seen.times.begin()), q);
+  seen.times.insert(at, t);
+}
+
 } // namespace
 
-SeenMachine::SeenMachine(const Result &result) : scenery_(result.scenery), size_(result.scenery.size())
+SeenInstants seen_instants(const Result &result, std::size_t most)
+{
+  const auto       &times  = result.run->picture_times;
+  const auto       &states = result.run->picture_states;
+  const std::size_t every  = (states.size() + most - 1) / most;
+  SeenInstants      seen;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    if (k % every == 0 || k + 1 == states.size())
+    {
+      seen.times.push_back(times[k]);
+      seen.states.push_back(states[k]);
+    }
+  if (const auto &peak = result.peak; peak && !states.empty() && peak->q.size() == states.front().size())
+    add_instant(seen, peak->t, peak->q);
+  return seen;
+}
+
+SeenMachine::SeenMachine(const Result &result)
+    : scenery_(result.scenery), rest_(rest_of(result)), size_(result.scenery.size())
 {
   for (DrawnPart &part : scenery_.parts)
     lighten(part);
@@ -62,9 +99,7 @@ SeenMachine::SeenMachine(const Result &result) : scenery_(result.scenery), size_
     if (scenery_.n_frame <= most_columns)
       displacements_ = displacements_of_coordinates();
   }
-  if (result.run && !result.run->picture_states.empty())
-    start_ = result.run->picture_states.front();
-  for (const Shape &body : bodies(start_))
+  for (const Shape &body : bodies(rest_))
     parts_.push_back(body);
 }
 
@@ -113,9 +148,9 @@ std::vector<PartMotion> SeenMachine::motion(const std::vector<Eigen::VectorXd> &
       motions[0].displacement.col(k) = frame_displacement(q);
     const std::vector<Shape> at = bodies(q);
     for (std::size_t i = 0; i < at.size() && first_body + i < parts_.size(); ++i)
-      if (const Shape &start = parts_[first_body + i]; start.points.size() == at[i].points.size())
+      if (const Shape &rest = parts_[first_body + i]; rest.points.size() == at[i].points.size())
       {
-        motions[first_body + i].ideal.col(k)        = column(at[i].points) - column(start.points);
+        motions[first_body + i].ideal.col(k)        = column(at[i].points) - column(rest.points);
         motions[first_body + i].displacement.col(k) = column(at[i].displacement);
       }
   }
@@ -143,9 +178,9 @@ std::vector<Eigen::VectorXd> SeenMachine::machine_mode(const Eigen::VectorXd &sh
   constexpr double             small         = 1e-6; // of a turn, or a metre: shapes turn on circles
   const double                 largest       = shape.cwiseAbs().maxCoeff();
   std::vector<Eigen::VectorXd> displacements = frame_mode(shape);
-  if (start_.size() != shape.size() || !(largest > 0.))
+  if (rest_.size() != shape.size() || !(largest > 0.))
     return displacements;
-  const std::vector<PartMotion> apart = motion({start_ - small / largest * shape, start_ + small / largest * shape});
+  const std::vector<PartMotion> apart = motion({rest_ - small / largest * shape, rest_ + small / largest * shape});
   for (std::size_t i = has_frame() ? 1 : 0; i < parts_.size(); ++i)
     displacements[i] =
         largest / (2. * small) *

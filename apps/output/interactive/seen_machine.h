@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace gestell::apps
@@ -13,9 +14,19 @@ namespace gestell::apps
 /// Where the points of a part are at some instants: what ideal kinematics gives, and the displacement beside it.
 struct PartMotion
 {
-  Eigen::MatrixXd ideal;        ///< [3 points x instants] m, from the first instant on
+  Eigen::MatrixXd ideal;        ///< [3 points x instants] m, from where the part rests
   Eigen::MatrixXd displacement; ///< [3 points x instants] m
 };
+
+/// Instants that a view shows of a run.
+struct SeenInstants
+{
+  std::vector<double>          times; ///< [s] ascending
+  std::vector<Eigen::VectorXd> states;
+};
+
+/// Every k-th picture of the run, so that they are at most `most`; beside them the last one and the main peak stay.
+SeenInstants seen_instants(const Result &result, std::size_t most);
 
 /// Frame and bodies as the view draws them, on few triangles.
 class SeenMachine
@@ -23,7 +34,7 @@ class SeenMachine
 public:
   explicit SeenMachine(const Result &result);
 
-  /// The frame, if it has a skin, then the bodies, as they stand at the start of the run.
+  /// The frame, if it has a skin, then the bodies, as they rest: at Result::modes_at, without it at the first picture.
   const std::vector<Shape> &parts() const { return parts_; }
   bool                      has_frame() const { return !chosen_.empty(); }
   /// Points of the whole skin that the frame's are.
@@ -33,7 +44,7 @@ public:
   /// One for each part.
   std::vector<PartMotion>      motion(const std::vector<Eigen::VectorXd> &states) const;
   std::vector<Eigen::VectorXd> at_rest() const; ///< zeros [3 points] for each part
-  /// Displacement [3 points] of each part in a mode of the frame, or of the machine about the start.
+  /// Displacement [3 points] of each part in a mode of the frame, or of the machine about its rest.
   std::vector<Eigen::VectorXd> frame_mode(const Eigen::VectorXd &shape) const;
   std::vector<Eigen::VectorXd> machine_mode(const Eigen::VectorXd &shape) const;
 
@@ -44,7 +55,7 @@ private:
   std::vector<Shape> bodies(const Eigen::VectorXd &q) const;
 
   Scenery            scenery_;
-  Eigen::VectorXd    start_; ///< q
+  Eigen::VectorXd    rest_; ///< q
   std::vector<int>   chosen_;
   Eigen::MatrixXd    displacements_; ///< empty: of a frame with many coordinates
   std::vector<Shape> parts_;

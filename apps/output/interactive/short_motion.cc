@@ -48,4 +48,17 @@ ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance)
   return result;
 }
 
+bool is_straight(const Eigen::MatrixXd &motion, const std::vector<double> &times, double tolerance)
+{
+  for (Eigen::Index k = 1; k + 1 < motion.cols() && motion.rows() > 0; ++k)
+  {
+    const double *const   t     = times.data() + k;
+    const double          share = t[1] > t[-1] ? (t[0] - t[-1]) / (t[1] - t[-1]) : 0.5;
+    const Eigen::VectorXd off   = motion.col(k) - (1. - share) * motion.col(k - 1) - share * motion.col(k + 1);
+    if (Eigen::Map<const Eigen::Matrix3Xd>(off.data(), 3, off.size() / 3).colwise().norm().maxCoeff() > tolerance)
+      return false;
+  }
+  return true;
+}
+
 } // namespace gestell::apps

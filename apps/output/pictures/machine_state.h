@@ -13,9 +13,6 @@ namespace gestell::apps
 
 constexpr double shown_size = 0.05; ///< of a picture: largest displacement as part of what is drawn
 
-/// The skin of a scenery's frame, displaced for the frame's coordinates p [n_frame].
-Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p);
-
 /// A machine in one state: its frame's skin and its bodies, displacements not yet enlarged.
 struct MachineState
 {

@@ -3,6 +3,7 @@
 #include "apps/output/pictures/picture_margin.h"
 #include "apps/output/pictures/projection.h"
 #include "apps/output/text/svg.h"
+#include "apps/output/values/body_colours.h"
 
 #include <Eigen/Geometry>
 
@@ -77,15 +78,6 @@ const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke
                                "stroke-opacity:.55;stroke-linecap:round}.gst .later{fill:none;stroke:var(--ink);"
                                "stroke-width:.8;opacity:.5}</style>\n";
 
-const std::array<Colour, 8> body_colours = {{{0, 114, 178},
-                                             {213, 94, 0},
-                                             {0, 158, 115},
-                                             {176, 80, 143},
-                                             {200, 150, 0},
-                                             {70, 160, 215},
-                                             {120, 90, 70},
-                                             {110, 115, 125}}};
-
 /// Facets of the bodies, moved; small, as bodies pass through each other and only small triangles can be put in the
 /// order of their depth.
 /// @param piece  longest edge of a triangle [units]
@@ -96,8 +88,7 @@ std::vector<Facet> body_facets(const std::vector<Shape> &shapes, double enlargem
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     const Skin small = refined({shapes[i].points, shapes[i].displacement, shapes[i].triangles}, piece / view.scale());
-    const auto own =
-        facets_of(small, enlargement, view, [&](const auto &) { return body_colours[i % body_colours.size()]; });
+    const auto own   = facets_of(small, enlargement, view, [&](const auto &) { return body_colour(i); });
     facets.insert(facets.end(), own.begin(), own.end());
   }
   return DepthRaster(facets, view).visible(facets);
@@ -109,7 +100,7 @@ std::string body_names(const std::vector<Shape> &shapes)
   for (std::size_t i = 0; i < shapes.size(); ++i)
   {
     const double y = 26. + 18. * static_cast<double>(i);
-    names += "<g class=\"faces\"><path color=\"" + hex(body_colours[i % body_colours.size()], 1.) + "\" d=\"M0 " +
+    names += "<g class=\"faces\"><path color=\"" + hex(body_colour(i), 1.) + "\" d=\"M0 " +
              std::to_string(static_cast<int>(y)) + "h12v-9h-12z\"/></g>" + svg_text(18., y, shapes[i].name, "label");
   }
   return names;
@@ -171,32 +162,6 @@ std::string colour_bar(double top, const DisplayUnit &unit, double height)
 }
 
 } // namespace
-
-Scenery for_pictures(const Scenery &scenery, std::size_t triangles)
-{
-  if (scenery.triangles.size() <= triangles)
-    return scenery;
-  const Skin skin   = skin_of(scenery, Eigen::VectorXd::Zero(scenery.n_frame));
-  double     edge   = skin.size() / 100.;
-  CoarseMesh coarse = coarse_mesh(skin, edge);
-  while (coarse.triangles.size() > triangles)
-    coarse = coarse_mesh(skin, edge *= 1.4);
-
-  Scenery light   = scenery;
-  light.triangles = coarse.triangles;
-  light.points.clear();
-  for (const int i : coarse.points)
-    light.points.push_back(scenery.points[i]);
-  light.displacement = [all = scenery.displacement, chosen = coarse.points](const Eigen::VectorXd &p) -> Eigen::VectorXd
-  {
-    const Eigen::VectorXd u = all(p);
-    Eigen::VectorXd       few(3 * static_cast<long>(chosen.size()));
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      few.segment<3>(3 * static_cast<long>(i)) = u.segment<3>(3 * chosen[i]);
-    return few;
-  };
-  return light;
-}
 
 std::string mode_picture_svg(const Skin &skin, const std::string &title, const std::string &subtitle)
 {

@@ -2,7 +2,7 @@
 
 #include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/pictures/skin.h"
+#include "apps/output/pictures/scenery_skin.h"
 #include "apps/output/values/scenery.h"
 #include "fem/values/number_text.h"
 
@@ -12,9 +12,6 @@
 
 namespace gestell::apps
 {
-
-/// The scenery with a skin of so few triangles that a picture stays small, with 9000 below 150 kB.
-Scenery for_pictures(const Scenery &scenery, std::size_t triangles = 9000);
 
 /// A picture of a mode: the skin deformed to a twentieth of its size, coloured by displacement, over its faint
 /// undeformed edges.  Seen in parallel projection from front right and above.

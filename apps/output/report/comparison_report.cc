@@ -18,6 +18,8 @@ namespace gestell::apps
 namespace
 {
 
+constexpr std::size_t most_copies = 4; ///< of curves that are shown without script, too
+
 std::string deviation(double ratio)
 {
   return std::isnan(ratio) ? "" : short_text(100. * (ratio - 1.), 2) + " %";
@@ -86,10 +88,13 @@ std::string compared_run_section(const Result &result, Pictures &pictures)
                      "<strong>" +
                      escape_xml(other.scene) + "</strong>, and its signals over the time.</p>\n" +
                      extremes_html(*result.run, other);
+  const std::size_t before = pictures.size();
   for (const SignalChart &chart : overlay_charts(result.scene, *result.run, other))
   {
     pictures.emplace_back(chart.name, chart.svg);
-    html += live_figure(chart.chart, chart.svg, chart.is_part ? ChartLink::cursor : ChartLink::time);
+    const ChartLink link = chart.is_part ? ChartLink::cursor : ChartLink::time;
+    html += pictures.size() - before <= most_copies ? live_figure(chart.chart, chart.svg, link)
+                                                    : live_figure_of_file(chart.chart, chart.svg, chart.name, link);
   }
   return section("compared-run", "The run beside that of " + escape_xml(other.scene), html);
 }

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t few_triangles = 3500, most_pictures = 6;
+constexpr std::size_t most_pictures = 6;
 
 } // namespace
 
@@ -44,11 +44,10 @@ std::string coupled_mode_pictures(const Result &result, Pictures &pictures)
 {
   if (result.modes_at.size() == 0)
     return "";
-  const Scenery light = for_pictures(result.scenery, few_triangles);
-  std::string   html;
+  std::string html;
   for (std::size_t j = 0; j < std::min(result.coupled_modes.size(), most_pictures); ++j)
   {
-    const std::string svg = coupled_mode_picture(result, light, j);
+    const std::string svg = coupled_mode_picture(result, result.scenery, j);
     if (svg.empty())
       return "";
     pictures.emplace_back("mode-machine-" + std::to_string(j + 1), svg);

@@ -35,7 +35,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9, most_accuracy_rows = 40;
+constexpr std::size_t most_mode_pictures = 9, most_skins = 3, most_accuracy_rows = 40;
 constexpr double      seen_motion = 0.02; ///< of the machine's size
 
 /// A table of two columns for facts; those without a value are left out.
@@ -72,29 +72,31 @@ bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after
   return way > seen_motion * machine_size;
 }
 
-/// Picture of the machine at the start of the run; empty if there is nothing to be seen.
+/// Picture of the machine at the start of the run, without one where its modes are taken; empty if there is nothing to
+/// be seen.
 std::string machine_figure(const Result &result, Report &report)
 {
   const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
+  const bool            runs      = result.run && !result.run->picture_states.empty();
+  const Eigen::VectorXd first     = runs ? result.run->picture_states.front() : result.modes_at;
   std::vector<Shape>    shapes, later;
-  std::string           caption = "The frame.";
-  if (result.run && !result.run->picture_states.empty())
-    shapes = mechanism_shapes(result.scenery, result.run->picture_states.front());
-  if (!shapes.empty())
-  {
-    caption = (result.scenery.has_skin() ? "The mechanism, seen through the frame, at t = " : "The mechanism at t = ") +
-              short_text(result.run->picture_times.front()) + " s.";
+  if (first.size() > 0)
+    shapes = mechanism_shapes(result.scenery, first);
+  if (runs)
     later = mechanism_shapes(result.scenery, result.run->picture_states.back());
-    if (!far_apart(shapes, later, result.scenery.size()))
-      later.clear();
-    else
-      caption.insert(caption.size() - 1, ", in outline at t = " + short_text(result.run->picture_times.back()) + " s");
-  }
+  if (!runs || !far_apart(shapes, later, result.scenery.size()))
+    later.clear();
+  std::string caption = "The frame";
+  if (!shapes.empty())
+    caption = std::string("The mechanism") + (result.scenery.has_skin() ? ", seen through the frame," : "") +
+              (runs ? " at t = " + short_text(result.run->picture_times.front()) + " s" : " where its modes are taken");
+  if (!later.empty())
+    caption += ", in outline at t = " + short_text(result.run->picture_times.back()) + " s";
   const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene, later);
   if (svg.empty())
     return "";
   report.charts.emplace_back("machine", svg);
-  return figure(svg, caption);
+  return figure(svg, caption + ".");
 }
 
 std::string peaks_table(const Result &result)
@@ -253,17 +255,27 @@ std::string pole_table(const std::vector<coupling::Pole> &poles)
   return "<h3>With drives and controllers, at the speeds of the start</h3>" + table.html();
 }
 
+/// A line that names the pictures of modes from number `first` on, of n; empty if there are none.
+std::string named_pictures(const std::string &stem, std::size_t first, std::size_t n)
+{
+  std::string names;
+  for (std::size_t j = first; j <= n; ++j)
+    names += (names.empty() ? "" : ", ") + stem + std::to_string(j) + ".svg";
+  return names.empty() ? "" : "<p class=\"soft\">Pictures of further modes, in charts/: " + names + ".</p>\n";
+}
+
 std::string modes_section(const Result &result, Report &report)
 {
   const auto pictures = [&](const std::vector<coupling::Mode> &modes, const std::string &name, auto svg_of, bool wide)
   {
-    std::string html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
-    for (std::size_t j = 0; j < std::min(modes.size(), most_mode_pictures); ++j)
+    std::string       html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
+    const std::size_t n = std::min(modes.size(), most_mode_pictures), seen = wide ? n : std::min(n, most_skins);
+    for (std::size_t j = 0; j < n; ++j)
     {
       report.charts.emplace_back("mode-" + name + "-" + std::to_string(j + 1), svg_of(result, j));
-      html += figure(report.charts.back().second);
+      html += j < seen ? figure(report.charts.back().second) : "";
     }
-    return html + "</div>\n";
+    return html + "</div>\n" + named_pictures("mode-" + name + "-", seen + 1, n);
   };
   std::string html;
   if (!result.coupled_modes.empty())

@@ -43,6 +43,11 @@ std::string base64(const std::vector<std::uint8_t> &numbers)
   return encoded(numbers);
 }
 
+std::string base64(const std::vector<std::uint16_t> &numbers)
+{
+  return encoded(numbers);
+}
+
 std::string base64(const std::vector<std::uint32_t> &numbers)
 {
   return encoded(numbers);

@@ -14,6 +14,7 @@ std::string base64(const std::string &bytes);
 std::string base64(const std::vector<float> &numbers);
 std::string base64(const std::vector<std::int16_t> &numbers);
 std::string base64(const std::vector<std::uint8_t> &numbers);
+std::string base64(const std::vector<std::uint16_t> &numbers);
 std::string base64(const std::vector<std::uint32_t> &numbers);
 
 } // namespace gestell::apps

@@ -74,6 +74,13 @@ std::string HtmlTable::in_box(const std::string &kind) const
          "</tr></thead>\n<tbody>" + rows_ + "</tbody></table></div>\n";
 }
 
+std::string inside_script(std::string json)
+{
+  for (std::size_t at = json.find('<'); at != std::string::npos; at = json.find('<', at))
+    json.replace(at, 1, "\\u003c");
+  return json;
+}
+
 HtmlTable::Cell peak(HtmlTable::Cell cell, bool condition)
 {
   cell.stands_out = condition;

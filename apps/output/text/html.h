@@ -23,6 +23,9 @@ struct Page
 };
 std::string page_html(const Page &page);
 
+/// JSON as it may stand within a script element, whatever names it holds.
+std::string inside_script(std::string json);
+
 /// A table; its cells are escaped.
 class HtmlTable
 {

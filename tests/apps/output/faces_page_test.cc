@@ -60,5 +60,16 @@ TEST(FacesPage, IsNotBrokenByANameThatEndsAScript)
   EXPECT_EQ(ends, 1u);
 }
 
+/// "<!--<script>" would let the page's end tag end nothing.
+TEST(FacesPage, IsNotBrokenByANameThatOpensAComment)
+{
+  coupling::MeshReport report = chequered(2, 1);
+  report.surfaces[0].name     = "<!--<script>";
+  const std::string page      = faces_page(report, "plate.step", "0");
+  const std::size_t data      = page.find("const frame = ");
+  ASSERT_NE(data, std::string::npos);
+  EXPECT_EQ(page.substr(data, page.find('\n', data) - data).find('<'), std::string::npos);
+}
+
 } // namespace
 } // namespace gestell::apps

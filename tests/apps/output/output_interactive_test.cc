@@ -1,14 +1,18 @@
 #include "apps/output/interactive/live_chart.h"
 #include "apps/output/interactive/page_scripts.h"
+#include "apps/output/interactive/seen_machine.h"
 #include "apps/output/interactive/short_motion.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/base64.h"
+#include "apps/output/text/html.h"
+#include "tests/support/output_example.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+using namespace gestell;
 using namespace gestell::apps;
 
 namespace
@@ -109,4 +113,88 @@ TEST(Noise, IsBelowABillionthOfTheLargestOfItsUnit)
   EXPECT_EQ(noise.without("N", 3e-4), 3e-4);
   EXPECT_EQ(noise.without("m", 1e-10), 1e-10);
   EXPECT_EQ(noise.without("rad", 1e-30), 1e-30);
+}
+
+/// The stroke as it was asked for ends in the last picture, and what it is looked at for is its peak.
+TEST(SeenInstants, HoldTheEndAndTheMainPeak)
+{
+  Result               result = example_result();
+  coupling::RunResult &run    = *result.run;
+  run.picture_times.clear(), run.picture_states.clear();
+  for (int i = 0; i < 1000; ++i)
+  {
+    run.picture_times.push_back(1e-3 * i);
+    run.picture_states.push_back(Eigen::Vector4d::Constant(i));
+  }
+  result.peak             = PeakState{"F_P", "N", 1e6, 0.2341, Eigen::Vector4d::Constant(234.1)};
+  const SeenInstants seen = seen_instants(result, 200);
+  ASSERT_EQ(seen.times.size(), 202u); // each fifth, the last, the peak
+  EXPECT_EQ(seen.times.back(), run.picture_times.back());
+  EXPECT_EQ(seen.states.back()[0], 999.);
+  const auto peak = std::find(seen.times.begin(), seen.times.end(), 0.2341);
+  ASSERT_NE(peak, seen.times.end());
+  EXPECT_EQ(seen.states[std::size_t(peak - seen.times.begin())][0], 234.1);
+  EXPECT_TRUE(std::is_sorted(seen.times.begin(), seen.times.end()));
+  result.peak->t = run.picture_times[235]; // a picture that stays anyway
+  EXPECT_EQ(seen_instants(result, 200).times.size(), 201u);
+}
+
+/// Constant speed is straight at whatever instants; a circle of 90 degrees a step is not.
+TEST(ShortMotion, IsStraightByTheTimesOfItsInstants)
+{
+  const std::vector<double> times = {0., 1., 1.01, 1.02, 2., 3.};
+  Eigen::MatrixXd           line(3, 6), circle(3, 6);
+  for (Eigen::Index k = 0; k < 6; ++k)
+  {
+    const double t = times[std::size_t(k)], angle = M_PI / 2. * t;
+    line.col(k)   = Eigen::Vector3d(5. * t, -t, 2.);
+    circle.col(k) = Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.);
+  }
+  EXPECT_TRUE(is_straight(line, times, 1e-12));
+  EXPECT_FALSE(is_straight(circle, times, 0.1));
+  EXPECT_TRUE(is_straight(Eigen::MatrixXd(3, 0), {}, 0.));
+}
+
+/// Modes need no run: the crank is there, stands as at their configuration, and the mode turns it: u = phi e x (x - c).
+TEST(SeenMachine, ShowsCoupledModesAboutTheirConfiguration)
+{
+  Result result   = example_result();
+  result.modes_at = Eigen::Vector4d(0., 0., 2.6, 0.13);
+  for (const bool with_run : {true, false})
+  {
+    if (!with_run)
+      result.run.reset();
+    const SeenMachine machine(result);
+    const auto        bodies = mechanism_shapes(result.scenery, result.modes_at);
+    ASSERT_EQ(machine.parts().size(), 1 + bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      EXPECT_EQ(machine.parts()[1 + i].points, bodies[i].points) << bodies[i].name;
+
+    const Shape    &crank = machine.parts()[1];
+    const auto      mode  = machine.machine_mode(Eigen::Vector4d(0., 0., 0.06, 0.));
+    Eigen::Vector3d centre(0.5, 0.5, 2.);
+    for (std::size_t i = 0; i < crank.points.size(); ++i)
+      EXPECT_LT(
+          (mode[1].segment<3>(3 * long(i)) - 0.06 * Eigen::Vector3d::UnitY().cross(crank.points[i] - centre)).norm(),
+          1e-8); // by differences of 1e-6
+  }
+}
+
+/// From where the parts rest the motion leads to where the pictures put them.
+TEST(SeenMachine, MovesFromItsRestToThePictures)
+{
+  Result result   = example_result();
+  result.modes_at = Eigen::Vector4d(0., 0., 2.6, 0.13);
+  const SeenMachine machine(result);
+  const auto        motion = machine.motion(result.run->picture_states);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const auto bodies = mechanism_shapes(result.scenery, result.run->picture_states[k]);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (std::size_t p = 0; p < bodies[i].points.size(); ++p)
+        EXPECT_LT((machine.parts()[1 + i].points[p] + motion[1 + i].ideal.col(long(k)).segment<3>(3 * long(p)) -
+                   bodies[i].points[p])
+                      .norm(),
+                  1e-12);
+  }
 }

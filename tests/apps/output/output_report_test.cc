@@ -151,3 +151,50 @@ TEST(Report, NamesTheLibrariesItCarriesAndKeepsTheirLicence)
   EXPECT_FALSE(page_libraries().empty()) << "install libjs-dygraphs and libjs-three";
   EXPECT_NE(html.find("The above copyright notice and this permission notice"), std::string::npos);
 }
+
+/// Of many compared signals a page keeps few pictures; a line names the file of each other one, and the file is there.
+TEST(Report, NamesTheFilesOfComparedSignalsBeyondTheFirst)
+{
+  Result result = example_result();
+  result.run->signals.clear();
+  for (std::size_t j = 1; j < result.run->columns.size(); ++j)
+    result.run->signals.push_back({result.run->columns[j], result.run->units[j], -1., 0., 1., 0., 0.});
+  result.compared_run       = ComparedRun{"other", *result.run};
+  const Report      report  = make_report(result);
+  const std::size_t begin   = report.html.find("<section id=\"compared-run\"");
+  const std::string section = report.html.substr(begin, report.html.find("</section>", begin) - begin);
+  std::size_t       copies = 0, named = 0;
+  for (const auto &[name, svg] : report.charts)
+    if (name.rfind("compared-", 0) == 0)
+    {
+      const bool is_named = section.find(": charts/" + name + ".svg</p>") != std::string::npos;
+      named += is_named ? 1 : 0;
+      copies += section.find(svg) != std::string::npos ? 1 : 0;
+      EXPECT_EQ(is_named, section.find(svg) == std::string::npos) << name;
+    }
+  EXPECT_EQ(copies, page_libraries().empty() ? copies : 4u);
+  EXPECT_GE(copies + named, 7u);
+}
+
+TEST(Report, OfModesAloneShowsTheMechanism)
+{
+  Result result = example_result();
+  result.run.reset();
+  result.modes_at        = Eigen::Vector4d(0., 0., 2.6, 0.13);
+  const std::string html = make_report(result).html;
+  EXPECT_NE(html.find("The mechanism, seen through the frame, where its modes are taken."), std::string::npos);
+  EXPECT_NE(html.find("\"name\":\"crank\""), std::string::npos); // a part of the view
+}
+
+/// Pictures of a frame's skin are large: three stand on the page, the others in their files, which a line names.
+TEST(Report, ShowsThreeFrameModesAndNamesTheFilesOfTheOthers)
+{
+  Result result = example_result();
+  result.frame_modes.resize(5, result.frame_modes.front());
+  const Report report = make_report(result);
+  EXPECT_NE(report.html.find("in charts/: mode-frame-4.svg, mode-frame-5.svg."), std::string::npos);
+  std::size_t n = 0;
+  for (const auto &[name, svg] : report.charts)
+    n += name.rfind("mode-frame-", 0) == 0 ? 1 : 0;
+  EXPECT_EQ(n, 5u);
+}

@@ -104,3 +104,23 @@ TEST(Page, ShowsModesAndStressesOfItsList)
   // The most stressed corner is the last one, in the last colour.
   EXPECT_EQ(page.value("gestell.machine.show.paints[7]"), 255);
 }
+
+/// The lines of charts without a picture have the colours of those with one, and the line that names their file is
+/// for paper.
+TEST(Page, DrawsComparedSignalsWithoutAPictureOfTheirOwn)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_compared");
+  Result              result = example_result(1000);
+  result.run->signals.clear();
+  for (std::size_t j = 1; j < result.run->columns.size(); ++j)
+    result.run->signals.push_back({result.run->columns[j], result.run->units[j], -1., 0., 1., 0., 0.});
+  result.compared_run = ComparedRun{"other", *result.run};
+  Browser page(written(folder, make_report(result)));
+  tests::seconds_to_the_machine(page);
+  EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
+  const std::string stills = "[...document.querySelectorAll('figure.live > .still')]";
+  EXPECT_GE(page.value(stills + ".length").get<int>(), 3);
+  EXPECT_EQ(page.value(stills + ".every(e => getComputedStyle(e).display === 'none')"), true);
+  EXPECT_EQ(page.value("gestell.charts.every(c => c.colours.series.every(x => /^#/.test(x)))"), true);
+}

@@ -28,3 +28,12 @@ TEST(PressPage, IsBelow5MBOpensWithin2SecondsAndMovesAt30PicturesASecond)
             << " s of processors, machine seen after " << seen << " s, " << pace.pictures_per_second
             << " pictures a second, " << pace.cpu_per_picture << " s of processors each\n";
 }
+
+TEST(PressPage, BesideAnotherPressIsBelow5MB)
+{
+  const tests::Folder folder("press_page_compared");
+  tests::expect_answer(tests::gestell("run " + tests::scene("press.toml") + " --compare " +
+                                      tests::scene("press_minimal_light.toml") + folder.option()),
+                       0, {});
+  EXPECT_LT(std::filesystem::file_size(folder.results() / "report.html"), 5000000u);
+}
