@@ -31,8 +31,9 @@ bool is_fast(std::size_t n)
 struct SpectrumWindow
 {
   double      begin = 0., h = 0.;
-  std::size_t n       = 0;
-  bool        on_rows = false; ///< the instants are those of rows
+  double      row_step = 0.; ///< mean distance of rows
+  std::size_t n        = 0;
+  bool        on_rows  = false; ///< the instants are those of rows
 
   double t(std::size_t k) const { return begin + static_cast<double>(k) * h; }
 };
@@ -53,9 +54,14 @@ SpectrumWindow window_of(const HistoryRows &rows)
   const std::size_t on_grid = even_rows(rows);
   window.on_rows            = on_grid + 1 >= rows.size();
   const std::size_t last    = (window.on_rows ? on_grid : rows.size()) - 1;
-  window.h                  = (rows.t(last) - window.begin) / static_cast<double>(last);
-  for (window.n = last; !is_fast(window.n);)
+  window.row_step           = (rows.t(last) - window.begin) / static_cast<double>(last);
+  window.h                  = window.row_step;
+  for (window.n = last; window.on_rows && !is_fast(window.n);)
     --window.n;
+  while (!is_fast(window.n))
+    ++window.n;
+  if (!window.on_rows)
+    window.h = (rows.t(last) - window.begin) / static_cast<double>(window.n);
   return window;
 }
 
@@ -126,8 +132,8 @@ std::optional<Spectra> spectra(const coupling::RunResult &run)
   result.end              = window.t(window.n);
   result.samples          = static_cast<int>(window.n);
   result.resolution_hz    = 1. / (result.end - result.begin);
-  result.row_step         = window.h;
-  result.carried_hz       = (window.on_rows ? 0.5 : 0.25) / window.h;
+  result.row_step         = window.row_step;
+  result.carried_hz       = (window.on_rows ? 0.5 : 0.25) / window.row_step;
   const std::size_t lines = std::min(most_lines, window.on_rows ? window.n / 2 : window.n / 4);
   for (const std::size_t j : chosen_columns(run))
   {

@@ -122,7 +122,7 @@ std::size_t Story::next_of(std::size_t e) const
 const coupling::EventValues *Story::values_at(std::size_t e) const
 {
   const coupling::RunResult &run = *result_.run;
-  if (e >= run.event_values.size())
+  if (e >= run.event_values.size() || rows_.size() < 2)
     return nullptr;
   const coupling::EventValues &at     = run.event_values[e];
   const double                 length = rows_.t(rows_.size() - 1) - rows_.t(0);
