@@ -22,6 +22,8 @@ constexpr double      rounding       = 1e-6; ///< of the largest value
 constexpr std::size_t most_sentences = 60, fewest_events = 20;
 constexpr double      one_instant = 1e-9; ///< of the run
 constexpr double      coarsest    = 0.1;  ///< distance of rows, of the time over which they are summed up
+constexpr double      of_swing    = 0.05; ///< distance of rows, of half a swing: its ends are rows
+constexpr double      nothing     = 1e-6; ///< of the largest rate at events, or force
 constexpr double      jumps       = 1e-3; ///< of the largest force
 constexpr double      near_mode   = 0.25; ///< relative difference of frequencies up to which a mode carries
 constexpr double      no_momentum = 1e-3; ///< of the largest force times the time it acts
@@ -77,8 +79,9 @@ private:
   std::string                  event_text(std::size_t e) const;
   std::string                  momentum_text(std::size_t e, std::size_t s) const;
   std::string                  value_text(const coupling::EventValues &at, std::size_t s) const;
+  double                       rate_of(const coupling::EventValues &at, std::size_t s) const;
   double                       size_of(std::size_t s) const; ///< the largest amount of a signal
-  bool                         fine_between(double begin, double end) const;
+  bool                         fine_between(double begin, double end, double share) const;
   void                         shorten();
   const coupling::EventValues *values_at(std::size_t e) const;
   std::size_t next_of(std::size_t e) const; ///< the next event of its object; the number of events: none
@@ -130,13 +133,13 @@ const coupling::EventValues *Story::values_at(std::size_t e) const
   return here && !at.before.empty() && !at.behind.empty() ? &at : nullptr;
 }
 
-/// Whether rows between two instants are a tenth of their distance apart, or closer.
-bool Story::fine_between(double begin, double end) const
+/// Whether rows between two instants are that share of their distance apart, or closer.
+bool Story::fine_between(double begin, double end, double share) const
 {
   double widest = 0.;
   for (std::size_t i = row_before(begin) + 1; i < rows_.size() && rows_.t(i - 1) < end; ++i)
     widest = std::max(widest, rows_.t(i) - rows_.t(i - 1));
-  return widest <= coarsest * (end - begin) * (1. + one_instant);
+  return widest <= share * (end - begin) * (1. + one_instant);
 }
 
 /// What the force passes on from an event to the next one of its object: trapezoids from the value behind the one over
@@ -146,7 +149,7 @@ std::string Story::momentum_text(std::size_t e, std::size_t s) const
   const auto       &events = result_.run->events;
   const std::size_t next   = next_of(e);
   const auto       *from = values_at(e), *to = values_at(next);
-  if (!from || !to || !fine_between(events[e].t, events[next].t))
+  if (!from || !to || !fine_between(events[e].t, events[next].t, coarsest))
     return "";
   double     sum = 0., peak = 0., t = events[e].t, F = from->behind[s];
   const auto add = [&](double t_next, double F_next)
@@ -172,11 +175,22 @@ double Story::size_of(std::size_t s) const
   return std::max(std::abs(whole.min), std::abs(whole.max));
 }
 
+/// Before an event; 0 where it is nothing beside the rates at others.
+double Story::rate_of(const coupling::EventValues &at, std::size_t s) const
+{
+  double most = 0.;
+  for (const coupling::EventValues &other : result_.run->event_values)
+    if (!other.rate.empty() && std::isfinite(other.rate[s]))
+      most = std::max(most, std::abs(other.rate[s]));
+  return std::abs(at.rate[s]) > nothing * most ? at.rate[s] : 0.;
+}
+
 /// Before an event and, where it jumps, behind it.
 std::string Story::value_text(const coupling::EventValues &at, std::size_t s) const
 {
   const coupling::SignalSummary &own    = result_.run->signals[s];
-  const double                   before = at.before[s], behind = at.behind[s];
+  const auto                     seen   = [&](double F) { return std::abs(F) > nothing * size_of(s) ? F : 0.; };
+  const double                   before = seen(at.before[s]), behind = seen(at.behind[s]);
   return std::abs(behind - before) <= jumps * size_of(s)
              ? " is " + shown(before, own)
              : " jumps from " + shown(before, own) + " to " + shown(behind, own);
@@ -193,7 +207,7 @@ std::string Story::event_text(std::size_t e) const
     if (!belongs_to(s, event.name))
       continue;
     if ((unit == "m" || unit == "rad") && std::isfinite(at->rate[s]))
-      text += ", " + signals_[s].name + " changes by " + short_text(at->rate[s], 3) + " " + unit + "/s";
+      text += ", " + signals_[s].name + " changes by " + short_text(rate_of(*at, s), 3) + " " + unit + "/s";
     if (unit != "N" && unit != "N m")
       continue;
     text += ", " + signals_[s].name + value_text(*at, s);
@@ -251,7 +265,7 @@ std::string Story::carried_by(std::size_t s, double t) const
     y.push_back(rows_.at(i, s + 1));
   }
   const double half = half_period_at(time, y, t);
-  if (!(half > 0.) || !fine_between(t - 0.5 * half, t + 0.5 * half))
+  if (!(half > 0.) || !fine_between(t - 0.5 * half, t + 0.5 * half, of_swing))
     return "";
   const double f     = 0.5 / half;
   std::string  text  = ", half a swing of " + milliseconds(half);

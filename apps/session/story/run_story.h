@@ -16,7 +16,7 @@ namespace gestell::apps
  * over the rows, where these are a tenth of that time apart or closer).  Nothing of that where the run went over the
  * event.  Repetitions of a kind are told twice, then counted; of more than sixty sentences the latest events are left
  * out, which is said, never extremes.  Of an extreme of a force or torque: the vibration that it belongs to, by the
- * time between its neighbouring turning points, half a period (ten rows or more), and the mode next to it in frequency
+ * time between its neighbouring turning points, half a period (twenty rows or more), and the mode next to it in frequency
  * with what it strains.
  */
 std::vector<StorySentence> story_sentences(const std::vector<coupling::Signal> &signals,
