@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// A damped oscillation A exp(s t) + conjugate in several signals.
+/// A damped oscillation Re(A exp(s t)) in several signals: |A| is its amplitude at the first sample.
 struct DampedOscillation
 {
   std::complex<double> s;             ///< [1/s], Im s > 0

@@ -26,8 +26,13 @@ struct ModePair
  *
  *     MAC_ij = (sum_k m_k A_ki B_kj)^2 / (sum_k m_k A_ki^2  sum_k m_k B_kj^2),     seen_i = sum_k m_A,k A_ki^2.
  *
- * `seen` is the part of a mode's kinetic energy that the measures tell; a mode of which they tell less than
- * `least_seen` has no partner.  Partners are chosen, best for all pairs together, by MAC_ij seen_i seen_j.
+ * With all modes, and measures that are the coordinates of a diagonal M, `seen` is the part of a mode's kinetic energy
+ * that the measures tell.  Otherwise it is a weight, not a part: modes that are left out make masses too large.  Always
+ *
+ *     sum_i seen_i = number of measures that move,     0 <= seen_i <= that number,
+ *
+ * so that it exceeds 1 where modes are fewer than measures; a single mode seen by k measures has k.  A mode of which
+ * they tell less than `least_seen` has no partner.  Partners are chosen, best for all pairs together, by MAC_ij seen_i seen_j.
  *
  * Source: docs/theory/modes_along.md (7), (8).
  */

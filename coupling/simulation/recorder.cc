@@ -12,8 +12,9 @@ namespace
 
 constexpr double brief = 1e-9; ///< share of the step before: what lasts shorter lies within the resolution of events
 constexpr long   close_pictures = 8, close_steps = 4; ///< behind an event: pictures a step of the grid, steps of it
-constexpr long   close_least = 100;                   ///< of these in a run at least, else as many as the grid makes
-constexpr double on_grid     = 1e-9; ///< share of the grid's step within which an instant is a point of it
+constexpr long   close_least            = 100;        ///< of these in a run at least, else as many as the grid makes
+constexpr std::size_t most_event_values = 1000;
+constexpr double      on_grid           = 1e-9; ///< share of the grid's step within which an instant is a point of it
 
 std::string method_and_step(const MethodOptions &method)
 {
@@ -140,6 +141,7 @@ void Recorder::settle()
   pending_ = false;
   tell(behind_.t, behind_, probe_);
   extremes_.restart(probe_);
+  values_behind();
   if (next_row_ == 0)
   {
     row(behind_.t, probe_, result_.energy);
@@ -178,12 +180,35 @@ void Recorder::follow_briefly()
 
 void Recorder::jump(const std::string &event)
 {
+  values_before();
   extremes_.happened(event);
   if (options_.energy)
     energy_.jump(integrator_.instant());
   behind_  = integrator_.local();
   pending_ = true;
   picture_event();
+}
+
+void Recorder::values_before()
+{
+  if (result_.event_values.size() == most_event_values)
+    return;
+  EventValues at;
+  at.t = integrator_.time();
+  if (extremes_.begun())
+  {
+    at.before = extremes_.last().values;
+    for (std::size_t i = 0; i < signals_.size(); ++i)
+      at.rate.push_back(extremes_.slope(i));
+  }
+  result_.event_values.push_back(std::move(at));
+}
+
+/// Of the events since the motion settled last.
+void Recorder::values_behind()
+{
+  for (; settled_ < result_.event_values.size(); ++settled_)
+    result_.event_values[settled_].behind = probe_.values;
 }
 
 void Recorder::rows()

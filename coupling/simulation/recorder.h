@@ -46,6 +46,8 @@ private:
   void          evaluate(double t, SignalSample &sample) override;
   void          tell(double t, const LocalState &local, SignalSample &sample);
   void          settle();
+  void          values_before();
+  void          values_behind();
   void          follow_briefly();
   void          rows();
   void          row(double t, const SignalSample &sample, const EnergySummary &energy);
@@ -74,6 +76,7 @@ private:
   bool                         pending_  = false; ///< and it has not been told yet
   double                       length_   = 0.;    ///< of the last step that was told
   double                       row_step_ = 0., picture_step_ = 0.;
+  std::size_t                  settled_  = 0;                    ///< events whose values behind are told
   long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
   double                       close_until_  = 0.;               ///< [s] pictures follow closely
   long                         close_budget_ = 0;                ///< how many such may still be made

@@ -64,6 +64,14 @@ struct SignalSummary
   double      min = 0., t_min = 0., max = 0., t_max = 0., final = 0.;
 };
 
+/// Signals at a located event, by number: just before the first event of that instant, and behind the last one.
+struct EventValues
+{
+  double              t = 0.;         ///< [s] where they hold: not at an event that was gone over
+  std::vector<double> before, behind; ///< empty: none
+  std::vector<double> rate;           ///< [1/s] before; nan: no step was made since the motion restarted
+};
+
 /// What the integration cost.
 struct WorkCounts : IntegrationWork
 {
@@ -85,6 +93,7 @@ struct RunResult
   std::vector<std::string>     columns, units;
   std::vector<double>          rows; ///< row major, columns.size() wide
   std::vector<Event>           events;
+  std::vector<EventValues>     event_values; ///< of the first thousand events
   WorkCounts                   work;
   EnergySummary                energy;
   std::vector<double>          picture_times;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gestell::coupling
 {
@@ -81,6 +82,16 @@ void SignalExtremes::look_anew(std::size_t signal)
   SignalSummary &summary = summaries_[signal];
   summary.min = summary.max = last().values[signal];
   summary.t_min = summary.t_max = last().t;
+}
+
+double SignalExtremes::slope(std::size_t signal) const
+{
+  if (n_ < 3)
+    return std::numeric_limits<double>::quiet_NaN();
+  const SignalSample *s   = &samples_[n_ - 3];
+  const auto          f   = [&](int j) { return s[j].values[signal]; };
+  const double        far = (f(1) - f(0)) / (s[1].t - s[0].t), near = (f(2) - f(1)) / (s[2].t - s[1].t);
+  return near + (near - far) * (s[2].t - s[1].t) / (s[2].t - s[0].t);
 }
 
 void SignalExtremes::step(double end)

@@ -64,7 +64,10 @@ public:
 
   /// At the end of the last step, or where the motion restarted.
   const SignalSample &last() const { return samples_[n_ - 1]; }
-  bool                watched(std::size_t signal) const { return watched_[signal] != 0; }
+  bool                begun() const { return n_ > 0; }
+  /// Rate [1/s] there, of the parabola through the last three samples; nan: there are fewer.
+  double slope(std::size_t signal) const;
+  bool   watched(std::size_t signal) const { return watched_[signal] != 0; }
   /// Extremes of a signal count from the last sample on.
   void look_anew(std::size_t signal);
 

@@ -25,6 +25,16 @@ std::string deviation(double ratio)
   return std::isnan(ratio) ? "" : short_text(100. * (ratio - 1.), 2) + " %";
 }
 
+/// Where what is seen of a mode is more than its kinetic energy.
+std::string seen_text(const coupling::ModeComparison &match)
+{
+  const double most = std::max(match.seen_a.maxCoeff(), match.seen_b.maxCoeff());
+  return most > 1.0005
+             ? "<p>Modes are fewer than what moves: <em>seen</em> is a weight then, which may exceed 100 %, and "
+               "no part of the kinetic energy.</p>\n"
+             : "";
+}
+
 std::string pairs_html(const ComparedShapes &shapes)
 {
   HtmlTable table(
@@ -34,7 +44,7 @@ std::string pairs_html(const ComparedShapes &shapes)
                std::to_string(pair.b + 1), short_text(shapes.b.modes[std::size_t(pair.b)].frequency_hz, 6),
                deviation(frequency_ratio(shapes, pair)), short_text(pair.assurance, 4),
                gestell::percent(shapes.match.seen_a[pair.a]), gestell::percent(shapes.match.seen_b[pair.b])});
-  return table.html();
+  return table.html() + seen_text(shapes.match);
 }
 
 std::string mac_html(const ComparedShapes &shapes)

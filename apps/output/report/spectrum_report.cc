@@ -31,7 +31,8 @@ double highest_told(const Spectra &spectra, const std::vector<const SignalSpectr
     for (std::size_t k = last; k < spectrum->amplitudes.size(); ++k)
       if (spectrum->amplitudes[k] > told * most_of(*spectrum))
         last = k;
-  return std::min(1.25 * static_cast<double>(last), static_cast<double>(spectra.samples) / 2.) * spectra.resolution_hz;
+  const std::size_t lines = shown.front()->amplitudes.size() - 1;
+  return std::min(1.25 * static_cast<double>(last), static_cast<double>(lines)) * spectra.resolution_hz;
 }
 
 /// [Hz] of a drive that turns evenly; 0: there is none.
@@ -103,6 +104,18 @@ std::vector<std::vector<const SignalSpectrum *>> by_unit(const Spectra &spectra)
   return groups;
 }
 
+/// What the rows carry, and what of that is told.
+std::string rows_text(const Spectra &spectra)
+{
+  const double told_hz = static_cast<double>(spectra.signals.front().amplitudes.size() - 1) * spectra.resolution_hz;
+  return "Rows of the history stand " + short_text(spectra.row_step, 3) + " s apart and carry motion up to " +
+         short_text(spectra.carried_hz, 3) + " Hz" +
+         (told_hz < 0.999 * spectra.carried_hz ? ", of which the lines up to " + short_text(told_hz, 3) + " Hz are told"
+                                               : "") +
+         ". They are instants, not means: faster motion folds into lines below " +
+         short_text(0.5 / spectra.row_step, 3) + " Hz, and a smaller output.step shows it.";
+}
+
 } // namespace
 
 std::string spectrum_section(const Result &result, Pictures &pictures)
@@ -121,13 +134,13 @@ std::string spectrum_section(const Result &result, Pictures &pictures)
   if (html.empty())
     return "";
   return section("spectrum", "Spectra",
-                 "<p>Amplitudes over the whole run, " + short_text(spectra.begin) + " to " + short_text(spectra.end) +
+                 "<p>Amplitudes over the run, " + short_text(spectra.begin) + " to " + short_text(spectra.end) +
                      " s, in one window after Hann with " + std::to_string(spectra.samples) + " samples: lines stand " +
                      short_text(spectra.resolution_hz, 3) +
                      " Hz apart, and two frequencies are told apart from twice that on. Numbers: modes of the coupled "
                      "machine" +
-                     (drive_hz(result) > 0. ? "; ticks: orders of " + escape_xml(result.orders->rotor) : "") +
-                     ".</p>\n" + html);
+                     (drive_hz(result) > 0. ? "; ticks: orders of " + escape_xml(result.orders->rotor) : "") + ". " +
+                     rows_text(spectra) + "</p>\n" + html);
 }
 
 } // namespace gestell::apps

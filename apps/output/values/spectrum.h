@@ -19,6 +19,8 @@ struct Spectra
   double                      begin = 0., end = 0.; ///< [s] of the window
   int                         samples       = 0;
   double                      resolution_hz = 0.; ///< 1 / (end - begin); a line is two of them wide
+  double                      row_step      = 0.; ///< [s] between the rows
+  double                      carried_hz    = 0.; ///< up to which the rows carry; faster motion of theirs folds
   std::vector<SignalSpectrum> signals;
 };
 

@@ -60,20 +60,16 @@ void add_compared_run(Session &session, Result &result, Session &other)
 {
   Result of_other = other.run();
   add_warnings(of_other, result);
-  try
-  {
-    add_compared_modes(session, result, other, of_other);
-  }
-  catch (const std::invalid_argument &)
-  {
-    // runs may be compared without a motion in common
-  }
-  result.compared_run = ComparedRun{of_other.scene, std::move(*of_other.run)};
+  result.compared_shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
+  result.compared_run    = ComparedRun{of_other.scene, std::move(*of_other.run)};
 }
 
 void add_compared_modes(Session &session, Result &result, Session &other, const Result &of_other)
 {
-  result.compared_shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
+  const MachineAt own = at_modes(session), his = at_modes(other);
+  result.compared_shapes = compared_shapes(result, own, of_other, his);
+  if (!result.compared_shapes)
+    throw std::invalid_argument(nothing_shared(result, own, of_other, his));
 }
 
 } // namespace gestell::apps

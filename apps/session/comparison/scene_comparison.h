@@ -6,6 +6,7 @@ namespace gestell::apps
 {
 
 /// Adds to the result of a session its modes beside those of another one, see compared_shapes().
+/// @throws std::invalid_argument if they share no motion; it names some of both
 void add_compared_modes(Session &session, Result &result, Session &other, const Result &of_other);
 
 /// @throws std::invalid_argument if two scenes do not run, or have no signal of one name and unit

@@ -151,7 +151,8 @@ Told told_by(const MachineAt &at)
 
 } // namespace
 
-ComparedShapes compared_shapes(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b)
+std::optional<ComparedShapes> compared_shapes(const Result &a, const MachineAt &at_a, const Result &b,
+                                              const MachineAt &at_b)
 {
   const Told of_a = told_by(at_a), of_b = told_by(at_b);
   for (const auto part : {&Told::motions, &Told::of_elements})
@@ -165,11 +166,16 @@ ComparedShapes compared_shapes(const Result &a, const MachineAt &at_a, const Res
     if (!shapes.measures.empty())
       return shapes;
   }
-  throw std::invalid_argument("--compare: \"" + a.scene + "\" and \"" + b.scene +
-                              "\" share no motion of a body, an interface or an element by name, so that their modes "
-                              "cannot be matched; the first has " +
-                              some_of(of_a.motions) + ", the second " + some_of(of_b.motions) +
-                              ": give what is the same the same name");
+  return {};
+}
+
+std::string nothing_shared(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b)
+{
+  return "--compare: \"" + a.scene + "\" and \"" + b.scene +
+         "\" share no motion of a body, an interface or an element by name, so that their modes cannot be matched; the "
+         "first has " +
+         some_of(told_by(at_a).motions) + ", the second " + some_of(told_by(at_b).motions) +
+         ": give what is the same the same name";
 }
 
 } // namespace gestell::apps

@@ -3,6 +3,9 @@
 #include "apps/output/values/mode_comparison.h"
 #include "apps/session/prepared_machine.h"
 
+#include <optional>
+#include <string>
+
 namespace gestell::apps
 {
 
@@ -18,8 +21,12 @@ struct MachineAt
  * bodies, motions of interfaces, [measure]; where there are none of these the displacements of elements.  Modes above
  * the frequency up to which a reduced frame holds are left out.
  *
- * @throws std::invalid_argument if they share none that moves; it names some of both
+ * @return none if they share none that moves
  */
-ComparedShapes compared_shapes(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b);
+std::optional<ComparedShapes> compared_shapes(const Result &a, const MachineAt &at_a, const Result &b,
+                                              const MachineAt &at_b);
+
+/// That they share none, with some motions of both.
+std::string nothing_shared(const Result &a, const MachineAt &at_a, const Result &b, const MachineAt &at_b);
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "apps/session/spectra/spectra.h"
 
+#include "apps/session/stages/history_rows.h"
 #include "fem/values/two_pi.h"
 
 #include <unsupported/Eigen/FFT>
@@ -14,22 +15,66 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t fewest_rows = 256, most_samples = 16384, most_spectra = 6;
+constexpr std::size_t fewest_rows = 256, most_lines = 8192, most_spectra = 6;
+constexpr double      even = 1e-6; ///< of the distance of rows, to where they lie on a grid
 
-/// Column j at n instants at equal distances over the run, on straight lines between its rows.
-std::vector<double> evenly(const coupling::RunResult &run, std::size_t j, std::size_t n)
+/// Whether a transform of that length is fast.
+bool is_fast(std::size_t n)
 {
-  const std::size_t   width = run.columns.size(), rows = run.rows.size() / width;
-  const auto          at    = [&](std::size_t i, std::size_t column) { return run.rows[i * width + column]; };
-  const double        first = at(0, 0), step = (at(rows - 1, 0) - first) / static_cast<double>(n);
+  for (std::size_t p = 2; p <= 97; ++p)
+    while (n % p == 0)
+      n /= p;
+  return n == 1;
+}
+
+/// Instants at equal distances h at which signals are told.
+struct SpectrumWindow
+{
+  double      begin = 0., h = 0.;
+  double      row_step = 0.; ///< mean distance of rows
+  std::size_t n        = 0;
+  bool        on_rows  = false; ///< the instants are those of rows
+
+  double t(std::size_t k) const { return begin + static_cast<double>(k) * h; }
+};
+
+/// Rows at equal distances from the first on; the last one of a run may lie closer.
+std::size_t even_rows(const HistoryRows &rows)
+{
+  const double h = (rows.t(rows.size() - 2) - rows.t(0)) / static_cast<double>(rows.size() - 2);
+  std::size_t  i = 1;
+  while (i < rows.size() && std::abs(rows.t(i) - rows.t(0) - static_cast<double>(i) * h) <= even * h)
+    ++i;
+  return i;
+}
+
+SpectrumWindow window_of(const HistoryRows &rows)
+{
+  SpectrumWindow    window{rows.t(0)};
+  const std::size_t on_grid = even_rows(rows);
+  window.on_rows            = on_grid + 1 >= rows.size();
+  const std::size_t last    = (window.on_rows ? on_grid : rows.size()) - 1;
+  window.row_step           = (rows.t(last) - window.begin) / static_cast<double>(last);
+  window.h                  = window.row_step;
+  for (window.n = last; window.on_rows && !is_fast(window.n);)
+    --window.n;
+  while (!is_fast(window.n))
+    ++window.n;
+  if (!window.on_rows)
+    window.h = (rows.t(last) - window.begin) / static_cast<double>(window.n);
+  return window;
+}
+
+/// Column j at the instants of the window, on straight lines between the rows where there are none.
+std::vector<double> samples_of(const HistoryRows &rows, std::size_t j, const SpectrumWindow &window)
+{
   std::vector<double> samples;
-  for (std::size_t k = 0, i = 0; k < n; ++k)
+  for (std::size_t k = 0, i = 0; k < window.n; ++k)
   {
-    const double t = first + static_cast<double>(k) * step;
-    while (i + 2 < rows && at(i + 1, 0) <= t)
+    while (i + 2 < rows.size() && rows.t(i + 1) <= window.t(k))
       ++i;
-    const double length = at(i + 1, 0) - at(i, 0), share = length > 0. ? (t - at(i, 0)) / length : 0.;
-    samples.push_back(at(i, j) + share * (at(i + 1, j) - at(i, j)));
+    const double length = rows.t(i + 1) - rows.t(i), share = length > 0. ? (window.t(k) - rows.t(i)) / length : 0.;
+    samples.push_back(window.on_rows ? rows.at(k, j) : rows.at(i, j) + share * (rows.at(i + 1, j) - rows.at(i, j)));
   }
   return samples;
 }
@@ -78,24 +123,25 @@ std::vector<double> hann_amplitudes(std::vector<double> samples)
 
 std::optional<Spectra> spectra(const coupling::RunResult &run)
 {
-  const std::size_t width = run.columns.size(), rows = width > 0 ? run.rows.size() / width : 0;
-  if (rows < fewest_rows || !run.failure.empty())
+  const HistoryRows rows(run);
+  if (rows.size() < fewest_rows || !run.failure.empty() || !(rows.t(rows.size() - 1) > rows.t(0)))
     return std::nullopt;
-  std::size_t n = fewest_rows;
-  while (2 * n <= std::min(rows, most_samples))
-    n *= 2;
-  Spectra result;
-  result.begin         = run.rows.front();
-  result.end           = run.rows[(rows - 1) * width];
-  result.samples       = static_cast<int>(n);
-  result.resolution_hz = 1. / (result.end - result.begin);
-  if (!(result.end > result.begin))
-    return std::nullopt;
+  const SpectrumWindow window = window_of(rows);
+  Spectra              result;
+  result.begin            = window.begin;
+  result.end              = window.t(window.n);
+  result.samples          = static_cast<int>(window.n);
+  result.resolution_hz    = 1. / (result.end - result.begin);
+  result.row_step         = window.row_step;
+  result.carried_hz       = (window.on_rows ? 0.5 : 0.25) / window.row_step;
+  const std::size_t lines = std::min(most_lines, window.on_rows ? window.n / 2 : window.n / 4);
   for (const std::size_t j : chosen_columns(run))
   {
-    const std::vector<double> samples = evenly(run, j, n);
-    if (std::all_of(samples.begin(), samples.end(), [](double y) { return std::isfinite(y); }))
-      result.signals.push_back({run.columns[j], run.units[j], hann_amplitudes(samples)});
+    const std::vector<double> samples = samples_of(rows, j, window);
+    if (!std::all_of(samples.begin(), samples.end(), [](double y) { return std::isfinite(y); }))
+      continue;
+    result.signals.push_back({run.columns[j], run.units[j], hann_amplitudes(samples)});
+    result.signals.back().amplitudes.resize(lines + 1);
   }
   return result.signals.empty() ? std::nullopt : std::optional(result);
 }

@@ -13,11 +13,18 @@ namespace gestell::apps
 ///
 ///     A(k) = 2 / sum(w) |sum_j w_j (y_j - mean) exp(-2 pi i j k / n)|,   k = 0 .. n / 2.
 ///
-/// @param samples  at equal distances, as many as a power of two
+/// @param samples  at equal distances; fast where their number has no large prime factor
 std::vector<double> hann_amplitudes(std::vector<double> samples);
 
-/// Spectra over the whole run of the first forces, moments, accelerations and stresses, or else of the first signals:
-/// at most six.  Histories of fewer than 256 rows have none.
+/**
+ * Spectra over the run of the first forces, moments, accelerations and stresses, or else of the first signals: at most
+ * six.  Histories of fewer than 256 rows have none.
+ *
+ * Rows at equal distances h are transformed as they are, all of them but for the few at the end (fewer than one in a
+ * hundred) that leave a number without prime factors above 97, and have lines up to 1/(2 h).  Others are sampled anew
+ * on their straight lines and have lines up to 1/(4 h), h being the mean distance.  Above 8192 lines the highest are
+ * left out: they do not fold, since no row was.  Motion faster than 1/(2 h) folds, as rows are instants.
+ */
 std::optional<Spectra> spectra(const coupling::RunResult &run);
 
 } // namespace gestell::apps

@@ -19,9 +19,14 @@ namespace
 
 constexpr int         told_twice     = 2;
 constexpr double      rounding       = 1e-6; ///< of the largest value
-constexpr std::size_t most_sentences = 60;
-constexpr double      near_mode      = 0.25; ///< relative difference of frequencies up to which a mode carries
-constexpr double      no_momentum    = 1e-3; ///< of the largest force times the time it acts
+constexpr std::size_t most_sentences = 60, fewest_events = 20;
+constexpr double      one_instant = 1e-9; ///< of the run
+constexpr double      coarsest    = 0.1;  ///< distance of rows, of the time over which they are summed up
+constexpr double      of_swing    = 0.05; ///< distance of rows, of half a swing: its ends are rows
+constexpr double      nothing     = 1e-6; ///< of the largest rate at events, or force
+constexpr double      jumps       = 1e-3; ///< of the largest force
+constexpr double      near_mode   = 0.25; ///< relative difference of frequencies up to which a mode carries
+constexpr double      no_momentum = 1e-3; ///< of the largest force times the time it acts
 
 /// In the unit in which a signal reads well at its largest.
 std::string shown(double x, const coupling::SignalSummary &signal)
@@ -65,15 +70,20 @@ public:
     add_events();
     add_extremes();
     std::stable_sort(sentences_.begin(), sentences_.end(), [](const auto &a, const auto &b) { return a.t < b.t; });
-    if (sentences_.size() > most_sentences)
-      sentences_.resize(most_sentences);
+    shorten();
     return std::move(sentences_);
   }
 
 private:
-  void        add_events();
-  std::string event_text(std::size_t e) const;
-  std::string momentum_text(std::size_t e, std::size_t s) const;
+  void                         add_events();
+  std::string                  event_text(std::size_t e) const;
+  std::string                  momentum_text(std::size_t e, std::size_t s) const;
+  std::string                  value_text(const coupling::EventValues &at, std::size_t s) const;
+  double                       rate_of(const coupling::EventValues &at, std::size_t s) const;
+  double                       size_of(std::size_t s) const; ///< the largest amount of a signal
+  bool                         fine_between(double begin, double end, double share) const;
+  void                         shorten();
+  const coupling::EventValues *values_at(std::size_t e) const;
   std::size_t next_of(std::size_t e) const; ///< the next event of its object; the number of events: none
   void        add_extremes();
   void        add_extreme(std::size_t s, bool largest);
@@ -111,48 +121,120 @@ std::size_t Story::next_of(std::size_t e) const
   return events.size();
 }
 
-/// What the force passes on from an event to the next one of its object.
+/// Both motions of a located event; null where they are not known.
+const coupling::EventValues *Story::values_at(std::size_t e) const
+{
+  const coupling::RunResult &run = *result_.run;
+  if (e >= run.event_values.size() || rows_.size() < 2)
+    return nullptr;
+  const coupling::EventValues &at     = run.event_values[e];
+  const double                 length = rows_.t(rows_.size() - 1) - rows_.t(0);
+  const bool                   here   = std::abs(at.t - run.events[e].t) <= one_instant * length;
+  return here && !at.before.empty() && !at.behind.empty() ? &at : nullptr;
+}
+
+/// Whether rows between two instants are that share of their distance apart, or closer.
+bool Story::fine_between(double begin, double end, double share) const
+{
+  double widest = 0.;
+  for (std::size_t i = row_before(begin) + 1; i < rows_.size() && rows_.t(i - 1) < end; ++i)
+    widest = std::max(widest, rows_.t(i) - rows_.t(i - 1));
+  return widest <= share * (end - begin) * (1. + one_instant);
+}
+
+/// What the force passes on from an event to the next one of its object: trapezoids from the value behind the one over
+/// the rows to the value before the other.
 std::string Story::momentum_text(std::size_t e, std::size_t s) const
 {
   const auto       &events = result_.run->events;
   const std::size_t next   = next_of(e);
-  if (next == events.size())
+  const auto       *from = values_at(e), *to = values_at(next);
+  if (!from || !to || !fine_between(events[e].t, events[next].t, coarsest))
     return "";
-  double sum = 0., peak = 0.;
-  for (std::size_t i = row_before(events[e].t) + 1; i < rows_.size() && rows_.t(i) < events[next].t; ++i)
+  double     sum = 0., peak = 0., t = events[e].t, F = from->behind[s];
+  const auto add = [&](double t_next, double F_next)
   {
-    sum += rows_.at(i, s + 1) * (rows_.t(i) - rows_.t(i - 1));
-    peak = std::abs(rows_.at(i, s + 1)) > std::abs(peak) ? rows_.at(i, s + 1) : peak;
-  }
-  const coupling::SignalSummary &whole = result_.run->signals[s];
-  const double                   size  = std::max(std::abs(whole.min), std::abs(whole.max));
+    sum += 0.5 * (F + F_next) * (t_next - t);
+    peak = std::abs(F_next) > std::abs(peak) ? F_next : peak;
+    t    = t_next;
+    F    = F_next;
+  };
+  for (std::size_t i = row_before(t) + 1; i < rows_.size() && rows_.t(i) < events[next].t; ++i)
+    add(rows_.t(i), rows_.at(i, s + 1));
+  add(events[next].t, to->before[s]);
+  const double size = size_of(s);
   if (std::abs(peak) < 0.1 * size || std::abs(sum) < no_momentum * size * (events[next].t - events[e].t))
     return "";
   return "until its next event " + milliseconds(events[next].t - events[e].t) + " later it passes on " +
          short_text(sum, 4) + " " + signals_[s].unit + " s and reaches " + shown(peak, result_.run->signals[s]);
 }
 
+double Story::size_of(std::size_t s) const
+{
+  const coupling::SignalSummary &whole = result_.run->signals[s];
+  return std::max(std::abs(whole.min), std::abs(whole.max));
+}
+
+/// Before an event; 0 where it is nothing beside the rates at others.
+double Story::rate_of(const coupling::EventValues &at, std::size_t s) const
+{
+  double most = 0.;
+  for (const coupling::EventValues &other : result_.run->event_values)
+    if (!other.rate.empty() && std::isfinite(other.rate[s]))
+      most = std::max(most, std::abs(other.rate[s]));
+  return std::abs(at.rate[s]) > nothing * most ? at.rate[s] : 0.;
+}
+
+/// Before an event and, where it jumps, behind it.
+std::string Story::value_text(const coupling::EventValues &at, std::size_t s) const
+{
+  const coupling::SignalSummary &own    = result_.run->signals[s];
+  const auto                     seen   = [&](double F) { return std::abs(F) > nothing * size_of(s) ? F : 0.; };
+  const double                   before = seen(at.before[s]), behind = seen(at.behind[s]);
+  return std::abs(behind - before) <= jumps * size_of(s)
+             ? " is " + shown(before, own)
+             : " jumps from " + shown(before, own) + " to " + shown(behind, own);
+}
+
 std::string Story::event_text(std::size_t e) const
 {
-  const coupling::Event &event = result_.run->events[e];
-  std::string            text  = event.name + ": " + spoken(event.kind);
-  const std::size_t      i     = row_before(event.t);
-  for (std::size_t s = 0; s < signals_.size() && rows_.size() > 2; ++s)
+  const coupling::Event       &event = result_.run->events[e];
+  std::string                  text  = event.name + ": " + spoken(event.kind);
+  const coupling::EventValues *at    = values_at(e);
+  for (std::size_t s = 0; s < signals_.size() && at; ++s)
   {
     const std::string &unit = signals_[s].unit;
     if (!belongs_to(s, event.name))
       continue;
-    if ((unit == "m" || unit == "rad") && i > 0)
-      text += ", " + signals_[s].name + " changes by " +
-              short_text((rows_.at(i, s + 1) - rows_.at(i - 1, s + 1)) / (rows_.t(i) - rows_.t(i - 1)), 3) + " " +
-              unit + "/s";
+    if ((unit == "m" || unit == "rad") && std::isfinite(at->rate[s]))
+      text += ", " + signals_[s].name + " changes by " + short_text(rate_of(*at, s), 3) + " " + unit + "/s";
     if (unit != "N" && unit != "N m")
       continue;
-    text += ", " + signals_[s].name + " is " + shown(rows_.at(i, s + 1), result_.run->signals[s]);
+    text += ", " + signals_[s].name + value_text(*at, s);
     if (const std::string momentum = momentum_text(e, s); !momentum.empty())
       text += "; " + momentum;
   }
   return text;
+}
+
+/// Extremes stay; of the events the first ones, and how many were left out.
+void Story::shorten()
+{
+  std::size_t events = 0, left_out = 0;
+  const auto  extremes =
+      std::size_t(std::count_if(sentences_.begin(), sentences_.end(), [](const auto &one) { return one.stands_out; }));
+  const std::size_t          most = std::max(fewest_events, most_sentences - std::min(most_sentences, extremes));
+  std::vector<StorySentence> kept;
+  for (StorySentence &sentence : sentences_)
+    if (sentence.stands_out || ++events <= most)
+      kept.push_back(std::move(sentence));
+    else if (++left_out == 1)
+      kept.push_back({sentence.t, "", false});
+  for (StorySentence &sentence : kept)
+    if (sentence.text.empty())
+      sentence.text = "from here on " + std::to_string(left_out) + (left_out == 1 ? " sentence" : " sentences") +
+                      " on events left out: summary.json has all events";
+  sentences_ = std::move(kept);
 }
 
 void Story::add_events()
@@ -183,7 +265,7 @@ std::string Story::carried_by(std::size_t s, double t) const
     y.push_back(rows_.at(i, s + 1));
   }
   const double half = half_period_at(time, y, t);
-  if (!(half > 0.))
+  if (!(half > 0.) || !fine_between(t - 0.5 * half, t + 0.5 * half, of_swing))
     return "";
   const double f     = 0.5 / half;
   std::string  text  = ", half a swing of " + milliseconds(half);

@@ -11,10 +11,13 @@ namespace gestell::apps
 /**
  * A run told by its located events and by the extremes of its forces, in the order of time.
  *
- * Of an event: what the signals of its object show; what of them moves at a rate, and how much momentum its force
- * passes on until the object's next event (the integral of the force over the history).  Repetitions of a kind are told
- * twice, then counted.  Of an extreme of a force or torque: the vibration that it belongs to, by the time between its
- * neighbouring turning points, half a period, and the mode next to it in frequency with what it strains.
+ * Of an event: the forces of its object just before it and, where they jump, behind it; the rates of its displacements
+ * before it; and how much momentum its force passes on until the object's next event (trapezoids from event to event
+ * over the rows, where these are a tenth of that time apart or closer).  Nothing of that where the run went over the
+ * event.  Repetitions of a kind are told twice, then counted; of more than sixty sentences the latest events are left
+ * out, which is said, never extremes.  Of an extreme of a force or torque: the vibration that it belongs to, by the
+ * time between its neighbouring turning points, half a period (twenty rows or more), and the mode next to it in frequency
+ * with what it strains.
  */
 std::vector<StorySentence> story_sentences(const std::vector<coupling::Signal> &signals,
                                            const coupling::Machine &machine, const Result &result);

@@ -114,6 +114,31 @@ TEST(ComparedRun, OfTheLightVariantTellsItsGain)
               501.089 / 601.647, 1e-4);
 }
 
+/// A slider of that name on a spring.
+std::string slider_named(const std::string &name)
+{
+  return "name = \"" + name + "\"\n[body." + name +
+         "]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"1 kg\"\n[element." + name +
+         "_rest]\ntype = \"spring-damper\"\nfrom = \"" + name +
+         "\"\ndirection = [1, 0, 0]\nstiffness = \"10 N/mm\"\n[start]\nrule = \"given\"\nq = { " + name +
+         " = \"1 mm\" }\n[run]\nmethod = \"newmark\"\nstep = \"1 ms\"\nend = \"0.1 s\"\n[output.signals]\nx = \"" +
+         name + ".displacement\"\n";
+}
+
+// Their signals may be compared, their modes not; asked for these alone, it is an error.
+TEST(ComparedRun, OfMachinesWithoutACommonMotionHasNoModes)
+{
+  const test::SceneFolder folder;
+  Session session(folder.write("a.toml", slider_named("a"))), other(folder.write("b.toml", slider_named("b")));
+  require_comparable_runs(session, other);
+  apps::Result result = session.run();
+  add_compared_run(session, result, other);
+  EXPECT_TRUE(result.compared_run);
+  EXPECT_FALSE(result.compared_shapes);
+  EXPECT_THAT(refusal([&] { add_compared_modes(session, result, other, other.modes()); }),
+              ::testing::HasSubstr("share no motion"));
+}
+
 TEST(ComparedRun, NeedsASignalInCommon)
 {
   Session session(shipped("press_minimal.toml")), other(shipped("crane_minimal.toml"));

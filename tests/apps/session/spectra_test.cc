@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace gestell;
@@ -41,6 +42,77 @@ TEST(Spectra, FindAFrequencyInAHistoryWithEvents)
   EXPECT_NEAR(found->resolution_hz, 0.5, 1e-12);
   // Straight lines flatten a sine by (omega h)^2 / 12, some 0.1 %.
   EXPECT_NEAR(found->signals[0].amplitudes[100], 100., 0.3);
+}
+
+namespace
+{
+
+/// Rows of 100 N sin(2 pi f t) at distances h.
+coupling::RunResult sine(double f, double h, int rows)
+{
+  coupling::RunResult run;
+  run.columns = {"t", "F"};
+  run.units   = {"s", "N"};
+  run.signals = {{"F", "N"}};
+  for (int i = 0; i < rows; ++i)
+    run.rows.insert(run.rows.end(), {h * i, 100. * std::sin(2. * M_PI * f * h * i)});
+  return run;
+}
+
+std::size_t highest_line(const std::vector<double> &amplitudes)
+{
+  return std::size_t(std::max_element(amplitudes.begin(), amplitudes.end()) - amplitudes.begin());
+}
+
+} // namespace
+
+/// Rows at equal distances are not sampled anew: up to their half rate a sine has its line and its amplitude.
+TEST(Spectra, OfEvenRowsReachToHalfTheirRate)
+{
+  const auto found = spectra(sine(400., 1e-3, 1001));
+  ASSERT_TRUE(found.has_value());
+  const std::vector<double> &a    = found->signals[0].amplitudes;
+  const std::size_t          line = highest_line(a);
+  EXPECT_NEAR(double(line) * found->resolution_hz, 400., 1e-6);
+  EXPECT_NEAR(a[line], 100., 1e-6);
+  EXPECT_NEAR(found->carried_hz, 500., 1e-6);
+  EXPECT_EQ(a.size(), 501u);
+  EXPECT_LT(*std::max_element(a.begin(), a.begin() + 398), 1e-6); // nothing folds
+}
+
+/// The window gives up rows at the end rather than a fast transform, here of 2003, a prime.  The sine then stands
+/// between two lines, where the window leaves 85 % at least.
+TEST(Spectra, OfAPrimeNumberOfRowsFindTheFrequency)
+{
+  const auto found = spectra(sine(400., 1e-3, 2004));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_GT(found->samples, 1983);
+  const std::vector<double> &a = found->signals[0].amplitudes;
+  EXPECT_NEAR(double(highest_line(a)) * found->resolution_hz, 400., found->resolution_hz);
+  EXPECT_GT(a[highest_line(a)], 84.8);
+}
+
+/// 8192 lines of 10 s end at 819 Hz; what swings above is left out, not folded.
+TEST(Spectra, LeaveOutWhatStandsAboveTheLastLine)
+{
+  const auto found = spectra(sine(1300., 1. / 4000., 40001));
+  ASSERT_TRUE(found.has_value());
+  const std::vector<double> &a = found->signals[0].amplitudes;
+  EXPECT_EQ(a.size(), 8193u);
+  EXPECT_NEAR(found->carried_hz, 2000., 1e-6);
+  EXPECT_LT(*std::max_element(a.begin(), a.end()), 1.); // 1 % of its amplitude
+}
+
+/// Straight lines have images beyond half the rate, which come near from a quarter on.
+TEST(Spectra, OfUnevenRowsEndAtAQuarterOfTheirRate)
+{
+  coupling::RunResult run = sine(100., 1e-3, 1001);
+  for (std::size_t i = 2; i + 2 < run.rows.size(); i += 4)
+    run.rows[i] += 1e-4;
+  const auto found = spectra(run);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(found->carried_hz, 250., 1e-6);
+  EXPECT_NEAR(double(found->signals[0].amplitudes.size() - 1) * found->resolution_hz, 250., found->resolution_hz);
 }
 
 TEST(Spectra, OfAShortHistoryAreNone)

@@ -164,6 +164,82 @@ TEST(Story, OfThePressTellsItsCuttingShock)
     EXPECT_THAT(text, ::testing::HasSubstr(words));
 }
 
+std::string sentences_of(const apps::Result &result)
+{
+  std::string text;
+  for (const apps::StorySentence &sentence : result.story->sentences)
+    text += sentence.text + '\n';
+  return text;
+}
+
+std::string first_with(const apps::Result &result, const std::string &words)
+{
+  for (const apps::StorySentence &sentence : result.story->sentences)
+    if (sentence.text.find(words) != std::string::npos)
+      return sentence.text;
+  return "";
+}
+
+// What is told at an event comes from the motion there: rows a hundred times as far apart change none of it, and what
+// they cannot tell is left out.
+TEST(Story, AtEventsDoesNotDependOnTheDistanceOfRows)
+{
+  const std::vector<std::string> step{"run.step=\"20 us\""};
+  std::vector<std::string>       coarse = step;
+  coarse.push_back("output.step=\"2 ms\"");
+  const apps::Result close = told(shipped("press_minimal.toml"), step),
+                     far   = told(shipped("press_minimal.toml"), coarse);
+  ASSERT_TRUE(close.story && far.story);
+  const std::string own = first_with(close, "rod: conrod open"), his = first_with(far, "rod: conrod open");
+  const auto        head = [](const std::string &text) { return text.substr(0, text.find(';')); };
+  EXPECT_THAT(own, ::testing::HasSubstr("F_P"));
+  EXPECT_EQ(head(his), head(own));
+  EXPECT_THAT(sentences_of(close), ::testing::HasSubstr("until its next event 5.4"));
+  EXPECT_THAT(sentences_of(far), ::testing::Not(::testing::HasSubstr("until its next event 5.4")));
+}
+
+// A bead of 1 kg on a stop of 10 N/mm that it meets with v = omega A, A = 2 mm, omega = 100/s, takes from it
+// 2 m v = 0.4 N s within half a period, pi/omega.
+TEST(Story, OfABeadTellsTheMomentumThatItsStopTurnsRound)
+{
+  const test::SceneFolder folder;
+  const apps::Result      result = told(folder.write("bead.toml", bead));
+  const std::string       text   = sentences_of(result);
+  EXPECT_THAT(text, ::testing::ContainsRegex("until its next event 31.4 ms later it passes on -?0.4 N s"));
+  EXPECT_THAT(text, ::testing::ContainsRegex("x changes by -?0.2 m/s"));
+}
+
+// A machine of twenty-six such beads: sixty sentences, all extremes among them, and the count of the others.
+TEST(Story, LeavesOutEventsNotExtremes)
+{
+  std::string many = "name = \"beads\"\n", signals, start;
+  for (int i = 10; i < 36; ++i)
+  {
+    const std::string n = std::to_string(i), place = std::to_string(0.1 * i) + " mm\"";
+    many += "[body.b" + n + "]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"1 kg\"\n[element.s" + n +
+            "]\ntype = \"clearance\"\nfrom = \"b" + n +
+            "\"\ndirection = [1, 0, 0]\ngap = \"0.5 mm\"\nstiffness = \"10 N/mm\"\n";
+    start += (start.empty() ? "b" : ", b") + n + " = \"" + place;
+    signals += "F" + n + " = \"s" + n + ".force\"\n";
+  }
+  many += "[start]\nrule = \"given\"\nq = { " + start + " }\n[modes]\nat = { " + start +
+          " }\n[run]\nmethod = \"bdf\"\norder = 2\nstep = \"50 us\"\nend = \"0.2 s\"\n[output.signals]\n" + signals;
+  const test::SceneFolder folder;
+  const apps::Result      result = told(folder.write("beads.toml", many.c_str()));
+  ASSERT_TRUE(result.story);
+  std::size_t extremes = 0, inside = 0;
+  for (const apps::StorySentence &sentence : result.story->sentences)
+    extremes += sentence.stands_out ? 1 : 0;
+  for (const auto &signal : result.run->signals)
+    for (const double t : {signal.t_min, signal.t_max})
+      inside += t > 0. && t < 0.2 ? 1 : 0;
+  EXPECT_EQ(extremes, inside);
+  EXPECT_GE(extremes, 26u);
+  EXPECT_THAT(sentences_of(result), ::testing::HasSubstr("sentences on events left out"));
+  EXPECT_LE(result.story->sentences.size() - extremes,
+            std::max<std::size_t>(20u, 60u - std::min<std::size_t>(60u, extremes)) + 1u);
+}
+
 // The motor gives in a stroke what cut and losses take: between two passages of top dead centre the stored energy is
 // the same, and so is the speed.
 TEST(Strokes, OfThePressSettleOnTheWorkOfTheirCut)

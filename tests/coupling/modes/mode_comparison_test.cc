@@ -68,5 +68,13 @@ TEST(ModeComparison, LeavesOutWhatMovesInOneMachineAlone)
   EXPECT_EQ(compare_modes(A, B).mass[1], 0.);
 }
 
+// sum_i m_A,k A_ki^2 = 1 of each measure: one mode of three that three measures see has all of it.
+TEST(ModeComparison, SeenSumsUpToTheNumberOfMeasures)
+{
+  const Eigen::MatrixXd A = chain(masses);
+  for (int modes = 1; modes <= 3; ++modes)
+    EXPECT_NEAR(compare_modes(A.leftCols(modes), A).seen_a.sum(), 3., 1e-12) << modes;
+}
+
 } // namespace
 } // namespace gestell::tests

@@ -123,6 +123,19 @@ TEST(Recorder, FindsThePeaksInsideLongStepsToTheAccuracyOfTheDenseOutput)
   }
 }
 
+TEST(Recorder, KeepsValuesAndRatesAtAnEventHoweverFarApartRowsAre)
+{
+  const double    event = 0.347, step = 0.01;
+  const RunResult result = recorded(step, false, 2., 0.5, {}, event);
+  ASSERT_EQ(result.event_values.size(), 1u);
+  const EventValues &at = result.event_values[0];
+  EXPECT_EQ(at.t, event);
+  EXPECT_NEAR(at.before[0], std::sin(omega * event), 1e-14);
+  EXPECT_EQ(at.before, at.behind); // nothing jumps
+  // A parabola over two steps errs by a third of the third derivative times h^2 in its rate, and no more than that.
+  EXPECT_NEAR(at.rate[0], omega * std::cos(omega * event), std::pow(omega, 3) * step * step / 3.);
+}
+
 TEST(Recorder, TakesRowsAndPicturesFromTheDenseOutputWhereNoStepEnds)
 {
   const RunResult result = recorded(0.03, false, 0.505, 0.01);
