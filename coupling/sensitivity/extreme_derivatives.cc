@@ -13,7 +13,11 @@ using Eigen::Index;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double rounding  = 1e-9;  ///< of the largest value of a signal: what is smaller is zero but for rounding
+constexpr double rounding = 1e-9; ///< of the largest value of a signal: what is smaller is zero but for rounding
+/// Likewise at an event.  Its instant is located to delta = 1e-12 s or better, rounding of times of seconds and of the
+/// guard; a signal that goes to zero there, as a force of a contact of omega = sqrt(c/m) does, is told as y' delta =
+/// omega delta of its size: 1e-6 up to omega = 1e6 1/s, beyond what a run resolves.  Percentages of less say nothing.
+constexpr double located   = 1e-6;
 constexpr double of_values = 1e-13; ///< of the same, rounding of one value
 constexpr double distinct  = 30.;   ///< times its rounding is a second derivative at least
 
@@ -38,7 +42,7 @@ ExtremeDerivatives::ExtremeDerivatives(const RunResult &run, const std::vector<P
       outputs_.push_back({told.name + name, of, value, VectorXd::Constant(Index(twins.size()), none)});
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i)
-    outputs_[i].is_zero = i % 5 % 2 == 0 && std::abs(outputs_[i].value) <= rounding * sizes_[i / 5];
+    outputs_[i].is_zero = i % 5 % 2 == 0 && std::abs(outputs_[i].value) <= located * sizes_[i / 5];
   for (const Extreme &extreme : extremes_)
     if (is_rounding(extreme))
       for (const bool instant : {false, true})
@@ -92,8 +96,15 @@ void ExtremeDerivatives::at_event(double t, const Told &told, const VectorXd &ra
   {
     const Index  i   = Index(extreme.signal);
     const double off = std::abs(told.y[i] - extreme.value);
-    if (std::abs(extreme.t - t) > near_ || is_rounding(extreme) ||
-        !(off < extreme.off - rounding * std::abs(extreme.value)))
+    if (std::abs(extreme.t - t) > near_ || is_rounding(extreme))
+      continue;
+    if (extreme.value != 0. && std::abs(extreme.value) <= located * sizes_[extreme.signal])
+    {
+      for (const bool instant : {false, true})
+        leave_out(output(extreme, instant), "it is zero but for where its event was located");
+      continue;
+    }
+    if (!(off < extreme.off - rounding * std::abs(extreme.value)))
       continue;
     extreme.off = off;
     set(extreme, told.dy.row(i).transpose() + rates[i] * dt.transpose(), dt.transpose());

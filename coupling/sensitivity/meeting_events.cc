@@ -6,10 +6,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-} // namespace
-
 std::vector<std::string> meeting_events(const std::vector<OutputDerivatives> &outputs,
                                         const std::vector<ParameterTwins> &twins, double near)
 {

@@ -5,6 +5,7 @@
 #include "coupling/sensitivity/meeting_events.h"
 #include "coupling/sensitivity/signal_derivatives.h"
 #include "coupling/sensitivity/variational_steps.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <chrono>
@@ -75,6 +76,12 @@ double tolerance_for(const MethodOptions &method)
   return method.order > 2 ? finest : of_fixed_steps;
 }
 
+/// Of fixed steps, if 1 or 2; else 0.
+int order_of_steps(const MethodOptions &method)
+{
+  return controlled(method) || method.order > 2 ? 0 : method.order;
+}
+
 double length_of(const RunOptions &options)
 {
   return options.end - options.begin;
@@ -92,7 +99,8 @@ double first_step(const SensitivityProblem &problem)
 Passage::Passage(const SensitivityProblem &problem)
     : problem_(problem), machine_(problem.machine), K_(int(problem.twins.size())), equation_(machine_, problem.twins),
       signals_(machine_, problem.signals, problem.twins, equation_),
-      steps_(equation_, first_step(problem), tolerance_for(problem.options.method)),
+      steps_(equation_, first_step(problem), tolerance_for(problem.options.method),
+             order_of_steps(problem.options.method), problem.options.method.step),
       extremes_(problem.run, problem.twins, same_time * length_of(problem.options), length_of(problem.options)),
       growth_(machine_, equation_.mass_diagonal(), problem.trajectory, problem.twins),
       near_(same_time * length_of(problem.options))
@@ -360,6 +368,21 @@ void Passage::tell_end()
   extremes_.at_end(steps_.state().t, told, y_rates, end);
 }
 
+/// Of a motion too coarse to have the derivatives that its equations have along it.
+std::string coarse_motion(const VariationalAccuracy &accuracy, const SensitivityProblem &problem)
+{
+  Index        worst;
+  const double off    = accuracy.off.maxCoeff(&worst);
+  const auto   n      = (accuracy.off.array() > VariationalAccuracy::believed).count();
+  const auto  &method = problem.options.method;
+  return "derivatives by " + problem.twins[std::size_t(worst)].key +
+         (n > 1 ? " and " + std::to_string(n - 1) + (n > 2 ? " other entries" : " other entry") : "") +
+         " behind t = " + short_text(accuracy.behind) + " s may be off by about " + short_text(100. * off, 2) + " %: " +
+         (controlled(method) ? "nodes of the run lie too far apart for what moves there; give a smaller run.tolerance"
+                             : "steps of " + short_text(method.step) +
+                                   " s are too long for what moves there; give run.tolerance or a smaller run.step");
+}
+
 RunSensitivities Passage::result()
 {
   const auto wall = std::chrono::steady_clock::now();
@@ -374,6 +397,8 @@ RunSensitivities Passage::result()
   found.warnings = meeting_events(events_, problem_.twins, near_);
   for (std::string &warning : growth_.warnings())
     found.warnings.push_back(std::move(warning));
+  if (std::isfinite(steps_.accuracy().behind))
+    found.warnings.push_back(coarse_motion(steps_.accuracy(), problem_));
   found.outputs = extremes_.take();
   found.outputs.insert(found.outputs.end(), events_.begin(), events_.end());
   found.interrupted = interrupted_;

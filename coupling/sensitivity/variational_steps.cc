@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace gestell::coupling
@@ -27,9 +28,13 @@ constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96.
 constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
 constexpr double weak           = 0.1;      ///< coordinates that move less, in the norm of the mass, count as that
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
+constexpr double shortest_share = 1. / 16.; ///< of the distance of nodes: the motion in between is no better known
+constexpr double longest_told   = 4.;       ///< steps of the run against those here: beyond, differences tell nothing
 constexpr int    most_halvings  = 30;
 constexpr std::size_t looks     = 7;        ///< at a piece at least, for what acts on it
 constexpr std::size_t nodes_of_a_look = 20; ///< what is zero at each look and acts between them lasts no longer
+
+constexpr double never = std::numeric_limits<double>::infinity();
 } // namespace
 
 void PieceReader::begin(const SmoothPiece &piece)
@@ -109,14 +114,17 @@ void PieceReader::read(double close, MotionState &state)
   }
 }
 
-VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, double tolerance)
-    : equation_(equation), reader_(equation), step_(first), tolerance_(tolerance)
+VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, double tolerance, int run_order,
+                                   double run_step)
+    : equation_(equation), reader_(equation), step_(first), tolerance_(tolerance), run_order_(run_order),
+      run_step_(run_step)
 {
   size_q_.setZero(equation.machine().size(), equation.n_parameters());
   size_v_ = size_q_;
   for (MotionState *state : {&state_, &stage_state_})
     state->local.resize(equation.machine());
   root_mass_ = equation.mass_diagonal().cwiseSqrt();
+  accuracy_.off.setZero(equation.n_parameters());
 }
 
 /// Some of its instants.
@@ -179,7 +187,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     const double length = last ? left : step_;
     const bool   made   = try_step(last ? t : from + length);
     const double err    = error(length);
-    if (!made || (!(err <= 1.) && length > reader_.spacing()))
+    if (!made || (!(err <= 1.) && length > shortest_share * reader_.spacing()))
     {
       if (++halvings > most_halvings)
         throw ConvergenceFailure("the derivatives of the motion cannot be carried beyond t = " + std::to_string(from) +
@@ -189,6 +197,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
       continue;
     }
     halvings = 0;
+    note_accuracy(err, length);
     std::swap(state_, stage_state_);
     std::swap(at_, stage_at_);
     std::swap(columns_, stage_);
@@ -225,12 +234,38 @@ bool VariationalSteps::try_step(double to)
   return stage_.a.allFinite();
 }
 
-/// Largest error of the step against the tolerance, each coordinate by its own size.
-double VariationalSteps::error(double length) const
+/// Error of the step against the tolerance.
+double VariationalSteps::error(double length)
 {
-  e_q_ = length * (differences[0] * v_[0] + differences[1] * v_[1] + differences[2] * v_[2] + differences[4] * v_[4]);
-  e_v_ = length * (differences[0] * a_[0] + differences[1] * a_[1] + differences[2] * a_[2] + differences[4] * a_[4]);
-  double largest = 0.;
+  const auto embedded = [&](const std::array<MatrixXd, n_stages> &f) -> MatrixXd
+  { return length * (differences[0] * f[0] + differences[1] * f[1] + differences[2] * f[2] + differences[4] * f[4]); };
+  e_q_ = embedded(v_);
+  e_v_ = embedded(a_);
+  return relative_sizes().maxCoeff() / tolerance_;
+}
+
+/// What the step left beyond its tolerance, and what steps of the run would have left, as h y''/2 of order 1 and
+/// h^2 y'''/3 of order 2 tell, over its length.
+void VariationalSteps::note_accuracy(double error, double length)
+{
+  Eigen::RowVectorXd off = Eigen::RowVectorXd::Constant(size_q_.cols(), error > 1. ? error * tolerance_ : 0.);
+  if (run_order_ > 0)
+  {
+    const double h = std::min(run_step_, longest_told * length);
+    for (const auto &[e, f] : {std::pair(&e_q_, &v_), std::pair(&e_v_, &a_)}) // stages 0, 3, 1: a quarter step apart
+      *e = run_order_ == 1 ? MatrixXd(h * ((*f)[1] - (*f)[0]))
+                           : MatrixXd(16. / 3. * h * h / length * ((*f)[0] - 2. * (*f)[3] + (*f)[1]));
+    off += relative_sizes();
+  }
+  accuracy_.off += off;
+  if (accuracy_.off.maxCoeff() > accuracy_.believed && accuracy_.behind == never)
+    accuracy_.behind = state_.t;
+}
+
+/// Largest of e_q, e_v for each parameter, each coordinate by its own size.
+Eigen::RowVectorXd VariationalSteps::relative_sizes() const
+{
+  Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(size_q_.cols());
   for (const auto &[e, before, now] : {std::tuple(&e_q_, &size_q_, &stage_.q), std::tuple(&e_v_, &size_v_, &stage_.v)})
     for (Index k = 0; k < e->cols(); ++k)
     {
@@ -244,10 +279,10 @@ double VariationalSteps::error(double length) const
         const double own   = std::max((*before)(i, k), std::abs((*now)(i, k)));
         const double scale = root_mass_[i] > 0. ? std::max(own, floor / root_mass_[i]) : own;
         if (scale > 0.)
-          largest = std::max(largest, std::abs((*e)(i, k)) / scale);
+          largest[k] = std::max(largest[k], std::abs((*e)(i, k)) / scale);
       }
     }
-  return largest / tolerance_;
+  return largest;
 }
 
 } // namespace gestell::coupling

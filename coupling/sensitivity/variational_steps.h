@@ -5,6 +5,7 @@
 
 #include <array>
 #include <atomic>
+#include <limits>
 
 namespace gestell::coupling
 {
@@ -20,7 +21,7 @@ public:
   /// q, q' at state.t.
   /// @param close  [s] nodes that are no farther apart lie close
   void read(double close, MotionState &state);
-  /// [s] of the nodes about where it was read last: what is shorter the run did not resolve.
+  /// [s] of the nodes about where it was read last
   double spacing() const;
 
 private:
@@ -33,11 +34,22 @@ private:
   MotionState                                            node_;
 };
 
+/// How far the derivatives of a motion can be believed, relative to the largest of them.
+struct VariationalAccuracy
+{
+  static constexpr double believed = 0.02; ///< errors up to it are not told
+
+  Eigen::RowVectorXd off; ///< of each parameter: sum of the errors of steps
+  double             behind = std::numeric_limits<double>::infinity(); ///< [s] from where one of them is not believed
+};
+
 /**
  * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
  * stages and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the
- * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are not
- * divided: what seems to move faster is its own error.
+ * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are
+ * divided down to a sixteenth; what that leaves counts to the accuracy, as does what the method of the run, with its
+ * step, would make of these derivatives: y'' and y''' by differences of the stages.  The run did make the motion by
+ * that method, so that the motion errs alike.
  *
  * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6).
  */
@@ -46,7 +58,10 @@ class VariationalSteps
 public:
   /// @param first      [s] the first step that is tried
   /// @param tolerance  of a step, of the largest derivatives so far or those expected
-  VariationalSteps(VariationalEquation &equation, double first, double tolerance);
+  /// @param run_order  of the run's method by fixed steps, if 1 or 2, whose errors are found; 0: they are not
+  /// @param run_step   [s] likewise
+  VariationalSteps(VariationalEquation &equation, double first, double tolerance, int run_order = 0,
+                   double run_step = 0.);
 
   /// Derivatives count from these sizes on, however small they have been so far.  @param s, s_rate  [n x K]
   void expect(const Eigen::MatrixXd &s, const Eigen::MatrixXd &s_rate);
@@ -63,24 +78,31 @@ public:
   double               step() const { return step_; } ///< [s] short against what moves
   long                 steps() const { return n_steps_; }
 
+  const VariationalAccuracy &accuracy() const { return accuracy_; }
+
 private:
   static constexpr int n_stages = 5;
 
-  bool   try_step(double to);
-  void   look_along(const SmoothPiece &piece);
-  double error(double length) const;
-  void   note_sizes();
+  bool               try_step(double to);
+  void               look_along(const SmoothPiece &piece);
+  double             error(double length);
+  Eigen::RowVectorXd relative_sizes() const;
+  void               note_accuracy(double error, double length);
+  void               note_sizes();
 
   VariationalEquation                  &equation_;
   PieceReader                           reader_;
   double                                step_, tolerance_;
+  int                                   run_order_;
+  double                                run_step_;
   long                                  n_steps_ = 0;
   MotionState                           state_, stage_state_;
   Linearised                            at_, stage_at_;
   MotionColumns                         columns_, stage_;
   std::array<Eigen::MatrixXd, n_stages> v_, a_;           ///< s', s'' of the stages
   Eigen::MatrixXd                       size_q_, size_v_; ///< largest |s|, |s'| so far
-  mutable Eigen::MatrixXd               e_q_, e_v_;
+  Eigen::MatrixXd                       e_q_, e_v_;       ///< errors of a step
+  VariationalAccuracy                   accuracy_;
   Eigen::VectorXd                       root_mass_;
 };
 

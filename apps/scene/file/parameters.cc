@@ -1,5 +1,7 @@
 #include "apps/scene/file/parameters.h"
 
+#include "apps/scene/file/idle_parameter.h"
+
 #include "apps/scene/file/override_rules.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/tokens.h"
@@ -164,8 +166,8 @@ void Parameters::refuse_idle_overrides() const
 {
   for (const auto &[name, place] : overrides_)
     if (used_.count(name) == 0)
-      place.fail("no value of the scene depends on the parameter '" + name + "', so that it changes nothing" +
-                 suggestion(name, {used_.begin(), used_.end()}));
+      throw IdleParameter(place.text() + ": no value of the scene depends on the parameter '" + name +
+                          "', so that it changes nothing" + suggestion(name, {used_.begin(), used_.end()}));
 }
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "apps/session/sensitivity/scene_twins.h"
 
+#include "apps/scene/file/idle_parameter.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
@@ -75,6 +76,12 @@ public:
     try
     {
       return std::make_unique<Scene>(read_scene(varied, file_.path, file_.scripts));
+    }
+    catch (const IdleParameter &)
+    {
+      throw IdleParameter("--sensitivities " + key_.told.key +
+                          ": no value of the scene depends on this parameter, so that all derivatives by it are zero; "
+                          "leave it out");
     }
     catch (const std::invalid_argument &refused)
     {
@@ -228,11 +235,18 @@ SceneTwins scene_twins(const SceneFileAt &file, const Scene &scene, PreparedMach
     frame = without_pictures(*prepared.machine.model().reduced_frame());
   SceneTwins             made;
   std::vector<VariedKey> kept;
+  std::string            idle;
   for (VariedKey &key : keys)
     try
     {
       add_twins(file, scene, prepared, frame ? &*frame : nullptr, progress, key, made);
       kept.push_back(key);
+    }
+    catch (const IdleParameter &)
+    {
+      if (!left_out)
+        throw;
+      idle += (idle.empty() ? "" : ", ") + key.told.key;
     }
     catch (const std::invalid_argument &none)
     {
@@ -240,6 +254,8 @@ SceneTwins scene_twins(const SceneFileAt &file, const Scene &scene, PreparedMach
         throw;
       left_out->push_back(none.what());
     }
+  if (!idle.empty())
+    left_out->push_back("--sensitivities all leaves out parameters on which no value of the scene depends: " + idle);
   if (kept.empty())
     throw std::invalid_argument("--sensitivities all: no parameter of this scene has a derivative: " +
                                 left_out->front());

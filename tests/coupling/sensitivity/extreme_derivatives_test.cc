@@ -72,6 +72,26 @@ TEST_F(Extremes, ThatAreZeroButForRoundingHaveNone)
   EXPECT_THAT(outputs[0].note, ::testing::HasSubstr("zero but for rounding"));
 }
 
+TEST_F(Extremes, AtAnEventThatAreZeroButForItsLocationHaveNone)
+{
+  // A force of 19.6 kN is told as -2.5e-5 N where its contact ends.
+  const VectorXd slope    = VectorXd::Constant(1, 6e7);
+  auto           extremes = of(-2.5e-5, 19613.);
+  extremes.at_event(0.2, told(-2.5e-5, -2e7), slope, RowVectorXd::Constant(1, 0.5));
+  const auto outputs = extremes.take();
+  EXPECT_TRUE(std::isnan(outputs[0].derivative[0]));
+  EXPECT_TRUE(std::isnan(outputs[1].derivative[0]));
+  EXPECT_TRUE(outputs[0].is_zero);
+  EXPECT_THAT(outputs[0].note, ::testing::HasSubstr("located"));
+
+  // Where the signal turns, the value is as exact as the motion, and a percentage of it is none.
+  auto turning = of(-2.5e-5, 19613.);
+  turning.at_turn(0.2, told(-2.5e-5, 3.), rates(0., 1e9, 2.), way, step);
+  const auto turned = turning.take();
+  EXPECT_EQ(turned[0].derivative[0], 3.);
+  EXPECT_TRUE(turned[0].is_zero);
+}
+
 TEST_F(Extremes, ThatALawMakesExactlyZeroHaveOne)
 {
   auto extremes = of(0., 9.);

@@ -77,6 +77,24 @@ Made bouncing(const VectorXd &x)
   return {std::move(machine), start(0., x[3]), std::move(signals)};
 }
 
+/// By BDF of order 2 with fixed steps that are omega h of the half sine in the stop.
+Differentiated by_fixed_steps(double omega_h)
+{
+  const VectorXd x = (VectorXd(4) << 3., 4800., 0.2, 0.8).finished();
+  RunOptions     options;
+  options.method.step = omega_h / 40.;
+  options.end         = 0.5;
+  return differentiated(bouncing, x, options);
+}
+
+TEST(RunSensitivities, OfAContactTooStiffForTheStepsOfTheRunAreWarnedOf)
+{
+  // h^2/3 omega^3 (pi/omega) = (omega h)^2 pi/3: 0.17 and 2e-4 of steps of 0.4 and 0.014
+  ASSERT_EQ(by_fixed_steps(0.4).found.warnings.size(), 1u);
+  EXPECT_NE(by_fixed_steps(0.4).found.warnings.front().find("smaller run.step"), std::string::npos);
+  EXPECT_TRUE(by_fixed_steps(0.014).found.warnings.empty());
+}
+
 TEST(RunSensitivities, GoOverAContactWithTheTimeAtWhichItBegins)
 {
   const double   m = 3., c = 4800., gap = 0.2, v = 0.8, omega = 40.;

@@ -24,10 +24,9 @@ Machine oscillator(double c)
 }
 
 /// q_0 cos(omega t), by nodes so close that what lies between them is known to 1e-10.
-SmoothPiece exact_motion()
+SmoothPiece exact_motion(int n = 800)
 {
-  SmoothPiece   piece;
-  constexpr int n = 800;
+  SmoothPiece piece;
   for (int i = 0; i <= n; ++i)
   {
     const double t = T * i / n;
@@ -58,6 +57,36 @@ TEST(VariationalSteps, HaveOrderFour)
 {
   EXPECT_NEAR(std::log2(end_error(20) / end_error(40)), 4., 0.3);
   EXPECT_NEAR(std::log2(end_error(40) / end_error(80)), 4., 0.15);
+}
+
+/// What a run of n steps by a method of order p is told to make of dq/dc.
+double told_accuracy(int n, int p)
+{
+  Machine machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
+          above                     = oscillator(stiffness * (1. + 1e-6));
+  std::vector<ParameterTwins> twins = {
+      {"c", "N/m", stiffness, 1e-6 * stiffness, {&below, {}, {}, T}, {&above, {}, {}, T}}};
+  VariationalEquation equation(machine, twins);
+  VariationalSteps    steps(equation, T / 100., 1e300, p, T / n);
+  const SmoothPiece   piece   = exact_motion(n);
+  const double        largest = q_0 * omega * T / (2. * stiffness);
+  steps.expect(MatrixXd::Constant(1, 1, largest), MatrixXd::Constant(1, 1, omega * largest));
+  steps.begin(piece, VectorXd(), MatrixXd::Zero(1, 1), MatrixXd::Zero(1, 1));
+  for (int i = 1; i <= 100; ++i)
+    steps.advance_to(T * i / 100.);
+  return steps.accuracy().off[0];
+}
+
+TEST(VariationalSteps, TellWhatTheMethodOfTheRunWouldMakeOfDerivatives)
+{
+  // h^2/3 omega^3 T of order 2 and h/2 omega^2 T of order 1, as s' goes through omega T, but for a
+  // factor: s grows to its largest at T.
+  const double h = T / 800.;
+  EXPECT_NEAR(std::log2(told_accuracy(400, 2) / told_accuracy(800, 2)), 2., 0.05);
+  EXPECT_NEAR(std::log2(told_accuracy(400, 1) / told_accuracy(800, 1)), 1., 0.05);
+  EXPECT_NEAR(std::log(told_accuracy(800, 2) / (h * h / 3. * omega * omega * omega * T)), 0., std::log(3.));
+  EXPECT_NEAR(std::log(told_accuracy(800, 1) / (h / 2. * omega * omega * T)), 0., std::log(3.));
+  EXPECT_EQ(told_accuracy(800, 0), 0.);
 }
 
 } // namespace
