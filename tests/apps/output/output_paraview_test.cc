@@ -153,10 +153,12 @@ TEST_F(ParaviewFiles, CoupledModesMoveFrameAndBodiesTogetherTheLargestByATwentie
   EXPECT_EQ(names_of_bodies->GetValue(1), "slide");
   for (vtkIdType i = 0; i < mechanism->GetNumberOfCells(); ++i)
     if (mechanism->GetCellData()->GetArray("body")->GetTuple1(i) == 2)
+    {
       EXPECT_NEAR(mechanism->GetPointData()
                       ->GetArray("displacement [m]")
                       ->GetComponent(mechanism->GetCell(i)->GetPointId(0), 2),
                   -0.5 * sway, 1e-5); // down, along its axis
+    }
 }
 
 TEST_F(ParaviewFiles, VelocitiesAreThoseOfThePointsOfFrameAndBodies)
@@ -178,7 +180,9 @@ TEST_F(ParaviewFiles, VelocitiesAreThoseOfThePointsOfFrameAndBodies)
     if (body == 1)
       rim = std::max(rim, std::abs(velocity->GetComponent(point, 2))); // omega r at the outermost point aside
     if (body == 2)
+    {
       EXPECT_NEAR(velocity->GetComponent(point, 2), -0.5, 1e-6);
+    }
   }
   EXPECT_NEAR(rim, 10. * 0.3, 0.1);
 }
