@@ -1,6 +1,7 @@
 #include "apps/output/tables/comparison_table.h"
 
 #include "apps/output/tables/noise.h"
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -65,11 +66,6 @@ std::array<ComparedExtreme, 2> extremes_of(const coupling::SignalSummary &a, con
   return {{{"max", a.max, a.t_max, b.max, b.t_max}, {"min", a.min, a.t_min, b.min, b.t_min}}};
 }
 
-std::string signal_field(const std::string &name)
-{
-  return name.find_first_of(",\"") == std::string::npos ? name : '"' + name + '"';
-}
-
 } // namespace
 
 std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &other)
@@ -78,7 +74,7 @@ std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &
   for (const SharedSignal shared : shared_signals(run, other.run))
     for (const ComparedExtreme &own : extremes_of(run.signals[shared.a], other.run.signals[shared.b]))
     {
-      csv += signal_field(run.signals[shared.a].name) + ',' + run.signals[shared.a].unit + ',' + own.which;
+      csv += csv_field(run.signals[shared.a].name) + ',' + run.signals[shared.a].unit + ',' + own.which;
       for (const double x : {own.value, own.t, own.other, own.other_t, own.ratio()})
         append_exact(csv += ',', x);
       csv += '\n';

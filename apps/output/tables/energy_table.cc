@@ -1,5 +1,6 @@
 #include "apps/output/tables/energy_table.h"
 
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -14,16 +15,6 @@ namespace
 
 constexpr double      told       = 0.01; ///< share from which on words tell it
 constexpr std::size_t most_parts = 4;
-
-std::string part_field(const std::string &name)
-{
-  if (name.find_first_of(",\"") == std::string::npos)
-    return name;
-  std::string quoted = "\"";
-  for (const char c : name)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 Json shares_of(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, Eigen::Index mode)
 {
@@ -52,7 +43,7 @@ void append_rows(std::string &csv, const std::string &head, const char *energy, 
                  const Eigen::MatrixXd &shares, Eigen::Index mode)
 {
   for (std::size_t i = 0; i < names.size(); ++i)
-    csv += head + energy + "," + part_field(names[i]) + "," + exact_text(shares(Eigen::Index(i), mode)) + "\n";
+    csv += head + energy + "," + csv_field(names[i]) + "," + exact_text(shares(Eigen::Index(i), mode)) + "\n";
 }
 
 } // namespace

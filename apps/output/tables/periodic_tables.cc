@@ -2,6 +2,7 @@
 
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/section_table.h"
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -11,17 +12,11 @@ namespace gestell::apps
 namespace
 {
 
-/// A name in the first line of a table, quoted where it holds a comma.
-std::string head(const std::string &name)
-{
-  return name.find(',') == std::string::npos ? name : '"' + name + '"';
-}
-
 std::string parameter_head(const PeriodicResult &result)
 {
   if (result.parameter.empty())
     return "parameter";
-  return head(result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]"));
+  return csv_field(result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]"));
 }
 
 std::string yes_no(const coupling::PeriodicSolution &solution)
@@ -98,10 +93,10 @@ std::string solutions_csv(const PeriodicResult &result)
     for (const SignalOrbit &signal : result.entries.front().signals)
     {
       for (const char *what : {" max", " min", " mean"})
-        csv += ',' + head(signal.name + what);
+        csv += ',' + csv_field(signal.name + what);
       for (std::size_t k = 1; k <= signal.amplitude.size(); ++k)
-        csv +=
-            ',' + head(signal.name + " a" + std::to_string(k)) + ',' + head(signal.name + " phi" + std::to_string(k));
+        csv += ',' + csv_field(signal.name + " a" + std::to_string(k)) + ',' +
+               csv_field(signal.name + " phi" + std::to_string(k));
     }
   csv += '\n';
   int number = 0;
@@ -171,7 +166,7 @@ std::vector<std::pair<std::string, std::string>> orbit_files(const PeriodicResul
     const std::size_t width = entry.signals.size() + 1;
     std::string       csv   = "t [s]";
     for (const SignalOrbit &signal : entry.signals)
-      csv += ',' + head(signal.name + " [" + signal.unit + "]");
+      csv += ',' + csv_field(signal.name + " [" + signal.unit + "]");
     csv += '\n';
     for (std::size_t i = 0; i < entry.rows.size(); ++i)
     {

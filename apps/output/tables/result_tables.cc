@@ -9,6 +9,7 @@
 #include "apps/output/tables/size_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
+#include "apps/output/text/csv.h"
 #include "apps/output/text/json.h"
 #include "fem/values/number_text.h"
 
@@ -19,17 +20,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-/// A field of a CSV row (RFC 4180): quoted where it holds a separator, a quote or a line end.
-std::string csv_field(const std::string &text)
-{
-  if (text.find_first_of(",\"\r\n") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 Json numbers(const double *x, int n)
 {

@@ -1,16 +1,12 @@
 #include "apps/output/tables/section_table.h"
 
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 namespace gestell::apps
 {
 namespace
 {
-
-std::string quoted_head(const std::string &name)
-{
-  return name.find(',') == std::string::npos ? name : '"' + name + '"';
-}
 
 std::string kind_text(const coupling::Recurrence &motion)
 {
@@ -44,9 +40,9 @@ std::string section_csv(const PeriodicResult &result)
   const LongRun &run = *result.long_run;
   std::string    csv = "period";
   for (const std::string &name : result.coordinates)
-    csv += ',' + quoted_head(name) + ',' + quoted_head(name + "'");
+    csv += ',' + csv_field(name) + ',' + csv_field(name + "'");
   for (const std::string &column : run.columns)
-    csv += ',' + quoted_head(column);
+    csv += ',' + csv_field(column);
   csv += '\n';
   const Eigen::MatrixXd &section = run.motion.section;
   const auto             n = section.rows() / 2, width = Eigen::Index(run.columns.size());

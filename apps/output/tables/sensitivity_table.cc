@@ -1,5 +1,6 @@
 #include "apps/output/tables/sensitivity_table.h"
 
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -15,16 +16,6 @@ namespace
 
 constexpr double      no_change = 1e-9; ///< [%] that is rounding
 constexpr std::size_t most_told = 3;    ///< keys of an output in a terminal
-
-std::string in_quotes(const std::string &name)
-{
-  if (name.find_first_of(",\"") == std::string::npos)
-    return name;
-  std::string quoted = "\"";
-  for (const char c : name)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 /// Why there is no derivative, or how the frame's share was found.
 std::string note_of(const SensitivityOutput &output, const SensitivityKey &key, Eigen::Index k)
@@ -65,9 +56,9 @@ std::string sensitivities_csv(const SensitivityResult &result)
     for (Eigen::Index k = 0; k < output.derivative.size(); ++k)
     {
       const SensitivityKey &key = result.keys[std::size_t(k)];
-      csv += in_quotes(output.output) + ',' + in_quotes(key.key) + ',' + number(output.derivative[k]) + ',' +
-             in_quotes(derivative_unit(output, key)) + ',' + number(output.percent(key, k)) + ',' +
-             in_quotes(note_of(output, key, k)) + '\n';
+      csv += csv_field(output.output) + ',' + csv_field(key.key) + ',' + number(output.derivative[k]) + ',' +
+             csv_field(derivative_unit(output, key)) + ',' + number(output.percent(key, k)) + ',' +
+             csv_field(note_of(output, key, k)) + '\n';
     }
   return csv;
 }

@@ -1,6 +1,7 @@
 #include "apps/output/tables/size_table.h"
 
 #include "apps/output/tables/budget_table.h"
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -17,11 +18,6 @@ namespace
 std::string field(const std::optional<double> &value)
 {
   return value ? ',' + exact_text(*value) : ",";
-}
-
-std::string quoted(const std::string &name)
-{
-  return name.find_first_of(",\"") == std::string::npos ? name : '"' + name + '"';
 }
 
 } // namespace
@@ -62,7 +58,7 @@ std::string size_csv(const SizeResult &size)
   for (const BudgetEntry &entry : size.ladder.front().entries)
   {
     for (const char *what : {"value", "mesh", "reduction", "time", "total"})
-      csv += ',' + quoted(entry.output + ' ' + what + " [" + entry.unit + ']');
+      csv += ',' + csv_field(entry.output + ' ' + what + " [" + entry.unit + ']');
   }
   csv += '\n';
   int number = 0;
@@ -89,7 +85,7 @@ std::string size_all_csv(const SizeResult &size)
     csv += (rung.mesh_size > 0. ? exact_text(rung.mesh_size) : "") + ',' + std::to_string(rung.coordinates) + ',' +
            std::to_string(rung.interface) + ',' + (rung.modes >= 0 ? std::to_string(rung.modes) : "") + ',' +
            rung.method + field(rung.step) + field(rung.tolerance) + field(rung.cpu_s) + field(rung.share) + ',' +
-           quoted(rung.worst) + '\n';
+           csv_field(rung.worst) + '\n';
   return csv;
 }
 

@@ -1,5 +1,6 @@
 #include "apps/study/report/study_tables.h"
 
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -8,17 +9,6 @@ namespace gestell::apps
 {
 namespace
 {
-
-/// A text in a table, in quotes where it holds a comma or a quote.
-std::string csv_text(const std::string &text)
-{
-  if (text.find_first_of(",\"") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
 
 /// ",x"; nothing behind the comma for what is not known.
 std::string csv_number(double x)
@@ -33,7 +23,7 @@ std::string surface_csv(const std::vector<ResponseSurface> &surfaces)
   std::string csv = "output,term,coefficient,confidence\n";
   for (const ResponseSurface &surface : surfaces)
     for (int j = 0; j < surface.coefficients.size(); ++j)
-      csv += csv_text(surface.output.name) + "," + csv_text(surface.term_name(j)) +
+      csv += csv_field(surface.output.name) + "," + csv_field(surface.term_name(j)) +
              csv_number(surface.coefficients(j)) + csv_number(surface.confidence(j)) + "\n";
   return csv;
 }
@@ -46,7 +36,7 @@ std::string surface_quality_csv(const std::vector<ResponseSurface> &surfaces)
   for (const ResponseSurface &surface : surfaces)
   {
     const FitQuality &q = surface.quality;
-    csv += csv_text(surface.output.head()) + "," + std::to_string(q.n_runs) + "," + std::to_string(q.n_coefficients);
+    csv += csv_field(surface.output.head()) + "," + std::to_string(q.n_runs) + "," + std::to_string(q.n_coefficients);
     for (const double x : {q.r2, q.adjusted_r2, q.predicted_r2, q.standard_error, q.press, q.lack_of_fit,
                            static_cast<double>(q.lack_of_fit_dof), q.pure_error, static_cast<double>(q.pure_error_dof),
                            q.lack_of_fit_F, q.lack_of_fit_p_value})
@@ -61,7 +51,7 @@ std::string effects_csv(const std::vector<ResponseSurface> &surfaces)
   std::string csv = "output,effect,kind,value,confidence,share of variance\n";
   for (const ResponseSurface &surface : surfaces)
     for (const Effect &effect : effects_of(surface))
-      csv += csv_text(surface.output.name) + "," + csv_text(effect.name) + "," + kind_word(effect.kind) +
+      csv += csv_field(surface.output.name) + "," + csv_field(effect.name) + "," + kind_word(effect.kind) +
              csv_number(effect.value) + csv_number(effect.confidence) + csv_number(effect.share) + "\n";
   return csv;
 }
@@ -70,9 +60,9 @@ std::string front_csv(const StudyFindings &findings)
 {
   std::string csv = "point";
   for (const StudyVariable &variable : findings.table.variables)
-    csv += "," + csv_text(variable.head());
+    csv += "," + csv_field(variable.head());
   for (const StudyOutput &output : findings.table.outputs)
-    csv += "," + csv_text(output.head());
+    csv += "," + csv_field(output.head());
   csv += "\n";
   int number = 0;
   for (const ParetoPoint &point : findings.front)
@@ -97,7 +87,7 @@ std::string robust_csv(const std::vector<RobustResult> &results)
   for (const RobustResult &result : results)
     for (const RobustFigures &f : result.figures)
     {
-      csv += result.source + "," + csv_text(f.output.head()) + "," + std::to_string(result.draws) + "," +
+      csv += result.source + "," + csv_field(f.output.head()) + "," + std::to_string(result.draws) + "," +
              std::to_string(result.failed);
       for (const double x : {f.nominal, f.mean, f.mean_error, f.deviation, f.deviation_error, f.min, f.max})
         csv += csv_number(x);

@@ -1,5 +1,6 @@
 #include "apps/study/runs/rows_file.h"
 
+#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -22,14 +23,11 @@ namespace
 constexpr auto failed_word = "failed: ";
 
 /// In quotes where it must be; on one line.
-std::string cell(const std::string &text)
+std::string cell(std::string text)
 {
-  if (text.find_first_of(",\"\n\r") == std::string::npos)
-    return text;
-  std::string quoted = "\"";
-  for (const char c : text)
-    quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' || c == '\r' ? ' ' : c);
-  return quoted + '"';
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return csv_field(text);
 }
 
 std::vector<std::string> cells_of(const std::string &line)

@@ -1,5 +1,6 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
+#include "apps/output/text/csv.h"
 #include "apps/output/text/json.h"
 #include "apps/output/text/write_file.h"
 #include "fem/values/number_text.h"
@@ -270,4 +271,12 @@ TEST_F(ResultFolder, ReportsAFileThatCannotBeWritten)
 {
   fs::create_directories(folder / "summary.json");
   EXPECT_THROW(write_file(folder / "summary.json", "{}"), std::runtime_error);
+}
+
+TEST(CsvField, IsQuotedWhereItMustBeWithItsQuotesDoubled)
+{
+  EXPECT_EQ(csv_field("F_P [N]"), "F_P [N]");
+  EXPECT_EQ(csv_field("F, largest"), "\"F, largest\"");
+  EXPECT_EQ(csv_field("12\" pipe"), "\"12\"\" pipe\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }

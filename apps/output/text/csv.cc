@@ -1,0 +1,16 @@
+#include "apps/output/text/csv.h"
+
+namespace gestell::apps
+{
+
+std::string csv_field(const std::string &text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string::npos)
+    return text;
+  std::string quoted = "\"";
+  for (const char c : text)
+    quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+} // namespace gestell::apps
