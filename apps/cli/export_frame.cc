@@ -1,5 +1,6 @@
 #include "apps/cli/export_frame.h"
 
+#include "apps/scene/file/written_text.h"
 #include "coupling/frame/matrix_market.h"
 #include "coupling/frame/petsc_binary.h"
 #include "coupling/frame/whole_file.h"
@@ -24,14 +25,6 @@ std::string digits(double x)
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", x);
   return text;
-}
-
-std::string quoted(const std::string &text)
-{
-  std::string result = "\"";
-  for (const char c : text)
-    result += (c == '"' || c == '\\' ? std::string("\\") : std::string()) + c;
-  return result + '"';
 }
 
 /// Files of one export.
@@ -87,7 +80,7 @@ std::string node_table(const coupling::ReducedFrame &frame)
   out << "name, x, y, z, ux, uy, uz, rx, ry, rz\n";
   for (const auto &interface : frame.interfaces)
   {
-    out << quoted(interface.name);
+    out << written_text(interface.name);
     for (const double x : interface.position)
       out << ", " << digits(x);
     for (int motion = 0; motion < 6; ++motion)
@@ -163,7 +156,7 @@ std::vector<std::string> export_frame(const std::string &folder, const coupling:
   files.remove(whole);
   std::string scene = "# " + remark + "\n# Paths are relative to the scene that takes this table.\n[frame]\n";
   const auto  add   = [&](const std::string &key, const Eigen::MatrixXd &A, bool symmetric = false)
-  { scene += key + " = " + quoted(files.matrix(key, A, symmetric)) + '\n'; };
+  { scene += key + " = " + written_text(files.matrix(key, A, symmetric)) + '\n'; };
   add("mass", frame.M, true);
   add("damping", frame.B, true);
   add("stiffness", frame.C, true);

@@ -1,5 +1,7 @@
 #include "apps/python/scene_values.h"
 
+#include "apps/scene/file/written_text.h"
+
 #include <cmath>
 
 namespace gestell::python
@@ -48,14 +50,6 @@ SceneNode array_node(SceneNode node, const std::string &key, py::handle values)
   for (const py::handle &value : values)
     node.elements.push_back(node_of(value, node.place, node.folder, key));
   return node;
-}
-
-std::string quoted(const std::string &text)
-{
-  std::string escaped = "\"";
-  for (const char c : text)
-    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
-  return escaped + '"';
 }
 
 } // namespace
@@ -138,7 +132,7 @@ std::string toml_of(const SceneNode &node)
       text += (text.empty() ? "" : ", ") + toml_of(element);
     return '[' + text + ']';
   case Type::text:
-    return quoted(node.text);
+    return apps::written_text(node.text);
   default:
     return node.text;
   }

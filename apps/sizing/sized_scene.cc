@@ -1,5 +1,6 @@
 #include "apps/sizing/sized_scene.h"
 
+#include "apps/scene/file/written_text.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -17,21 +18,13 @@ std::string number(double value)
   return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
 
-std::string quoted(const std::string &text)
-{
-  std::string escaped = "\"";
-  for (const char c : text)
-    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
-  return escaped + '"';
-}
-
 /// A value of the command line as TOML has it: what is no number, list, table, truth or text in quotes already is text.
 std::string toml_value(const std::string &value)
 {
   const bool literal = value == "true" || value == "false" ||
                        (!value.empty() && (value[0] == '"' || value[0] == '[' || value[0] == '{')) ||
                        (!value.empty() && value.find_first_not_of("+-0123456789.eE_") == std::string::npos);
-  return literal ? value : quoted(value);
+  return literal ? value : written_text(value);
 }
 
 } // namespace
@@ -45,29 +38,29 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
   {
     sizes.emplace_back("frame.mesh.size", number(sized.frame.geometry.mesh.size));
     if (model.swept)
-      sizes.emplace_back("frame.mesh.plates", quoted("swept"));
+      sizes.emplace_back("frame.mesh.plates", written_text("swept"));
     for (const auto &[surface, size] : sized.frame.geometry.mesh.surface_size)
-      sizes.emplace_back("frame.mesh." + quoted(surface), number(size));
+      sizes.emplace_back("frame.mesh." + written_text(surface), number(size));
   }
   std::vector<std::string> written; // a part that is the same as another has its mesh
   for (const coupling::FramePart &part : sized.frame.parts.parts)
     if (meshes_of_parts_are_made(scene) &&
         std::find(written.begin(), written.end(), part.geometry.place) == written.end())
     {
-      const std::string key = "frame.part." + quoted(part.name) + ".mesh.";
+      const std::string key = "frame.part." + written_text(part.name) + ".mesh.";
       written.push_back(part.geometry.place);
       sizes.emplace_back(key + "size", number(part.geometry.mesh.size));
       for (const auto &[surface, size] : part.geometry.mesh.surface_size)
-        sizes.emplace_back(key + quoted(surface), number(size));
+        sizes.emplace_back(key + written_text(surface), number(size));
     }
   if (!written.empty())
-    sizes.emplace_back("frame.modes", quoted("all"));
+    sizes.emplace_back("frame.modes", written_text("all"));
   if (!model.reduction.empty())
-    sizes.emplace_back("reduction.method", quoted(model.reduction));
+    sizes.emplace_back("reduction.method", written_text(model.reduction));
   if (model.modes >= 0)
     sizes.emplace_back("reduction.modes", std::to_string(model.modes));
   const coupling::MethodOptions &method = sized.run.options.method;
-  sizes.emplace_back("run.method", quoted(method.method));
+  sizes.emplace_back("run.method", written_text(method.method));
   if (method.step > 0.) // of a controlled method the longest; none: as long as may be
     sizes.emplace_back("run.step", number(method.step));
   if (controlled(method))
@@ -78,9 +71,8 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
   std::ostringstream text;
   const auto         base =
       std::filesystem::proximate(std::filesystem::absolute(scene.file), std::filesystem::absolute(folder));
-  text << "# " << scene.name
-       << " with no more model than its outputs need, by gestell size.\nextends = " << quoted(base.generic_string())
-       << "\n\n";
+  text << "# " << scene.name << " with no more model than its outputs need, by gestell size.\nextends = "
+       << written_text(base.generic_string()) << "\n\n";
   for (const std::string &override : overrides)
   {
     const std::size_t equals = override.find('=');

@@ -1,5 +1,7 @@
 #include "apps/scene/file/scene_node.h"
 
+#include "apps/scene/file/written_text.h"
+
 #include <algorithm>
 #include <cctype>
 
@@ -56,7 +58,7 @@ std::string written_key(const std::string &key)
   const bool bare =
       !key.empty() &&
       std::all_of(key.begin(), key.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
-  return bare ? key : "\"" + key + "\"";
+  return bare ? key : written_text(key);
 }
 
 } // namespace gestell::apps

@@ -2,19 +2,12 @@
 
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
+#include "apps/scene/file/written_text.h"
 
 namespace gestell::apps
 {
 namespace
 {
-
-std::string in_quotes(const std::string &text)
-{
-  std::string escaped = "\"";
-  for (const char c : text)
-    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
-  return escaped + '"';
-}
 
 /// The entry of a scene, or null.
 const SceneNode *entry_of(const SceneNode &root, const std::string &key)
@@ -43,7 +36,7 @@ std::string without_line(const std::vector<std::string> &entries)
 {
   std::string line;
   for (const std::string &entry : entries)
-    line += (line.empty() ? "" : ", ") + in_quotes(entry);
+    line += (line.empty() ? "" : ", ") + written_text(entry);
   return line.empty() ? "" : "without = [" + line + "]\n";
 }
 
@@ -55,8 +48,8 @@ std::string optimum_scene(const StudyFile &study, const SceneVariants &variants,
   const auto base =
       std::filesystem::proximate(std::filesystem::absolute(study.scene), std::filesystem::absolute(folder));
   std::string text = "# The optimum of the study " + study.name +
-                     ", by gestell study.\nextends = " + in_quotes(base.generic_string()) +
-                     "\nname    = " + in_quotes(study.name + "_optimum") + "\n";
+                     ", by gestell study.\nextends = " + written_text(base.generic_string()) +
+                     "\nname    = " + written_text(study.name + "_optimum") + "\n";
   const auto changes = variants.changes_at(levels);
   text += without_line(replaced_entries(read_scene_file(study.scene, {}), changes)) + '\n';
   for (const auto &[key, value] : changes)

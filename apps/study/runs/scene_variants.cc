@@ -3,6 +3,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
+#include "apps/scene/file/written_text.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -69,14 +70,6 @@ std::string with_whole_path(const SceneNode &node)
   return !node.folder.empty() && fs::is_regular_file(path, none) ? fs::absolute(path).string() : node.text;
 }
 
-std::string in_toml(const std::string &text)
-{
-  std::string escaped = "\"";
-  for (const char c : text)
-    (c == '"' || c == '\\' ? escaped += '\\' : escaped) += c;
-  return escaped + '"';
-}
-
 /// Sets an entry in place of an earlier one, or inside of a table that was set.
 void change(std::vector<SceneNode::Entry> &changes, const std::string &key, const SceneNode &value)
 {
@@ -98,7 +91,7 @@ std::string toml_value(const SceneNode &node)
   switch (node.type)
   {
   case SceneNode::Type::text:
-    return in_toml(with_whole_path(node));
+    return written_text(with_whole_path(node));
   case SceneNode::Type::boolean:
     return node.boolean ? "true" : "false";
   case SceneNode::Type::array:

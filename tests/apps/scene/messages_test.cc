@@ -1,5 +1,6 @@
 // What a scene may say in more than one way, and where a message points to.
 
+#include "apps/scene/file/written_text.h"
 #include "tests/support/scene_motion.h"
 
 #include <gtest/gtest.h>
@@ -172,6 +173,13 @@ TEST(Messages, BracketsInTextsAndCommentsAreNotDeep)
     note += "[{(";
   const auto scene = test::scene_of("description = \"" + note + "\" # " + note + "\n" + pendulum);
   EXPECT_EQ(scene.description, note);
+}
+
+// What one program writes into a scene another call reads.
+TEST(WrittenText, ReadsBackAsItWas)
+{
+  for (const std::string text : {"plain", "a \"quoted\" word", "back\\slash", "two\nlines\tand a tab"})
+    EXPECT_EQ(test::scene_of("description = " + apps::written_text(text) + "\n" + pendulum).description, text);
 }
 
 TEST(Messages, ARunNeedsNoSignals)
