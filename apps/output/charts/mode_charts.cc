@@ -88,7 +88,7 @@ bool is_physical(const Result &result, std::size_t i)
   return k < first_mode || k >= result.scenery.n_frame;
 }
 
-/// What angles are multiplied with to stand beside displacements [m]: a crank, or half of the machine.
+/// Length [m] that scales angles for display beside displacements: crank radius, or half the size of the machine.
 double arm(const Scenery &scenery)
 {
   if (!scenery.rods.empty())

@@ -24,7 +24,7 @@ std::string coupled_mode_picture(const Result &result, const Scenery &scenery, s
 /// The bars of any shape in the machine's coordinates.
 std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode);
 
-/// What angles are multiplied with to stand beside displacements [m]: a crank, or half of the machine.
+/// Length [m] that scales angles for display beside displacements: crank radius, or half the size of the machine.
 double angle_arm(const Result &result);
 
 } // namespace gestell::apps

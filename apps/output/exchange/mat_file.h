@@ -9,8 +9,8 @@
 namespace gestell::apps
 {
 
-/// A file of MATLAB in version 5, which NumPy (scipy.io), Octave and Julia read as well.  It is whole or not there:
-/// what is written stands beside its place until finish().
+/// A file of MATLAB in version 5, which NumPy (scipy.io), Octave and Julia read as well.  It is written to a temporary
+/// file beside its place and renamed by finish(), so that it appears whole or not at all.
 class MatFile
 {
 public:

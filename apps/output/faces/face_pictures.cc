@@ -117,22 +117,6 @@ const char *const number_style =
     "pointer-events:none}.gst .edges{fill:none;stroke:#10151a;stroke-width:.6;stroke-opacity:.7;"
     "pointer-events:none}</style>\n";
 
-std::string sharp_lines(const Skin &skin, const View &view, const DepthRaster &raster)
-{
-  std::string svg;
-  for (const auto &[a, b] : sharp_edges(skin, 35.))
-  {
-    const Vector3d p = view(skin.points[a]), q = view(skin.points[b]);
-    if (!raster.sees(0.5 * (p + q), 2.5))
-      continue;
-    append_coordinate(svg += 'M', p[0]);
-    append_coordinate(svg += ' ', p[1]);
-    append_coordinate(svg += 'L', q[0]);
-    append_coordinate(svg += ' ', q[1]);
-  }
-  return svg;
-}
-
 std::string side_svg(const coupling::MeshReport &report, const Skin &skin, const std::vector<int> &face,
                      const Side &side)
 {
@@ -143,7 +127,7 @@ std::string side_svg(const coupling::MeshReport &report, const Skin &skin, const
   const double             width = std::max(view.width(), 60.) + 16., height = view.height() + 88.;
   return svg_head(width, height, std::string("Faces, ") + side.caption) + number_style +
          "<g transform=\"translate(8 8)\"><g class=\"faces\">" + facet_paths(visible) +
-         "</g><path class=\"edges\" d=\"" + sharp_lines(skin, view, raster) + "\"/>" +
+         "</g><path class=\"edges\" d=\"" + edge_lines(sharp_edges(skin), skin.points, view, &raster) + "\"/>" +
          numbers(report, seen_faces(visible, raster)) + "</g>\n" + axes_triad(view, 44., height - 30.) + "</svg>\n";
 }
 

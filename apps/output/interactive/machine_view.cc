@@ -45,7 +45,7 @@ Json parts_json(const SeenMachine &machine)
   return parts;
 }
 
-/// Tolerance is told of the largest displacement of a point; a column's norm is at least that.
+/// The tolerance applies to the largest displacement of a point; the norm of a column is at least that.
 Json field_json(const Eigen::MatrixXd &motion, double tolerance)
 {
   const ShortMotion field = short_motion(motion, tolerance);

@@ -1,5 +1,7 @@
 #include "apps/output/pictures/projection.h"
 
+#include "apps/output/text/svg.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -183,6 +185,24 @@ std::string facet_paths(std::vector<Facet> facets)
     svg += triangle_path(facet);
   }
   return svg + (open != nullptr ? "\"/></g>" : "</g>");
+}
+
+std::string edge_lines(const std::vector<std::array<int, 2>> &edges, const std::vector<Vector3d> &points,
+                       const View &view, const DepthRaster *raster)
+{
+  constexpr double slack = 2.5; // [units] by which the raster rounds
+  std::string      svg;
+  for (const auto &[a, b] : edges)
+  {
+    const Vector3d p = view(points[a]), q = view(points[b]);
+    if (raster != nullptr && !raster->sees(0.5 * (p + q), slack))
+      continue;
+    append_coordinate(svg += 'M', p[0]);
+    append_coordinate(svg += ' ', p[1]);
+    append_coordinate(svg += 'L', q[0]);
+    append_coordinate(svg += ' ', q[1]);
+  }
+  return svg;
 }
 
 } // namespace gestell::apps

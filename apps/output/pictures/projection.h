@@ -73,6 +73,10 @@ private:
   std::vector<int>    facet_; // -1: none
 };
 
+/// Edges between points as the `d` of one SVG path; with a raster only those that it sees the middle of.
+std::string edge_lines(const std::vector<std::array<int, 2>> &edges, const std::vector<Eigen::Vector3d> &points,
+                       const View &view, const DepthRaster *raster = nullptr);
+
 using Colour = std::array<double, 3>; ///< red, green, blue, 0 to 255
 
 /// Colour for a share s in [0, 1]: dark blue to yellow, lightness rising evenly, in a few steps.

@@ -45,6 +45,6 @@ using EdgeBetween = std::function<bool(const Eigen::Vector3d &, const Eigen::Vec
 std::vector<std::array<int, 2>> edges_between(const Skin &skin, const EdgeBetween &is_edge);
 
 /// Edges (pairs of points) where neighbouring triangles meet at more than `degrees`, or that have one triangle only.
-std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees);
+std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees = 35.);
 
 } // namespace gestell::apps

@@ -21,7 +21,6 @@ constexpr std::size_t most_triangles = 9000; ///< of a closed skin; about a thir
 constexpr double      picture_size   = 400.; ///< units of the picture's longer side
 constexpr double      fine_piece     = 7.;   ///< longest edge of a body's triangles in a picture [units]
 constexpr double      coarse_piece   = 14.;  ///< the same where there are many pictures
-constexpr double      sharp          = 35.;  ///< degrees
 
 /// Facets of the skin, moved by enlargement times displacement; `colour_of` gives the colour of a triangle.
 template <typename ColourOf>
@@ -41,36 +40,25 @@ std::vector<Facet> facets_of(const Skin &skin, double enlargement, const View &v
   return facets;
 }
 
-/// Edges as one path; with a raster only those not hidden.
-std::string path_of(const std::vector<std::array<int, 2>> &edges, const Skin &skin, double enlargement,
-                    const View &view, const DepthRaster *raster)
+std::vector<Vector3d> moved_points(const Skin &skin, double enlargement)
 {
-  std::string svg;
-  const auto  place = [&](int i) { return view(skin.points[i] + enlargement * skin.displacement[i]); };
-  for (const auto &[a, b] : edges)
-  {
-    const Vector3d p = place(a), q = place(b), middle = 0.5 * (p + q);
-    if (raster != nullptr && !raster->sees(middle, 2.5))
-      continue;
-    append_coordinate(svg += 'M', p[0]);
-    append_coordinate(svg += ' ', p[1]);
-    append_coordinate(svg += 'L', q[0]);
-    append_coordinate(svg += ' ', q[1]);
-  }
-  return svg;
+  std::vector<Vector3d> points = skin.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] += enlargement * skin.displacement[i];
+  return points;
 }
 
 std::string edge_path(const Skin &skin, double enlargement, const View &view, const DepthRaster *raster)
 {
-  return path_of(sharp_edges(skin, sharp), skin, enlargement, view, raster);
+  return edge_lines(sharp_edges(skin), moved_points(skin, enlargement), view, raster);
 }
 
 /// The silhouette, where what is seen borders on what is not, so that round bodies have one, too.
 std::string silhouette_path(const Skin &skin, const View &view)
 {
-  return path_of(edges_between(skin, [&](const Vector3d &a, const Vector3d &b)
-                               { return view.faces_viewer(a) != view.faces_viewer(b); }),
-                 skin, 0., view, nullptr);
+  return edge_lines(edges_between(skin, [&](const Vector3d &a, const Vector3d &b)
+                                  { return view.faces_viewer(a) != view.faces_viewer(b); }),
+                    skin.points, view);
 }
 
 const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke:currentColor;stroke-width:1.2;"
@@ -112,14 +100,6 @@ std::string shifted(double x, double y, const std::string &content)
   append_coordinate(svg, x);
   append_coordinate(svg += ' ', y);
   return svg + ")\">\n" + content + "</g>\n";
-}
-
-std::vector<Vector3d> moved_points(const Skin &skin, double enlargement)
-{
-  std::vector<Vector3d> points = skin.points;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] += enlargement * skin.displacement[i];
-  return points;
 }
 
 /// The field on so few points that a picture stays small.

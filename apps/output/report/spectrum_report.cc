@@ -104,7 +104,7 @@ std::vector<std::vector<const SignalSpectrum *>> by_unit(const Spectra &spectra)
   return groups;
 }
 
-/// What the rows carry, and what of that is told.
+/// Up to which frequency the rows of the history carry the signals, and up to which one lines are drawn.
 std::string rows_text(const Spectra &spectra)
 {
   const double told_hz = static_cast<double>(spectra.signals.front().amplitudes.size() - 1) * spectra.resolution_hz;
