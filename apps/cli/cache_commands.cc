@@ -1,6 +1,7 @@
 #include "apps/cli/cache_commands.h"
 
 #include "apps/session/prepared_machine.h"
+#include "coupling/frame/cache_folder.h"
 #include "coupling/frame/frame_cache.h"
 #include "fem/values/number_text.h"
 

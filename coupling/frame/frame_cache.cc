@@ -1,5 +1,6 @@
 #include "coupling/frame/frame_cache.h"
 
+#include "coupling/frame/cache_folder.h"
 #include "coupling/frame/whole_file.h"
 
 #include <sys/stat.h>
@@ -30,9 +31,18 @@ void require_named_after(const FrameOrigin &origin, const std::string &key)
     throw std::runtime_error("was made from something else than its name says");
 }
 
+/// A frame that another user put there may be anything.
+void require_own(const std::string &file)
+{
+  for (const std::string &path : {fs::path(file).parent_path().string(), file})
+    if (const std::string reason = foreign(path); !reason.empty())
+      throw std::runtime_error(std::string("is not used: ") + (path == file ? "it " : "its folder ") + reason);
+}
+
 /// Reads the frame of a file that is named after its key.
 StoredFrame read_entry(const std::string &file, const std::string &key)
 {
+  require_own(file);
   StoredFrame stored = read_stored_frame(file);
   require_named_after(stored.origin, key);
   return stored;
@@ -42,6 +52,7 @@ void describe(CacheEntry &entry)
 {
   try
   {
+    require_own(entry.file);
     FrameSummary summary = read_frame_summary(entry.file);
     require_named_after(summary.origin, entry.key);
     entry.origin      = std::move(summary.origin);
@@ -57,31 +68,33 @@ void describe(CacheEntry &entry)
 
 } // namespace
 
-std::string cache_folder()
+namespace
 {
-  const auto variable = [](const char *name)
-  {
-    const char *value = std::getenv(name);
-    return std::string(value ? value : "");
-  };
-  if (const auto own = variable("GESTELL_CACHE"); !own.empty())
-    return own;
-  if (const auto xdg = variable("XDG_CACHE_HOME"); !xdg.empty())
-    return (fs::path(xdg) / "gestell").string();
-  const auto home = variable("HOME");
-  return (home.empty() ? fs::temp_directory_path() / "gestell" : fs::path(home) / ".cache" / "gestell").string();
+
+constexpr fs::perms written_by_others = fs::perms::group_write | fs::perms::others_write;
+
+/// A folder that is there stays as it is, if others cannot change what is put there.
+void make_own_folder(const fs::path &folder)
+{
+  if (fs::create_directories(folder))
+    fs::permissions(folder, written_by_others, fs::perm_options::remove);
+  if (const std::string reason = foreign(folder.string()); !reason.empty())
+    throw std::runtime_error(folder.string() + " " + reason + "; name a folder of your own with GESTELL_CACHE");
 }
+
+} // namespace
 
 std::string cache_file(const std::string &key)
 {
-  return (fs::path(cache_folder()) / (key + ".h5")).string();
+  const fs::path folder = cache_folder();
+  return folder.empty() ? "" : (folder / (key + ".h5")).string();
 }
 
 std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note)
 {
   const std::string file = cache_file(key);
   std::error_code   error;
-  if (!fs::exists(file, error))
+  if (file.empty() || !fs::exists(file, error))
     return {};
   try
   {
@@ -98,9 +111,16 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
 
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
 {
+  if (const std::string beyond = beyond_the_files(origin.recipe); !beyond.empty())
+    return "cache: the reduced frame is not kept: " + beyond + ", so that not only files decide what the frame is";
+  const std::string file = cache_file(content_key(origin.recipe));
+  if (file.empty())
+    return "cache: the reduced frame is not kept: this user has no home folder; name one with GESTELL_CACHE";
   try
   {
-    write_reduced_frame(cache_file(content_key(origin.recipe)), frame, origin);
+    make_own_folder(fs::path(file).parent_path());
+    write_reduced_frame(file, frame, origin);
+    fs::permissions(file, written_by_others, fs::perm_options::remove);
     return {};
   }
   catch (const std::exception &failure)

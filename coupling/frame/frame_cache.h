@@ -11,18 +11,16 @@
 namespace gestell::coupling
 {
 
-/// The frame kept in the cache under this key: nothing if there is none, or if the file there is damaged or of another
-/// version or key; the reason is then appended to `note` (the frame has to be made anew).  Found frames count as used
-/// now.
+/// The frame kept in the cache under this key: nothing if there is none, or if the file there is damaged, of another
+/// version or key, or of another user (foreign()); the reason is then appended to `note` (the frame has to be made
+/// anew).  Found frames count as used now.
 std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note);
 
-/// Keeps the frame in the cache under the key of its recipe.  A cache that cannot be written is no failure: the reason
-/// is returned, else "".
+/// Keeps the frame in the cache under the key of its recipe, if that decides what the frame is.  A cache that cannot be
+/// written is no failure: the reason is returned, else "".
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 
-/// $GESTELL_CACHE, else $XDG_CACHE_HOME/gestell, else ~/.cache/gestell.
-std::string cache_folder();
-/// Where the frame of this key is kept.
+/// Where the frame of this key is kept, in cache_folder(); "": nowhere.
 std::string cache_file(const std::string &key);
 
 /// A file of the cache.

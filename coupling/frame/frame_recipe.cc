@@ -4,6 +4,7 @@
 #include "coupling/frame/sha256.h"
 #include "coupling/frame/source_files.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <filesystem>
@@ -16,6 +17,8 @@ namespace gestell::coupling
 
 namespace
 {
+
+const std::string beyond_files = "beyond its files";
 
 /// Shortest digits that read back as the same number.
 std::string text_of(double value)
@@ -292,6 +295,8 @@ private:
     for (std::size_t i = 0; i < sources.found.size(); ++i)
       add("source " + std::to_string(i + 1), sha256_of_file(sources.found[i]));
     add("missing", sources.missing);
+    if (!sources.beyond.empty())
+      add(beyond_files, sources.beyond);
   }
 
   Recipe recipe_;
@@ -365,6 +370,18 @@ Recipe parse_recipe(const std::string &text)
 std::string content_key(const Recipe &recipe)
 {
   return Sha256().update(text_of(recipe)).hexadecimal();
+}
+
+std::string beyond_the_files(const Recipe &recipe)
+{
+  const auto found = std::find_if(recipe.begin(), recipe.end(),
+                                  [](const Ingredient &own) // of a part its name stands before
+                                  {
+                                    return own.name.size() >= beyond_files.size() &&
+                                           own.name.compare(own.name.size() - beyond_files.size(), std::string::npos,
+                                                            beyond_files) == 0;
+                                  });
+  return found == recipe.end() ? "" : found->value;
 }
 
 std::vector<Difference> differences(const Recipe &first, const Recipe &second)

@@ -21,8 +21,9 @@ struct Ingredient
  * and the sources of the program that makes it.  Equal recipes mean equal frames.
  *
  * Places (file:line for messages), the path of a file and the order of surfaces in a scene do not count; every number
- * counts with all its digits.  With a script of gmsh (.geo) count the files it names as text in Include, Merge and
- * ShapeFromFile, and those that these name; what it names and is not there counts by its name.
+ * counts with all its digits.  With a script of gmsh (.geo) count the files it names, and those that these name; what
+ * it names and is not there counts by its name.  Where more than files decides (names that are computed, the
+ * environment, the time), an ingredient says so, and the frame is not kept in a cache.
  */
 using Recipe = std::vector<Ingredient>;
 
@@ -38,6 +39,9 @@ Recipe parse_recipe(const std::string &text);
 
 /// Key of a reduced frame: SHA-256 of text_of(recipe), in hexadecimal.
 std::string content_key(const Recipe &recipe);
+
+/// Why equal recipes of this kind need not mean equal frames, SourceFiles::beyond; "": they do.
+std::string beyond_the_files(const Recipe &recipe);
 
 /// Where two recipes differ; "" stands for an ingredient that one of them lacks.
 struct Difference

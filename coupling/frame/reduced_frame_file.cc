@@ -45,10 +45,10 @@ std::vector<Point> points(const Matrix &A)
 }
 
 /// Writes values under their names.
-class Writer
+class FrameWriter
 {
 public:
-  explicit Writer(Hdf5File &file) : file_(file) {}
+  explicit FrameWriter(Hdf5File &file) : file_(file) {}
 
   void operator()(const std::string &name, const std::string &text) { file_.write(name, text); }
   void operator()(const std::string &name, double x) { file_.write(name, MatrixXd(MatrixXd::Constant(1, 1, x))); }
@@ -83,10 +83,10 @@ private:
 };
 
 /// Reads them back.
-class Reader
+class FrameReader
 {
 public:
-  explicit Reader(const Hdf5File &file) : file_(file) {}
+  explicit FrameReader(const Hdf5File &file) : file_(file) {}
 
   void operator()(const std::string &name, std::string &text) { text = file_.read_text(name); }
   void operator()(const std::string &name, double &x) { x = file_.read_number(name); }
@@ -292,7 +292,7 @@ void write_reduced_frame(const std::string &name, const ReducedFrame &frame, con
   file.write("made_from", text_of(origin.recipe));
   file.write("scene", origin.scene);
   file.write("source", origin.source);
-  each_part(frame, Writer(file));
+  each_part(frame, FrameWriter(file));
   write_stress(file, frame.stress);
   write_sealed(name, title, file.image());
 }
@@ -320,7 +320,7 @@ StoredFrame read_stored_frame(const std::string &name)
   const Hdf5File file(name);
   StoredFrame    stored;
   stored.origin = read_origin(file);
-  each_part(stored.frame, Reader(file));
+  each_part(stored.frame, FrameReader(file));
   stored.frame.stress = read_stress(file, int(stored.frame.points.size()), int(stored.frame.M.rows()));
   require_consistent(stored.frame);
   return stored;

@@ -1,12 +1,14 @@
 #include "coupling/frame/source_files.h"
 
+#include "fem/values/geo_tokens.h"
 #include "fem/values/inp_lines.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
+#include <set>
+#include <stdexcept>
 
 namespace gestell::coupling
 {
@@ -31,7 +33,8 @@ enum class Language
 Language language_of(const std::filesystem::path &path)
 {
   const std::string extension = fem::in_capitals(path.extension().string());
-  return extension == ".GEO" ? Language::gmsh : extension == ".INP" ? Language::abaqus : Language::none;
+  const bool        script    = extension == ".GEO" || (extension == ".MSH" && !fem::begins_as_mesh(path.string()));
+  return script ? Language::gmsh : extension == ".INP" ? Language::abaqus : Language::none;
 }
 
 struct NamedFile
@@ -41,16 +44,93 @@ struct NamedFile
   Language              language;
 };
 
-std::vector<NamedFile> named_in_script(const std::filesystem::path &path)
+/// Of gmsh's language: what makes a frame of more than the files that a script names.
+bool asks_beyond_files(const fem::GeoToken &token)
 {
-  static const std::regex naming(R"re(\b(Include|Merge|ShapeFromFile)\s*\(?\s*"([^"\n]+)")re");
-  const std::string       text = text_of(path);
-  std::vector<NamedFile>  named;
-  for (auto found = std::sregex_iterator(text.begin(), text.end(), naming); found != std::sregex_iterator(); ++found)
+  static const std::set<std::string> words = {"Alias",
+                                              "AliasWithOptions",
+                                              "Combine",
+                                              "Cpu",
+                                              "CurrentDir",
+                                              "CurrentDirectory",
+                                              "Draw",
+                                              "FileExists",
+                                              "GetEnv",
+                                              "GetForced",
+                                              "GetForcedStr",
+                                              "GetNumber",
+                                              "GetString",
+                                              "GetStringValue",
+                                              "GetValue",
+                                              "ListFromFile",
+                                              "MPI_Rank",
+                                              "MPI_Size",
+                                              "Memory",
+                                              "OnelabAction",
+                                              "OnelabRun",
+                                              "Plugin",
+                                              "Print",
+                                              "Rand",
+                                              "Save",
+                                              "SetNumber",
+                                              "SetString",
+                                              "Solver",
+                                              "System",
+                                              "SystemCall",
+                                              "Today",
+                                              "TotalMemory",
+                                              "NonBlockingSystemCall",
+                                              "GmshExecutableName"};
+  return token.kind == fem::GeoToken::Kind::word && words.count(token.text) > 0;
+}
+
+bool reads_a_file(const fem::GeoToken &token)
+{
+  static const std::set<std::string> words = {"Include", "Merge", "MergeWithBoundingBox", "ShapeFromFile"};
+  return token.kind == fem::GeoToken::Kind::word && words.count(token.text) > 0;
+}
+
+/// The text that names the file, behind the word at i; null where it is computed.
+const fem::GeoToken *plain_name(const std::vector<fem::GeoToken> &tokens, std::size_t i)
+{
+  const bool        bracket = i + 1 < tokens.size() && tokens[i + 1].is("(");
+  const std::size_t name    = i + (bracket ? 2 : 1);
+  const bool        ends    = name + 1 < tokens.size() && tokens[name + 1].is(bracket ? ")" : ";");
+  return ends && tokens[name].kind == fem::GeoToken::Kind::text ? &tokens[name] : nullptr;
+}
+
+std::vector<NamedFile> named_in_script(const std::filesystem::path &path, std::string &beyond)
+{
+  const fem::RefuseLine note = [&](int line, const std::string &what)
   {
-    const std::filesystem::path target = path.parent_path() / (*found)[2].str();
-    named.push_back({(*found)[2], target, (*found)[1] == "Include" ? Language::gmsh : language_of(target)});
+    if (beyond.empty())
+      beyond = path.filename().string() + ":" + std::to_string(line) + ": " + what;
+  };
+  std::vector<fem::GeoToken> tokens;
+  try
+  {
+    tokens = fem::geo_tokens(text_of(path), [&](int line, const std::string &what)
+                             { throw std::invalid_argument(std::to_string(line) + ": " + what); });
   }
+  catch (const std::invalid_argument &unread)
+  {
+    beyond = path.filename().string() + ":" + unread.what();
+    return {};
+  }
+  std::vector<NamedFile> named;
+  for (std::size_t i = 0; i < tokens.size(); ++i)
+    if (asks_beyond_files(tokens[i]))
+      note(tokens[i].line, "has the word " + tokens[i].text);
+    else if (reads_a_file(tokens[i]))
+    {
+      if (const fem::GeoToken *name = plain_name(tokens, i))
+      {
+        const std::filesystem::path target = path.parent_path() / name->text;
+        named.push_back({name->text, target, tokens[i].is("Include") ? Language::gmsh : language_of(target)});
+      }
+      else
+        note(tokens[i].line, tokens[i].text + " names its file by a computed text");
+    }
   return named;
 }
 
@@ -75,7 +155,8 @@ void collect(const std::filesystem::path &path, Language language, SourceFiles &
   sources.found.push_back(file);
   if (language == Language::none)
     return;
-  for (const auto &[name, target, of_target] : language == Language::gmsh ? named_in_script(path) : named_in_inp(path))
+  for (const auto &[name, target, of_target] :
+       language == Language::gmsh ? named_in_script(path, sources.beyond) : named_in_inp(path))
   {
     std::error_code error;
     if (std::filesystem::is_regular_file(target, error))

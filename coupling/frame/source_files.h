@@ -10,11 +10,14 @@ namespace gestell::coupling
 struct SourceFiles
 {
   std::vector<std::string> found, missing; ///< missing: as the script writes them
+  /// Why more than these files may decide what the frame is: "frame.geo:3: names a file by a computed text"; empty: no
+  /// more does.
+  std::string beyond;
 };
 
-/// `cad` itself and all that it names, and that these name, relative to their own folders: of a script of gmsh (.geo)
-/// as text in Include, Merge and ShapeFromFile, of a mesh of Abaqus (.inp) in *INCLUDE and INPUT=.  Extensions count in
-/// capitals and small letters.
+/// `cad` itself and all that it names, and that these name, relative to their own folders: of a script of gmsh (.geo,
+/// and a .msh that gmsh would run as one) as text in Include, Merge, MergeWithBoundingBox and ShapeFromFile, of a mesh
+/// of Abaqus (.inp) in *INCLUDE and INPUT=.  Extensions count in capitals and small letters.
 SourceFiles source_files(const std::string &cad);
 
 } // namespace gestell::coupling

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/geometry/geo_tokens.h"
+#include "fem/values/geo_tokens.h"
 
 #include <cstddef>
 #include <vector>

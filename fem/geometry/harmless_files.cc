@@ -25,19 +25,9 @@ constexpr const char *way_out =
     "; a script that is read with a frame may draw, size and mesh, and read from its own folder. Take the line out, or "
     "say --trust-scripts if you know all that the script does.";
 
-/// As gmsh decides (Common/OpenFile.cpp); what begins otherwise it runs as a script.
-bool begins_as_mesh(const files::path &file)
-{
-  constexpr std::array<const char *, 6> beginnings = {"$MeshFormat", "$Comments", "$NO", "$ELM", "$PTS", "$PARA"};
-  std::string                           head(16, '\0');
-  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-  return std::any_of(beginnings.begin(), beginnings.end(),
-                     [&](const char *beginning) { return head.compare(0, std::strlen(beginning), beginning) == 0; });
-}
-
 void require_mesh(const std::string &place, const files::path &file)
 {
-  if (!begins_as_mesh(file))
+  if (!begins_as_mesh(file.string()))
     throw std::invalid_argument(
         place + ": " + file.string() +
         " is no mesh of gmsh: it does not begin with \"$MeshFormat\", and gmsh would run it as a "

@@ -24,6 +24,8 @@ class FileLock
 public:
   explicit FileLock(const std::string &path)
   {
+    if (path.empty())
+      return;
     std::error_code none;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
     file_ = open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
@@ -38,8 +40,15 @@ public:
   FileLock(const FileLock &) = delete;
 
 private:
-  int file_;
+  int file_ = -1;
 };
+
+/// "" without a cache.
+std::string lock_file(const std::string &key)
+{
+  const std::string file = coupling::cache_file(key);
+  return file.empty() ? "" : file + ".lock";
+}
 
 /// What a machine needs of its frame, without what is only drawn unless that is wanted.
 std::shared_ptr<const coupling::ReducedFrame> shared(coupling::ReducedFrame frame, bool drawn)
@@ -74,7 +83,7 @@ std::shared_ptr<const coupling::ReducedFrame> FrameShelf::frame(const Scene &sce
     kept_.emplace_front(key, shared(coupling::read_reduced_frame(scene.frame.reduced_file), drawn));
   else
   {
-    const FileLock alone(coupling::cache_file(key) + ".lock");
+    const FileLock alone(lock_file(key));
     bool           from_cache = false;
     kept_.emplace_front(key, shared(reduced_frame(scene, progress, from_cache), drawn));
     n_reduced_ += !from_cache;

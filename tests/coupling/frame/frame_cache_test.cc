@@ -1,3 +1,4 @@
+#include "coupling/frame/cache_folder.h"
 #include "coupling/frame/frame_cache.h"
 
 #include "tests/support/frame_folder.h"
@@ -10,7 +11,9 @@
 #include <string>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 #include <utime.h>
 
 namespace gestell
@@ -211,6 +214,71 @@ TEST_F(FrameCache, FolderFollowsTheEnvironment)
   unsetenv("XDG_CACHE_HOME");
   setenv("HOME", "/of/somebody", 1);
   EXPECT_EQ(coupling::cache_folder(), "/of/somebody/.cache/gestell");
+  unsetenv("HOME"); // never a folder that all users share
+  EXPECT_EQ(coupling::cache_folder().find(fs::temp_directory_path().string()), std::string::npos);
+}
+
+/// Changes the mode of a file or folder while it lives.
+class WithMode
+{
+public:
+  WithMode(const fs::path &path, fs::perms mode) : path_(path), before_(fs::status(path).permissions())
+  {
+    fs::permissions(path, mode);
+  }
+  ~WithMode() { fs::permissions(path_, before_); }
+
+private:
+  fs::path  path_;
+  fs::perms before_;
+};
+
+TEST_F(FrameCache, IsNotReadWhereOthersMayHaveWritten)
+{
+  const std::string key = content_key(fine.recipe);
+  ASSERT_EQ(coupling::keep_in_cache(some_frame(), fine), "");
+  const auto note_of_search = [&]
+  {
+    std::string note;
+    return coupling::find_in_cache(key, note) ? "found" : note;
+  };
+  EXPECT_EQ(note_of_search(), "found");
+  {
+    const WithMode open(cache_file(key), fs::perms(0664));
+    EXPECT_NE(note_of_search().find("can be written by its group"), std::string::npos) << note_of_search();
+    EXPECT_NE(coupling::cache_entries().front().defect, "");
+  }
+  {
+    const WithMode open(folder, fs::perms(0777));
+    EXPECT_NE(note_of_search().find("can be written by every user"), std::string::npos) << note_of_search();
+    EXPECT_NE(coupling::keep_in_cache(some_frame(), coarse).find("GESTELL_CACHE"), std::string::npos);
+  }
+  {
+    const WithMode each_their_own(folder, fs::perms(01777));
+    EXPECT_EQ(note_of_search(), "found");
+  }
+  if (chown(cache_file(key).c_str(), 12345, gid_t(-1)) != 0)
+    return; // only root can give a file away
+  EXPECT_NE(note_of_search().find("belongs to another user (uid 12345)"), std::string::npos) << note_of_search();
+}
+
+TEST_F(FrameCache, IsWrittenForThisUserAlone)
+{
+  setenv("GESTELL_CACHE", (folder / "new" / "cache").c_str(), 1);
+  const mode_t before = umask(0);
+  const auto   kept   = coupling::keep_in_cache(some_frame(), fine);
+  umask(before);
+  EXPECT_EQ(kept, "");
+  EXPECT_EQ(coupling::foreign((folder / "new" / "cache").string()), "");
+  EXPECT_EQ(coupling::foreign(cache_file(content_key(fine.recipe))), "");
+}
+
+TEST_F(FrameCache, KeepsNoFrameThatMoreThanFilesDecides)
+{
+  FrameOrigin beyond = fine;
+  beyond.recipe.push_back({"part.column.beyond its files", "frame.geo:3: has the word GetEnv"});
+  EXPECT_NE(coupling::keep_in_cache(some_frame(), beyond).find("frame.geo:3"), std::string::npos);
+  EXPECT_TRUE(coupling::cache_entries().empty());
 }
 
 } // namespace

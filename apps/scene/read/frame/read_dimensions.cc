@@ -1,19 +1,24 @@
 #include "apps/scene/read/frame/read_dimensions.h"
 
-#include "coupling/frame/frame_cache.h"
+#include "coupling/frame/cache_folder.h"
+#include "coupling/frame/sha256.h"
+#include "coupling/frame/whole_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <sstream>
+#include <stdexcept>
 
 namespace gestell::apps
 {
 namespace
 {
+
+namespace fs = std::filesystem;
 
 /// `NAME = ...;` at the begin of a line: where its name and its value stand.
 struct Assignment
@@ -77,28 +82,61 @@ void write_in(std::string &script, const SceneTable &dimensions, const std::stri
   throw dimensions.error(name, "the script has no line '" + name + " = ...;'" + suggestion(name, names));
 }
 
+bool holds(const fs::path &file, const std::string &text)
+{
+  std::ifstream      in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return in && content.str() == text;
+}
+
+/// Of this process, and gone with it: where there is no cache of the user's own, or none to write into.
+const fs::path &own_folder()
+{
+  struct Folder
+  {
+    fs::path path;
+    Folder()
+    {
+      std::string name = (fs::temp_directory_path() / "gestell_XXXXXX").string();
+      if (!mkdtemp(name.data()))
+        throw std::runtime_error("no folder can be made for temporary files: " + name);
+      path = name;
+    }
+    ~Folder()
+    {
+      std::error_code none;
+      fs::remove_all(path, none);
+    }
+  };
+  static const Folder folder;
+  return folder.path;
+}
+
 /// Written once, whole or not at all: other processes may want the same.
 std::string kept(const std::string &script, const std::string &stem)
 {
-  namespace fs           = std::filesystem;
-  fs::path        folder = fs::path(coupling::cache_folder()) / "geometry";
-  std::error_code none;
-  fs::create_directories(folder, none);
-  std::ostringstream name;
-  name << stem << '_' << std::hex << std::hash<std::string>()(script);
-  const auto written = [&](const fs::path &file)
+  const std::string name    = stem + '_' + coupling::Sha256().update(script).hexadecimal().substr(0, 16) + ".geo";
+  const fs::path    cache   = coupling::cache_folder();
+  const fs::path    folder  = cache / "geometry";
+  const auto        written = [&](const fs::path &file)
   {
-    const fs::path part = file.string() + '.' + std::to_string(std::hash<std::string>()(fs::absolute(file))) + ".part";
-    std::ofstream(part, std::ios::binary) << script;
-    fs::rename(part, file, none);
-    return !none;
-  };
-  fs::path file = folder / (name.str() + ".geo");
-  if (fs::exists(file) || written(file))
+    fs::create_directories(file.parent_path());
+    coupling::WholeFile out(file.string());
+    out.stream() << script;
+    out.finish();
     return file.string();
-  file = fs::temp_directory_path() / file.filename(); // the cache is for reading only
-  written(file);
-  return file.string();
+  };
+  if (!cache.empty() && coupling::foreign(cache.string()).empty() && coupling::foreign(folder.string()).empty())
+    try
+    {
+      const fs::path file = folder / name;
+      return holds(file, script) ? file.string() : written(file);
+    }
+    catch (const std::exception &) // the cache is for reading only
+    {
+    }
+  return written(own_folder() / name);
 }
 
 } // namespace

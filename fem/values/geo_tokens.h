@@ -38,4 +38,7 @@ std::vector<GeoToken> geo_tokens(const std::string &script, const RefuseLine &re
 /// A script of these tokens, each in its line, that is scanned in one way alone.
 std::string geo_text(const std::vector<GeoToken> &tokens);
 
+/// Whether gmsh reads the file as a mesh (Common/OpenFile.cpp of 4.8); what begins otherwise it runs as a script.
+bool begins_as_mesh(const std::string &file);
+
 } // namespace gestell::fem

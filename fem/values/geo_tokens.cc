@@ -1,7 +1,9 @@
-#include "fem/geometry/geo_tokens.h"
+#include "fem/values/geo_tokens.h"
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <fstream>
 #include <regex>
 
 namespace gestell::fem
@@ -195,6 +197,15 @@ std::string geo_text(const std::vector<GeoToken> &tokens)
       text += token.text + ' ';
   }
   return text + '\n';
+}
+
+bool begins_as_mesh(const std::string &file)
+{
+  constexpr std::array<const char *, 6> beginnings = {"$MeshFormat", "$Comments", "$NO", "$ELM", "$PTS", "$PARA"};
+  std::string                           head(16, '\0');
+  std::ifstream(file, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return std::any_of(beginnings.begin(), beginnings.end(),
+                     [&](const char *beginning) { return head.compare(0, std::strlen(beginning), beginning) == 0; });
 }
 
 } // namespace gestell::fem
