@@ -58,8 +58,8 @@ bool BulkCards::take_line()
 
 void BulkCards::add_fields()
 {
-  std::string_view line = file_.line();
-  line                  = line.substr(0, line.find('$'));
+  std::string_view line   = file_.line();
+  line                    = line.substr(0, line.find('$'));
   const bool        large = first_field(line).find('*') != std::string_view::npos;
   const std::size_t count = large ? large_fields : small_fields, first = fields_.size();
   if (const auto comma = line.find(','); comma != std::string_view::npos)

@@ -80,8 +80,8 @@ private:
 
   RowLabel label(const BulkCards &cards, std::size_t at) const
   {
-    const auto &field = cards.fields();
-    const long  node  = whole(cards, at, "the number of a grid or scalar point");
+    const auto &field     = cards.fields();
+    const long  node      = whole(cards, at, "the number of a grid or scalar point");
     const long  component = field[at + 1].empty() ? 0 : whole(cards, at + 1, "its component, 0 to 6");
     if (node < 1)
       file_.fail_at(cards.lines()[at], "there is no point " + std::to_string(node) + "; points count from 1");
@@ -120,9 +120,10 @@ private:
     if (!matrix.is_left_out && (type < 1 || type > last_type))
       file_.fail_at(cards.line(), name + " is of the type (TIN) " + std::to_string(type) + "; 1 and 2 are real");
     if (!matrix.is_left_out && type >= first_complex)
-      file_.fail_at(cards.line(), name + " is complex (TIN " + std::to_string(type) +
-                                      "); a machine in time takes real matrices. Export stiffness and damping apart, as "
-                                      "real ones: structural damping as K4AAX, or leave it out and give 'damping'");
+      file_.fail_at(cards.line(),
+                    name + " is complex (TIN " + std::to_string(type) +
+                        "); a machine in time takes real matrices. Export stiffness and damping apart, as "
+                        "real ones: structural damping as K4AAX, or leave it out and give 'damping'");
     if (!collected_.emplace(name, std::move(matrix)).second)
       file_.fail_at(cards.line(), name + " has a header already; each matrix needs a name of its own");
   }

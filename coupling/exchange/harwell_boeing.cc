@@ -132,10 +132,11 @@ private:
     if (head.rows != columns)
       file_.fail("a matrix of " + std::to_string(head.rows) + " x " + std::to_string(columns) +
                  " is not square; mass, damping and stiffness are");
-    if (const long most = long(file_.size()); head.rows < 1 || head.entries < 1 || head.rows > most ||
-                                              head.entries > most / 2)
+    if (const long most = long(file_.size());
+        head.rows < 1 || head.entries < 1 || head.rows > most || head.entries > most / 2)
       file_.fail(std::to_string(head.rows) + " rows with " + std::to_string(head.entries) +
-                 " entries cannot stand in a file of " + std::to_string(most) + " bytes; it is cut off, or its head wrong");
+                 " entries cannot stand in a file of " + std::to_string(most) +
+                 " bytes; it is cut off, or its head wrong");
     line("formats");
     const std::string_view text(file_.line());
     const auto             pointers = format_of(gestell::coupling::columns(text, 0, 16)),
@@ -167,7 +168,8 @@ private:
   void require_ascending(const std::vector<long> &first, long entries) const
   {
     if (first.front() != 1 || first.back() != entries + 1 || !std::is_sorted(first.begin(), first.end()))
-      file_.fail("the pointers to columns must rise from 1 to " + std::to_string(entries + 1) + ", one more than entries");
+      file_.fail("the pointers to columns must rise from 1 to " + std::to_string(entries + 1) +
+                 ", one more than entries");
   }
 
   int row(std::string_view field, long rows) const

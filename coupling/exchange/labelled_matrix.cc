@@ -29,8 +29,8 @@ void refuse_repeated(const TextFile &file, std::vector<FileEntry> &entries, Tria
   if (!std::is_sorted(entries.begin(), entries.end(), in_order))
     std::sort(entries.begin(), entries.end(), in_order);
   const auto twice =
-      std::adjacent_find(entries.begin(), entries.end(), [](const FileEntry &a, const FileEntry &b)
-                         { return a.column == b.column && a.row == b.row; });
+      std::adjacent_find(entries.begin(), entries.end(),
+                         [](const FileEntry &a, const FileEntry &b) { return a.column == b.column && a.row == b.row; });
   if (twice == entries.end())
     return;
   const FileEntry &again = *std::next(twice);

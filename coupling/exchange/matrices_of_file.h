@@ -26,8 +26,8 @@ enum class MatrixRole
 };
 
 /**
- * The one of them that is meant: of name `asked`, or without it the one whose name says what it is (MAAX, BAAX, KAAX; MASS,
- * STIFFNESS; the only one that begins with M, B or K).
+ * The one of them that is meant: of name `asked`, or without it the one whose name says what it is (MAAX, BAAX, KAAX;
+ * MASS, STIFFNESS; the only one that begins with M, B or K).
  *
  * @throws std::invalid_argument  with the names that are there.
  */

@@ -43,7 +43,8 @@ void refuse_system(const TextFile &file, long line, long node, const std::string
 {
   const bool is_place = key == "CP";
   file.fail_at(line, "grid point " + std::to_string(node) + " counts its " + (is_place ? "place" : "motions") +
-                         " in coordinate system " + std::string(system) + " (" + key + "); only the basic one is taken: " +
+                         " in coordinate system " + std::string(system) + " (" + key +
+                         "); only the basic one is taken: " +
                          (is_place ? "write places in it" : "export the matrices with " + key + " = 0 at this point"));
 }
 
@@ -114,7 +115,8 @@ public:
         in_nodes = keyword.name == "NODE";
         if (in_nodes && keyword.has("SYSTEM") && keyword["SYSTEM"] != "R" && keyword["SYSTEM"] != "r")
           throw refused("nodes in a system other than rectangular are not taken; write their x, y, z");
-        if (const std::string other = fem::input_of(keyword, name); !other.empty() && (in_nodes || keyword.name == "INCLUDE"))
+        if (const std::string other = fem::input_of(keyword, name);
+            !other.empty() && (in_nodes || keyword.name == "INCLUDE"))
           read(other, in_nodes, depth + 1);
       }
       else if (in_nodes)
@@ -171,7 +173,8 @@ void read_nblocks(const std::string &name, Found &found)
         if (const auto field = trimmed(line.substr(at, width)); !field.empty())
           value[i] = file.real(field, "a coordinate");
       if (value[3] != 0. || value[4] != 0. || value[5] != 0.)
-        file.fail("node " + std::to_string(node) + " counts its motions in a system turned against the global one; only "
+        file.fail("node " + std::to_string(node) +
+                  " counts its motions in a system turned against the global one; only "
                   "global directions are taken: rotate it back (NROTAT, NMODIF) before the matrices are written");
       if (found.contradicts(node, {value[0], value[1], value[2]}))
         file.fail(elsewhere(node));

@@ -19,10 +19,10 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double vanishing  = 1e-3;  ///< share of what cancels: small fields of Nastran have four digits
-constexpr double alike      = 0.02;  ///< masses by x, y and z of a free frame
-constexpr double no_motion  = 1e-12; ///< of the mean of C over that of M: far below elastic motions
-constexpr int    most_rows  = 20000; ///< that are factorised to count free motions
+constexpr double vanishing = 1e-3;  ///< share of what cancels: small fields of Nastran have four digits
+constexpr double alike     = 0.02;  ///< masses by x, y and z of a free frame
+constexpr double no_motion = 1e-12; ///< of the mean of C over that of M: far below elastic motions
+constexpr int    most_rows = 20000; ///< that are factorised to count free motions
 
 Vector3d vector(const std::array<double, 3> &x)
 {
@@ -40,8 +40,8 @@ MatrixXd moved_nodes(const std::vector<RowLabel> &rows, const NodePlaces &places
       R(i, row.component - 1) = 1.;
     else if (row.is_displacement())
     {
-      const Vector3d arm          = vector(places.at(row.node)) - centre;
-      R(i, row.component - 1)     = 1.;
+      const Vector3d arm      = vector(places.at(row.node)) - centre;
+      R(i, row.component - 1) = 1.;
       for (int w = 0; w < 3; ++w)
         R(i, 3 + w) = Vector3d::Unit(w).cross(arm)[row.component - 1];
     }
@@ -120,9 +120,10 @@ int count_free_motions(const Sparse &M, const Sparse &C)
 /// c of the block -m [c]x of R^T M R about the origin.
 Vector3d centre_of_mass(const MatrixXd &mass)
 {
-  const auto m = [&](int d) { return mass(d, d) > 0. ? mass(d, d) : 1.; };
-  const auto mean = [](double a, double b, bool has_a, bool has_b)
-  { return has_a && has_b ? (a + b) / 2. : has_a ? a : has_b ? b : 0.; };
+  const auto m    = [&](int d) { return mass(d, d) > 0. ? mass(d, d) : 1.; };
+  const auto mean = [](double a, double b, bool has_a, bool has_b) {
+    return has_a && has_b ? (a + b) / 2. : has_a ? a : has_b ? b : 0.;
+  };
   const bool x = mass(0, 0) > 0., y = mass(1, 1) > 0., z = mass(2, 2) > 0.;
   return {mean(mass(1, 5) / m(1), -mass(2, 4) / m(2), y, z), mean(mass(2, 3) / m(2), -mass(0, 5) / m(0), z, x),
           mean(mass(0, 4) / m(0), -mass(1, 3) / m(1), x, y)};
@@ -178,7 +179,7 @@ RigidMotionCheck check_rigid_motions(const Sparse &M, const Sparse &C, const std
 
 std::string statement_of(const RigidMotionCheck &check)
 {
-  const Vector3d &m = check.mass;
+  const Vector3d &m       = check.mass;
   const double    largest = m.maxCoeff();
   std::string     text    = "rigid motions of the nodes: mass ";
   if (largest - m.minCoeff() <= 1e-6 * largest)
@@ -200,9 +201,10 @@ std::string suspicion_of(const RigidMotionCheck &check, const std::vector<RowLab
   if (check.n_disturbed > 0)
     return "the places of nodes do not fit the stiffness: turned as a rigid body, " +
            std::to_string(check.n_disturbed) + " of " + std::to_string(check.n_quiet) +
-           " rows without support answer with forces, the worst (" + text_of(rows[std::size_t(check.worst)]) + ") with " +
-           share_text(check.rotation_residual) +
-           " of those that cancel in it. Is the table of nodes of another model, in another unit or order, or are rows of "
+           " rows without support answer with forces, the worst (" + text_of(rows[std::size_t(check.worst)]) +
+           ") with " + share_text(check.rotation_residual) +
+           " of those that cancel in it. Is the table of nodes of another model, in another unit or order, or are rows "
+           "of "
            "rotations missing?";
   const bool is_free = check.n_free >= 6 || check.n_quiet == check.n_rows;
   if (check.n_free >= 6 && check.n_quiet < check.n_rows)
@@ -211,7 +213,7 @@ std::string suspicion_of(const RigidMotionCheck &check, const std::vector<RowLab
            share_text(check.translation_residual) +
            " of the forces that cancel in them. Do the rows belong to other nodes or directions?";
   const double largest = check.mass.maxCoeff();
-  const double least   = (check.mass.array() > 0.).select(check.mass, largest).minCoeff(); // of directions that have rows
+  const double least = (check.mass.array() > 0.).select(check.mass, largest).minCoeff(); // of directions that have rows
   if (is_free && least < (1. - alike) * largest)
     return "the frame is free, but weighs " + rounded(check.mass[0]) + ", " + rounded(check.mass[1]) + " and " +
            rounded(check.mass[2]) + " kg by motions in x, y and z; do the rows of mass and stiffness belong together?";

@@ -23,15 +23,15 @@ namespace gestell::coupling
  */
 struct RigidMotionCheck
 {
-  Eigen::MatrixXd       R; ///< [n x 6] about `centre`
-  Eigen::Vector3d       mass;   ///< [kg] by translations in x, y, z
-  Eigen::Vector3d       centre; ///< [m] of mass; of the nodes, where there is no mass
+  Eigen::MatrixXd       R;                   ///< [n x 6] about `centre`
+  Eigen::Vector3d       mass;                ///< [kg] by translations in x, y, z
+  Eigen::Vector3d       centre;              ///< [m] of mass; of the nodes, where there is no mass
   std::array<double, 3> lowest{}, highest{}; ///< corners of the box of the nodes [m]
-  /// Largest force of a row under a rigid motion, as a share of those that cancel in it: of translations; of rotations in
-  /// rows that feel no support.
+  /// Largest force of a row under a rigid motion, as a share of those that cancel in it: of translations; of rotations
+  /// in rows that feel no support.
   double translation_residual = 0., rotation_residual = 0.;
   int    n_rows = 0, n_quiet = 0, n_disturbed = 0; ///< of places; without support; of these moved by a rotation
-  int    worst = -1; ///< row of rotation_residual
+  int    worst = -1;                               ///< row of rotation_residual
   /// Motions without stiffness by C alone; -1 if that was not counted.
   int n_free = -1;
 };

@@ -127,7 +127,7 @@ long TextFile::whole(std::string_view field, const char *what) const
   field = trimmed(field);
   if (!field.empty() && field[0] == '+')
     field.remove_prefix(1);
-  long       value        = 0;
+  long value              = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (field.empty() || error != std::errc() || end != field.data() + field.size())
     fail("'" + std::string(field) + "' is no whole number; expected " + what);

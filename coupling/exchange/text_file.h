@@ -45,8 +45,8 @@ private:
   long             number_ = 0;
 };
 
-std::string_view trimmed(std::string_view text);                           ///< without blanks at its ends
-std::string      capitals(std::string_view text);                          ///< letters of ASCII
+std::string_view trimmed(std::string_view text);                            ///< without blanks at its ends
+std::string      capitals(std::string_view text);                           ///< letters of ASCII
 bool             begins(std::string_view text, std::string_view beginning); ///< whatever the case of letters
 
 /// Words between blanks.

@@ -112,13 +112,14 @@ private:
   {
     if (matrix.A.rows() != Eigen::Index(rows_.size()))
       throw frame_.error("rows", "names " + std::to_string(rows_.size()) + " rows, but " + key + " is " +
-                                     shape_text(matrix.A.rows(), matrix.A.cols()) + "; is it the file of another matrix?");
+                                     shape_text(matrix.A.rows(), matrix.A.cols()) +
+                                     "; is it the file of another matrix?");
     matrix.rows = rows_;
   }
 
-  const SceneTable                                             &frame_;
-  std::optional<SceneTable>                                     names_;
-  std::vector<RowLabel>                                         rows_;
+  const SceneTable                                            &frame_;
+  std::optional<SceneTable>                                    names_;
+  std::vector<RowLabel>                                        rows_;
   std::map<std::string, std::map<std::string, LabelledMatrix>> read_;
 };
 
@@ -150,9 +151,10 @@ void join_rows(const SceneTable &frame, const std::string &key, const std::vecto
     throw frame.error(key, "has no row in common with the stiffness (" + text_of_some(more) + " here, " +
                                text_of_some(stiff) + " there); are they of different models?");
   if (!more.empty())
-    frame.warn(key, count_text(more.size(), "row") + " of it are not in the stiffness, so that nothing holds them: " +
-                        text_of_some(more) + "; right for interfaces that hold the frame statically determinate, else "
-                                             "the files are of different models");
+    frame.warn(key, count_text(more.size(), "row") +
+                        " of it are not in the stiffness, so that nothing holds them: " + text_of_some(more) +
+                        "; right for interfaces that hold the frame statically determinate, else "
+                        "the files are of different models");
   for (const RowLabel &row : missing_rows(more, rows))
     rows.push_back(row);
 }
@@ -240,13 +242,13 @@ void tell_left_damping(const SceneTable &frame, const MatrixFiles &files)
 {
   if (frame.has("damping"))
     return;
-  const std::string viscous = files.left_in_files([](const std::string &name) { return name[0] == 'B'; });
-  const std::string structural =
-      files.left_in_files([](const std::string &name) { return name.rfind("K4", 0) == 0; });
+  const std::string viscous    = files.left_in_files([](const std::string &name) { return name[0] == 'B'; });
+  const std::string structural = files.left_in_files([](const std::string &name) { return name.rfind("K4", 0) == 0; });
   if (!viscous.empty())
-    frame.warn("stiffness", "the file has a damping matrix " + viscous +
-                                ", which is left out; damping = the same file takes it, damping = { ratio = 0.01 } says "
-                                "that it is not wanted");
+    frame.warn("stiffness",
+               "the file has a damping matrix " + viscous +
+                   ", which is left out; damping = the same file takes it, damping = { ratio = 0.01 } says "
+                   "that it is not wanted");
   if (!structural.empty())
     frame.warn("stiffness", "the file has structural damping " + structural +
                                 ", a loss in each cycle that no motion in time has as a matrix; it is left out: give "

@@ -14,8 +14,8 @@ namespace gestell::apps
 struct GivenMatrices
 {
   Eigen::SparseMatrix<double>                M, C;
-  std::optional<Eigen::SparseMatrix<double>> B;      ///< of `damping` as a matrix
-  std::vector<coupling::RowLabel>            rows{}; ///< [n], or empty: numbers alone
+  std::optional<Eigen::SparseMatrix<double>> B;           ///< of `damping` as a matrix
+  std::vector<coupling::RowLabel>            rows{};      ///< [n], or empty: numbers alone
   double                                     length = 1.; ///< [m] that files of the other program count places in
   std::string                                model{};     ///< file of the stiffness if it has places of nodes; ""
   std::vector<std::string>                   statements{};

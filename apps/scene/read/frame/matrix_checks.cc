@@ -68,7 +68,8 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
   if (has_one_triangle_only(A))
     throw frame.error(key, "holds one triangle of a symmetric matrix only; write both, or a MatrixMarket file with "
                            "'symmetric' in its head line and the lower triangle");
-  const auto entry = [&](int i, int j) {
+  const auto entry = [&](int i, int j)
+  {
     return "row " + std::to_string(i + 1) + ", column " + std::to_string(j + 1) +
            (rows.empty() ? "" : " (" + text_of(rows[i]) + "; " + text_of(rows[j]) + ")") + " is " +
            number_text(A.coeff(i, j));
@@ -77,7 +78,8 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
                              "; frames with gyroscopic or follower terms cannot be taken, export the symmetric part");
 }
 
-void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Sparse &matrix, const std::vector<RowLabel> &rows)
+void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Sparse &matrix,
+                               const std::vector<RowLabel> &rows)
 {
   const Eigen::VectorXd diagonal = matrix.diagonal();
   Eigen::Index          lowest;
@@ -86,7 +88,8 @@ void require_positive_diagonal(const SceneTable &frame, const std::string &key, 
                                number_text(diagonal[lowest]) + " on the diagonal; it must be zero or positive");
 }
 
-void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix, const std::vector<RowLabel> &rows)
+void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix,
+                        const std::vector<RowLabel> &rows)
 {
   require_positive_diagonal(frame, key, matrix, rows);
   const Eigen::VectorXd diagonal = matrix.diagonal();
@@ -109,9 +112,8 @@ void check_mass(const SceneTable &frame, const Sparse &M, const Sparse &C, const
   const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (mass[i] == 0. && stiffness[i] == 0.)
-      throw frame.error("mass", row_text(i, rows) +
-                                    " has neither mass nor stiffness, so that nothing says how "
-                                    "it moves; remove the row and column from all matrices");
+      throw frame.error("mass", row_text(i, rows) + " has neither mass nor stiffness, so that nothing says how "
+                                                    "it moves; remove the row and column from all matrices");
     else if (mass[i] > 0. && mass[i] < vanishing_mass * mass.maxCoeff())
       throw frame.error("mass", row_text(i, rows) + " has " + number_text(mass[i]) +
                                     " on the diagonal, next to nothing beside the largest, " +

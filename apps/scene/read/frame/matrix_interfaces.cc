@@ -70,23 +70,26 @@ const TableNode &node_of_number(const SceneTable &table, const FrameNodes &nodes
   const auto found  = std::find_if(nodes.all.begin(), nodes.all.end(),
                                    [number](const TableNode &node) { return node.number == number; });
   if (found == nodes.all.end())
-    throw table.error("node", "node " + std::to_string(number) + " has no row in the matrices" +
-                                  (nodes.all.empty() ? "" : "; node " + std::to_string(nodes.all.front().number) +
-                                                                " has, for example"));
+    throw table.error(
+        "node",
+        "node " + std::to_string(number) + " has no row in the matrices" +
+            (nodes.all.empty() ? "" : "; node " + std::to_string(nodes.all.front().number) + " has, for example"));
   return *found;
 }
 
 const TableNode &node_at(const SceneTable &table, const FrameNodes &nodes)
 {
   if (nodes.places.empty())
-    throw table.error("position", "finds a node where the places of nodes are known; add nodes = the file that has them, "
-                                  "or name the node: node = 12");
+    throw table.error("position",
+                      "finds a node where the places of nodes are known; add nodes = the file that has them, "
+                      "or name the node: node = 12");
   const Vector3 x       = table.vector_or("position", {});
-  const auto   &nearest = *std::min_element(nodes.all.begin(), nodes.all.end(), [&](const auto &a, const auto &b)
-                                            { return distance(a.motions.position, x) < distance(b.motions.position, x); });
+  const auto   &nearest = *std::min_element(
+        nodes.all.begin(), nodes.all.end(),
+        [&](const auto &a, const auto &b) { return distance(a.motions.position, x) < distance(b.motions.position, x); });
   if (const double off = distance(nearest.motions.position, x); off > tolerance_of(nodes))
-    throw table.error("position", "there is no node with rows; the nearest is " + std::to_string(nearest.number) + " at " +
-                                      place_text(nearest.motions.position) + ", " + rounded(off) + " m away");
+    throw table.error("position", "there is no node with rows; the nearest is " + std::to_string(nearest.number) +
+                                      " at " + place_text(nearest.motions.position) + ", " + rounded(off) + " m away");
   return nearest;
 }
 
@@ -109,7 +112,9 @@ void own_rows(const SceneTable &table, const fem::Interface &interface, Owners &
   for (int motion = 0; motion < 6; ++motion)
     if (const int row = interface.coordinate[motion] + 1; row > 0)
       if (const auto [first, is_new] = owner.emplace(row, interface.name + "." + motion_names[motion]); !is_new)
-        throw table.error(table.has("rows") ? "rows" : table.has("node") ? "node" : "position",
+        throw table.error(table.has("rows")   ? "rows"
+                          : table.has("node") ? "node"
+                                              : "position",
                           "row " + std::to_string(row) + " is " + first->second + " already");
 }
 
@@ -126,9 +131,10 @@ void add_interface(const SceneTable &any, const GivenMatrices &given, const Fram
   interface.position = table.vector_or("position", {});
   const bool by_node = table.has("node") || (!given.rows.empty() && !table.has("rows"));
   if (table.has("node") && (given.rows.empty() || table.has("rows")))
-    throw table.error("node", table.has("rows") ? "leave one of 'node' and 'rows' out"
-                                                : "is for matrices that tell the nodes of their rows; give rows = { uz = 1 }, "
-                                                  "or 'rows' of [frame]");
+    throw table.error("node", table.has("rows")
+                                  ? "leave one of 'node' and 'rows' out"
+                                  : "is for matrices that tell the nodes of their rows; give rows = { uz = 1 }, "
+                                    "or 'rows' of [frame]");
   if (by_node && !table.has("node") && !table.has("position"))
     throw table.error("needs node = the number of its node, or its 'position'");
   if (by_node)
@@ -140,8 +146,7 @@ void add_interface(const SceneTable &any, const GivenMatrices &given, const Fram
 }
 
 /// Nodes that have a name in the table of nodes are interfaces.
-std::vector<fem::Interface> named_nodes(const SceneTable &frame, const std::vector<TableNode> &nodes,
-                                        Owners &owner)
+std::vector<fem::Interface> named_nodes(const SceneTable &frame, const std::vector<TableNode> &nodes, Owners &owner)
 {
   std::map<std::string, std::string> place_of;
   std::vector<fem::Interface>        interfaces;
@@ -175,11 +180,12 @@ std::vector<fem::Interface> read_matrix_interfaces(const SceneTable &frame, cons
   for (const auto &table : frame.tables("interface"))
     add_interface(table, given, nodes, n, owner, interfaces);
   if (interfaces.empty())
-    throw frame.error(given.rows.empty()
-                          ? "has no interface; declare at least one [frame.interface.NAME] with rows = { uz = 1 }, or name a "
-                            "node in the table of nodes"
-                          : "has no interface; declare at least one [frame.interface.NAME] with node = the number of its "
-                            "node");
+    throw frame.error(
+        given.rows.empty()
+            ? "has no interface; declare at least one [frame.interface.NAME] with rows = { uz = 1 }, or name a "
+              "node in the table of nodes"
+            : "has no interface; declare at least one [frame.interface.NAME] with node = the number of its "
+              "node");
   return interfaces;
 }
 

@@ -8,8 +8,8 @@
 namespace gestell::apps
 {
 
-/// Interfaces of a frame given by matrices: nodes that have a name in their table, and [frame.interface.NAME] by `rows`,
-/// or by `node` or `position` where rows are known.
+/// Interfaces of a frame given by matrices: nodes that have a name in their table, and [frame.interface.NAME] by
+/// `rows`, or by `node` or `position` where rows are known.
 std::vector<fem::Interface> read_matrix_interfaces(const SceneTable &frame, const GivenMatrices &given,
                                                    const FrameNodes &nodes, Eigen::Index n);
 

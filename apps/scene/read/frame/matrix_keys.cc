@@ -46,9 +46,8 @@ Key direction_key(const std::string &name)
 
 const std::vector<Key> &matrix_frame_keys()
 {
-  const std::string form =
-      "n x n, symmetric, each entry once; a file in MatrixMarket or PETSc's binary format, or "
-      "of [another program](#matrices-of-nastran-calculix-and-ansys), told apart by content";
+  const std::string form = "n x n, symmetric, each entry once; a file in MatrixMarket or PETSc's binary format, or "
+                           "of [another program](#matrices-of-nastran-calculix-and-ansys), told apart by content";
   static const std::vector<Key> keys = {
       matrix_key("mass", kind::mass_entry,
                  form + ". Rows without mass, such as rotations of lumped masses, may be if stiffness holds them"),
@@ -68,9 +67,10 @@ const std::vector<Key> &matrix_frame_keys()
           .by_default("by `mass` and `translations`"),
       key::table("matrix_names", matrix_name_keys(), "of a file that holds several, such as Nastran's")
           .by_default("by what they are called"),
-      key::plain("rows", Key::Form::file,
-                 "what the rows of matrices are that count them: node and direction, a `.dof` of CalculiX or a `.mapping` "
-                 "of Ansys")
+      key::plain(
+          "rows", Key::Form::file,
+          "what the rows of matrices are that count them: node and direction, a `.dof` of CalculiX or a `.mapping` "
+          "of Ansys")
           .by_default("of the matrices, if their format tells"),
       key::table("file_units", file_unit_keys(),
                  "that the files of another program count in: matrices whose rows are known, and places of nodes")
@@ -93,16 +93,16 @@ const std::vector<Key> &matrix_frame_keys()
 
 const std::vector<Key> &matrix_interface_keys()
 {
-  static const std::vector<Key> keys = {key::plain("rows", Key::Form::map,
-                                                   "`{ \"-uz\" = 1 }`: row 1 of q is the displacement *against* z. "
-                                                   "Rows count from 1; motions without a row are held")
-                                            .by_default("of `node` or the node at `position`, where rows are known"),
-                                        key::plain("node", Key::Form::whole,
-                                                   "its number in the other program; all its rows are motions of the "
-                                                   "interface")
-                                            .by_default("by `rows` or `position`"),
-                                        key::vector("position", kind::length, "of the node")
-                                            .by_default("of the table of nodes, else [0, 0, 0]")};
+  static const std::vector<Key> keys = {
+      key::plain("rows", Key::Form::map,
+                 "`{ \"-uz\" = 1 }`: row 1 of q is the displacement *against* z. "
+                 "Rows count from 1; motions without a row are held")
+          .by_default("of `node` or the node at `position`, where rows are known"),
+      key::plain("node", Key::Form::whole,
+                 "its number in the other program; all its rows are motions of the "
+                 "interface")
+          .by_default("by `rows` or `position`"),
+      key::vector("position", kind::length, "of the node").by_default("of the table of nodes, else [0, 0, 0]")};
   return keys;
 }
 

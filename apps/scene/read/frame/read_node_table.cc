@@ -140,8 +140,8 @@ std::map<long, TableNode> nodes_of_rows(const std::vector<coupling::RowLabel> &r
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].component > 0)
     {
-      TableNode &node                                            = nodes[rows[i].node];
-      node.number                                                = rows[i].node;
+      TableNode &node                                             = nodes[rows[i].node];
+      node.number                                                 = rows[i].node;
       node.motions.coordinate[std::size_t(rows[i].component - 1)] = int(i);
     }
   return nodes;
@@ -182,8 +182,9 @@ void require_places(const SceneTable &frame, const std::string &key, const std::
       without.push_back(number);
   if (!without.empty())
     throw frame.error(key, "has no place of node " + std::to_string(without.front()) +
-                               (without.size() > 1 ? " and " + std::to_string(without.size() - 1) + " more" : "") + " of " +
-                               std::to_string(nodes.size()) + ", which have rows in the matrices; is it of another model?");
+                               (without.size() > 1 ? " and " + std::to_string(without.size() - 1) + " more" : "") +
+                               " of " + std::to_string(nodes.size()) +
+                               ", which have rows in the matrices; is it of another model?");
 }
 
 /// Of matrices whose rows are known.
@@ -246,9 +247,10 @@ FrameNodes read_frame_nodes(const SceneTable &frame, const GivenMatrices &given,
     const CsvFile table  = read_csv(path);
     const Layout  layout = layout_of(table, given.length);
     if (layout.column[number_column])
-      throw std::invalid_argument(table.place(table.head_number) +
-                                  "has a column 'node', but the matrices do not tell the nodes of their rows; add rows = "
-                                  "the file that does (.dof, .mapping), or give the columns ux to rz");
+      throw std::invalid_argument(
+          table.place(table.head_number) +
+          "has a column 'node', but the matrices do not tell the nodes of their rows; add rows = "
+          "the file that does (.dof, .mapping), or give the columns ux to rz");
     for (const auto &line : table.lines)
       nodes.all.push_back(read_node(table, line, layout, n));
   }
@@ -261,10 +263,10 @@ FrameNodes read_frame_nodes(const SceneTable &frame, const GivenMatrices &given,
 
 fem::Picture read_node_picture(const SceneTable &frame, const FrameNodes &of_frame, Eigen::Index n)
 {
-  const bool                    are_placed = of_frame.all.empty() || of_frame.all[0].number == 0 || !of_frame.places.empty();
-  const std::vector<TableNode> &nodes      = are_placed ? of_frame.all : std::vector<TableNode>{};
-  const NodeIndex               numbers    = index_of(nodes);
-  fem::Picture picture;
+  const bool are_placed               = of_frame.all.empty() || of_frame.all[0].number == 0 || !of_frame.places.empty();
+  const std::vector<TableNode> &nodes = are_placed ? of_frame.all : std::vector<TableNode>{};
+  const NodeIndex               numbers = index_of(nodes);
+  fem::Picture                  picture;
   for (const std::string key : {"triangles", "node_displacements"})
     if (frame.has(key) && nodes.empty())
       throw frame.error(key, "is about the nodes of a table; add nodes = \"nodes.csv\"");

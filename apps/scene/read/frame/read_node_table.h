@@ -30,18 +30,18 @@ struct FrameNodes
  *
  *     name, x [mm], y [mm], z [mm], ux, uy, uz, rx, ry, rz          or          name, node, x [mm], y [mm], z [mm]
  *
- * x, y, z with a unit of length in brackets (that of `file_units` without, m by default); ux ... rz the row of q, from 1,
- * that is this motion, negative where it counts against the axis, empty where there is none; `node` its number, where
- * rows are known by them.  `name` and motions may be left out.  Where rows are known it may be the model of another
- * program as well (read_node_places()), which the stiffness' own file may be without the key.
+ * x, y, z with a unit of length in brackets (that of `file_units` without, m by default); ux ... rz the row of q, from
+ * 1, that is this motion, negative where it counts against the axis, empty where there is none; `node` its number,
+ * where rows are known by them.  `name` and motions may be left out.  Where rows are known it may be the model of
+ * another program as well (read_node_places()), which the stiffness' own file may be without the key.
  *
  * @param n  rows of the matrices.
  */
 FrameNodes read_frame_nodes(const SceneTable &frame, const GivenMatrices &given, Eigen::Index n);
 
 /// What pictures show of the nodes: `triangles`, a table of three or four nodes in each line (by their numbers, or
-/// from 1 in the order of the table), and `node_displacements`, a matrix [3 nodes x n] of their displacements in place of the rows of the
-/// table.
+/// from 1 in the order of the table), and `node_displacements`, a matrix [3 nodes x n] of their displacements in place
+/// of the rows of the table.
 fem::Picture read_node_picture(const SceneTable &frame, const FrameNodes &nodes, Eigen::Index n);
 
 } // namespace gestell::apps
