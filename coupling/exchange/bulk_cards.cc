@@ -20,8 +20,7 @@ bool is_remark(std::string_view line)
 /// The first field, without blanks.
 std::string_view first_field(std::string_view line)
 {
-  const auto comma = line.find(',');
-  return trimmed(line.substr(0, std::min({comma, name_width, line.size()})));
+  return trimmed(line.substr(0, std::min({line.find_first_of(",\t"), name_width, line.size()})));
 }
 
 /// A line that goes on with the card before: its first field is blank, or a mark that begins with + or *.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gestell::coupling
 {
@@ -83,17 +84,27 @@ MatrixXd residuals(const Sparse &C, const MatrixXd &R)
   return (cancels.array() > 0.).select(force.cwiseAbs().cwiseQuotient(cancels), 0.);
 }
 
+/// Nodes that feel a support: a row of them answers to a translation.
+std::set<long> supported_nodes(const MatrixXd &share, const std::vector<RowLabel> &rows)
+{
+  std::set<long> nodes;
+  for (Eigen::Index i = 0; i < share.rows(); ++i)
+    if (rows[std::size_t(i)].component > 0 && share.row(i).head(3).maxCoeff() > vanishing)
+      nodes.insert(rows[std::size_t(i)].node);
+  return nodes;
+}
+
 void compare_rows(const Sparse &C, const std::vector<RowLabel> &rows, RigidMotionCheck &check)
 {
-  const MatrixXd share = residuals(C, check.R);
+  const MatrixXd       share     = residuals(C, check.R);
+  const std::set<long> supported = supported_nodes(share, rows);
   for (Eigen::Index i = 0; i < share.rows(); ++i)
   {
     if (rows[std::size_t(i)].component == 0)
       continue;
     ++check.n_rows;
-    const double translation   = share.row(i).head(3).maxCoeff();
-    check.translation_residual = std::max(check.translation_residual, translation);
-    if (translation > vanishing)
+    check.translation_residual = std::max(check.translation_residual, share.row(i).head(3).maxCoeff());
+    if (supported.count(rows[std::size_t(i)].node) > 0)
       continue;
     ++check.n_quiet;
     const double rotation = share.row(i).tail(3).maxCoeff();

@@ -18,8 +18,8 @@ namespace gestell::coupling
  *     C R = 0 in all rows that no support takes part in,
  *     R^T M R = [ m 1, -m [c]x; m [c]x, J ]     with the mass m, its centre c.
  *
- * A row whose forces under the three translations vanish, whatever the places, feels no support; if it does not vanish
- * under a rotation, the place of its node or of those beside it is wrong, or a row of a rotation is missing.
+ * A node whose forces under the three translations vanish, whatever the places, feels no support; if a row of it does
+ * not vanish under a rotation, its place or that of nodes beside it is wrong, or a row of a rotation is missing.
  */
 struct RigidMotionCheck
 {
@@ -30,7 +30,7 @@ struct RigidMotionCheck
   /// Largest force of a row under a rigid motion, as a share of those that cancel in it: of translations; of rotations
   /// in rows that feel no support.
   double translation_residual = 0., rotation_residual = 0.;
-  int    n_rows = 0, n_quiet = 0, n_disturbed = 0; ///< of places; without support; of these moved by a rotation
+  int    n_rows = 0, n_quiet = 0, n_disturbed = 0; ///< of nodes; of nodes without support; of these moved by a rotation
   int    worst = -1;                               ///< row of rotation_residual
   /// Motions without stiffness by C alone; -1 if that was not counted.
   int n_free = -1;

@@ -25,18 +25,6 @@ const std::vector<Key> &matrix_name_keys()
   return keys;
 }
 
-const std::vector<Key> &file_unit_keys()
-{
-  static const std::vector<Key> keys = {
-      key::number("length", kind::length, "`\"1 mm\"`").above_zero().by_default(1.),
-      key::number("mass", kind::mass, "`\"1 t\"`").above_zero().by_default(1.),
-      key::number("time", kind::time, "`\"1 ms\"`").above_zero().by_default(1.),
-      key::number("force", kind::force, "where it is not that of the others: N beside kg and mm")
-          .above_zero()
-          .by_default("mass length / time^2")};
-  return keys;
-}
-
 Key direction_key(const std::string &name)
 {
   return key::table(name, matrix_output_keys(), "of the force along " + name).by_default("the rows are of all of it");
@@ -88,6 +76,18 @@ const std::vector<Key> &matrix_frame_keys()
       key::table("interface", {}, "`[frame.interface.NAME]`, one at least, or a node with a name").by_default(""),
       key::table("support", {}, "`[frame.support.NAME]`").by_default(""),
       key::table("cut", {}, "`[frame.cut.NAME]`").by_default("")};
+  return keys;
+}
+
+const std::vector<Key> &file_unit_keys()
+{
+  static const std::vector<Key> keys = {
+      key::number("length", kind::length, "`\"1 mm\"`").above_zero().by_default(1.),
+      key::number("mass", kind::mass, "`\"1 t\"`").above_zero().by_default(1.),
+      key::number("time", kind::time, "`\"1 ms\"`").above_zero().by_default(1.),
+      key::number("force", kind::force, "where it is not that of the others: N beside kg and mm")
+          .above_zero()
+          .by_default("mass length / time^2")};
   return keys;
 }
 
