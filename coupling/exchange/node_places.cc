@@ -34,6 +34,8 @@ private:
   NodePlaces            places_;
 };
 
+constexpr std::size_t longest_format = 80;
+
 std::string elsewhere(long node)
 {
   return "node " + std::to_string(node) + " has a place already, another one; keep one of them";
@@ -158,7 +160,8 @@ void read_nblocks(const std::string &name, Found &found)
     if (!begins(file.line(), "NBLOCK"))
       continue;
     std::match_results<std::string_view::const_iterator> found_form;
-    if (!file.next() || !std::regex_search(file.line().begin(), file.line().end(), found_form, form))
+    const std::string_view line = file.next() ? file.line().substr(0, longest_format) : "";
+    if (!std::regex_search(line.begin(), line.end(), found_form, form))
       file.fail("expected the format of the nodes, such as (3i9,6e21.13e3)");
     const auto        number   = [&](int i) { return std::size_t(std::stoul(found_form[i].str())); };
     const std::size_t integers = number(1), integer_width = number(2), width = number(4);

@@ -183,9 +183,19 @@ RigidMotionCheck check_rigid_motions(const Sparse &M, const Sparse &C, const std
   for (int w = 0; w < 3; ++w) // about the centre: w x (x - c) = w x (x - middle) - w x arm
     check.R.col(3 + w) -= check.R.leftCols(3) * Vector3d::Unit(w).cross(arm);
   compare_rows(C, rows, check);
-  if (check.translation_residual > vanishing)
+  if (2 * check.n_quiet < check.n_rows) // else supports are few, and rotations tell
     check.n_free = count_free_motions(M, C);
   return check;
+}
+
+MatrixXd rigid_translations(const Sparse &C, const std::vector<RowLabel> &rows)
+{
+  MatrixXd R = MatrixXd::Zero(Eigen::Index(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].is_displacement())
+      R(Eigen::Index(i), rows[i].component - 1) = 1.;
+  follow_without_strain(C, rows, R);
+  return R;
 }
 
 std::string statement_of(const RigidMotionCheck &check)

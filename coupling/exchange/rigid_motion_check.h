@@ -40,6 +40,9 @@ struct RigidMotionCheck
 RigidMotionCheck check_rigid_motions(const Eigen::SparseMatrix<double> &M, const Eigen::SparseMatrix<double> &C,
                                      const std::vector<RowLabel> &rows, const NodePlaces &places);
 
+/// R of the three translations [n x 3], which need no places.
+Eigen::MatrixXd rigid_translations(const Eigen::SparseMatrix<double> &C, const std::vector<RowLabel> &rows);
+
 /// What was found, for people: mass, centre, residuals.
 std::string statement_of(const RigidMotionCheck &check);
 

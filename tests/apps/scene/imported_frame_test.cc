@@ -201,6 +201,9 @@ TEST_F(ImportedFrame, ReducedToNodesAndModesKeepsItsModesAndItsWeight)
   EXPECT_NEAR(frame.mass, loose.mass, 1e-9 * loose.mass) << "by R, whose modes follow without strain";
   EXPECT_LT((MatrixXd(frame.C) * frame.rigid_motions).cwiseAbs().maxCoeff(), 1e-9 * MatrixXd(frame.C).maxCoeff());
   EXPECT_TRUE(scene.warnings.empty()) << scene.warnings[0];
+  const auto rough = read({"", {{"a.pch", cards(reduced, tests::CardFields::small_)}}, on_cards, 0.});
+  EXPECT_NEAR(rough.frame.matrices.mass, loose.mass, 1e-3 * loose.mass) << "four digits";
+  EXPECT_TRUE(rough.warnings.empty()) << rough.warnings[0];
   const auto again = read(on_cards, "[frame.interface.top]\nnode = 12\n[frame.interface.foot]\nnode = 11\n"
                                     "[reduction]\nmethod = 'craig-bampton'\nmodes = 3\n");
   EXPECT_TRUE(again.reduction.reduces());
@@ -270,6 +273,7 @@ TEST_F(ImportedFrame, WithoutPlacesOfNodesIsTakenAtThePositionsGiven)
   const auto scene = read(on_cards, "[frame.interface.top]\nnode = 12\nposition = ['1.2 m', 0, 0]\n");
   EXPECT_EQ(scene.frame.matrices.interfaces[0].position[0], 1.2);
   EXPECT_TRUE(scene.frame.matrices.picture.points.empty());
+  EXPECT_NEAR(scene.frame.matrices.mass, held.mass, 1e-8) << "translations need no places";
   refused(on_cards, {"places of nodes are known"}, "[frame.interface.top]\nposition = [0, 0, 0]\n");
 }
 

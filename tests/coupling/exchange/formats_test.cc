@@ -153,17 +153,17 @@ TEST_F(Formats, PlacesOfNodesFromEachModel)
   }
 }
 
-TEST_F(Formats, AMillionEntriesTakeAFewSecondsAtMost)
+TEST_F(Formats, AFifthOfAMillionEntriesTakesWellBelowASecond)
 {
-  constexpr int      n = 1000, columns = 1000;
+  constexpr int      n = 450, columns = 450;
   std::ostringstream text;
   for (int j = 1; j <= columns; ++j)
     for (int i = 1; i <= n; ++i)
       text << i + (j - 1) * (j % 2) << ' ' << i + (j - 1) * (j % 2) + j - 1 << "  2.9166666666667e+06\n";
   const std::string file  = folder.write("large.sti", text.str());
   const auto        start = std::clock();
-  EXPECT_GT(coupling::matrices_of_file(file).at("").A.nonZeros(), 1e6);
-  EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 5.);
+  EXPECT_GT(coupling::matrices_of_file(file).at("").A.nonZeros(), 2e5);
+  EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, 1.);
 }
 
 } // namespace

@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <random>
+
 namespace
 {
 
@@ -148,6 +151,53 @@ TEST_F(Refused, SystemsOfNodesOtherThanTheGlobalOne)
   expect_places("NBLOCK,6\nnone\n", {"format of the nodes"});
   EXPECT_EQ(tests::refusal([&] { coupling::read_node_places(folder.write("m", "GRID,9,5,0.,0.,0.,7\n"), {1}); }), "")
       << "a node without rows may be in any system";
+}
+
+/// A text with a few bytes changed, or cut off.
+std::string damaged(std::string text, std::minstd_rand &dice)
+{
+  static const std::string bytes = "0123456789.,*+-eED $ \n\tGRIDNa";
+  if (dice() % 3 == 0)
+    text.resize(dice() % text.size());
+  for (auto n = text.empty() ? 0 : dice() % 4; n > 0; --n)
+    text[dice() % text.size()] = bytes[dice() % bytes.size()];
+  return text;
+}
+
+TEST_F(Refused, DamagedFilesAreReadOrRefusedWithTheirName)
+{
+  const auto      &frame = tests::lumped_frame(true);
+  std::minstd_rand dice(7);
+  using tests::CardFields;
+  const std::vector<std::string> texts = {
+      tests::grid_text(frame) + tests::dmig_text("KAAX", frame.C, frame.rows, CardFields::large),
+      "SPOINT,1,THRU,9\n" + tests::dmig_text("KAAX", frame.M, frame.rows, CardFields::small_),
+      tests::dmig_text("KAAX", frame.M, frame.rows, CardFields::free_),
+      tests::indexed_text(frame.M),
+      tests::element_matrix_text({{"STIFFNESS", frame.M}}, frame.rows, true),
+      tests::harwell_boeing_text(frame.M, true),
+      tests::inp_text(frame),
+      tests::nblock_text(frame),
+      tests::dof_text(frame.rows),
+      tests::mapping_text(frame.rows)};
+  int refused = 0;
+  for (const std::string &text : texts)
+    for (int k = 0; k < 20; ++k)
+    {
+      const std::string file = folder.write("d.txt", damaged(text, dice));
+      for (const auto &read : {std::function<void()>([&] { coupling::matrices_of_file(file); }),
+                               std::function<void()>([&] { coupling::read_row_table(file); }),
+                               std::function<void()>(
+                                   [&] {
+                                     coupling::read_node_places(file, {7, 11, 12, 23});
+                                   })})
+        if (const std::string said = tests::refusal(read); !said.empty())
+        {
+          ++refused;
+          EXPECT_EQ(said.find(file), 0u) << said;
+        }
+    }
+  EXPECT_GT(refused, 200);
 }
 
 TEST_F(Refused, FilesWithoutTheMatrixThatIsMeant)

@@ -9,7 +9,6 @@
 #include "coupling/exchange/rigid_motion_check.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace gestell::apps
 {
@@ -93,18 +92,16 @@ double total_mass(const SceneTable &frame, const fem::FrameMatrices &matrices, b
 }
 
 /// By the places of all nodes that have rows; tells what was found, and warns of what does not fit.
-std::optional<coupling::RigidMotionCheck> rigid_motions(const SceneTable &frame, fem::FrameMatrices &matrices,
-                                                        const GivenMatrices &given, const FrameNodes &nodes)
+void prove_rigid_motions(const SceneTable &frame, fem::FrameMatrices &matrices, const GivenMatrices &given,
+                         const FrameNodes &nodes)
 {
-  if (given.rows.empty() || nodes.places.empty())
-    return {};
   const auto check = coupling::check_rigid_motions(matrices.M, matrices.C, given.rows, nodes.places);
   if (const std::string suspicion = suspicion_of(check, given.rows); !suspicion.empty())
     frame.warn("stiffness", suspicion);
   matrices.statements.push_back(statement_of(check));
   matrices.rigid_motions = check.R;
   matrices.centre        = {check.centre[0], check.centre[1], check.centre[2]};
-  return check;
+  matrices.translations  = check.R.leftCols(3);
 }
 
 } // namespace
@@ -140,12 +137,16 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
       for (const auto &direction : directions)
         matrices.outputs.push_back(read_output(table.table(direction), "support." + table.name() + ".", n));
 
-  const auto rigid      = rigid_motions(frame, matrices, given, nodes);
-  matrices.translations = rigid && !frame.has("translations")
-                              ? Eigen::MatrixXd(rigid->R.leftCols(3))
-                              : read_translations(frame, matrices, nodes.all, has_translations);
-  has_translations      = has_translations || rigid;
-  matrices.mass         = total_mass(frame, matrices, has_translations);
+  if (!given.rows.empty())
+  {
+    has_translations      = true;
+    matrices.translations = coupling::rigid_translations(matrices.C, given.rows);
+    if (!nodes.places.empty())
+      prove_rigid_motions(frame, matrices, given, nodes);
+  }
+  if (given.rows.empty() || frame.has("translations"))
+    matrices.translations = read_translations(frame, matrices, nodes.all, has_translations);
+  matrices.mass = total_mass(frame, matrices, has_translations);
   if (matrices.mass == 0.)
     matrices.statements.push_back("mass of the frame: not known, and effective masses count the rows of interfaces and "
                                   "nodes alone; 'translations' says how all rows move, 'total_mass' what it weighs");
