@@ -88,6 +88,8 @@ int check(const CommonOptions &options)
             << '\n';
   if (!geometry.empty())
     std::cout << "frame: " << geometry << '\n';
+  for (const std::string &statement : scene.frame.matrices.statements)
+    std::cout << "frame: " << statement << '\n';
   for (const std::string &line : scene_in_words(scene))
     std::cout << "  " << line << '\n';
   if (!scene.joints.empty() && !places_known(scene))

@@ -1,13 +1,16 @@
 #include "apps/cli/export_frame.h"
 
 #include "apps/scene/file/written_text.h"
+#include "coupling/exchange/dmig.h"
 #include "coupling/frame/matrix_market.h"
 #include "coupling/frame/petsc_binary.h"
 #include "coupling/frame/whole_file.h"
 #include "coupling/reduction/dense_frame.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -52,6 +55,14 @@ public:
     return file;
   }
 
+  /// Writes frame.pch.
+  void cards(const std::map<std::string, Eigen::MatrixXd> &matrices, const std::vector<coupling::RowLabel> &rows,
+             const coupling::NodePlaces &places, const std::string &remark)
+  {
+    coupling::write_dmig(path("frame.pch"), matrices, rows, places, remark);
+    files_.push_back(path("frame.pch"));
+  }
+
   void text(const std::string &file, const std::string &content)
   {
     coupling::WholeFile out(path(file));
@@ -72,6 +83,91 @@ private:
   std::string              remark_;
   std::vector<std::string> files_;
 };
+
+using Labels = std::vector<coupling::RowLabel>;
+
+/// The first power of ten, 1000 at least, above the numbers of the interfaces.
+long first_scalar_point(const coupling::ReducedFrame &frame)
+{
+  long first = 1000;
+  while (first <= long(frame.interfaces.size()))
+    first *= 10;
+  return first + 1;
+}
+
+/// What every row is on the cards of Nastran.
+Labels labels_of(const coupling::ReducedFrame &frame)
+{
+  Labels labels(std::size_t(frame.M.rows()));
+  for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
+    for (int motion = 0; motion < 6; ++motion)
+      if (const int row = frame.interfaces[i].coordinate[motion]; row >= 0)
+        labels[std::size_t(row)] = {long(i + 1), motion + 1};
+  long point = first_scalar_point(frame);
+  for (coupling::RowLabel &label : labels)
+    if (label.component == 0)
+      label.node = point++;
+  return labels;
+}
+
+/// The same frame with rows in the order of `labels`, motions of interfaces along the axes.
+coupling::ReducedFrame in_order_of(const Labels &labels, coupling::ReducedFrame frame)
+{
+  const auto      n = Eigen::Index(labels.size());
+  Labels          sorted(labels);
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n); // q = P q_new
+  std::sort(sorted.begin(), sorted.end());
+  const std::vector<int> place = places_of(labels, sorted);
+  for (Eigen::Index i = 0; i < n; ++i)
+    P(i, place[std::size_t(i)]) = 1.;
+  for (fem::Interface &interface : frame.interfaces)
+  {
+    for (int motion = 0; motion < 6; ++motion)
+      if (const int row = interface.coordinate[motion]; row >= 0)
+        P(row, place[std::size_t(row)]) = interface.sign[motion];
+    interface.sign = {1., 1., 1., 1., 1., 1.};
+    interface.renumber([&](int row) { return place[std::size_t(row)]; });
+  }
+  for (Eigen::MatrixXd *A : {&frame.M, &frame.B, &frame.C})
+    *A = Eigen::MatrixXd(P.transpose() * *A * P);
+  frame.translations_load = Eigen::MatrixXd(P.transpose() * frame.translations_load);
+  if (frame.displacement.size() > 0)
+    frame.displacement = (frame.displacement.cast<double>() * P).cast<float>();
+  for (fem::FrameOutput &output : frame.outputs)
+  {
+    output.on_q = Eigen::VectorXd(P.transpose() * output.on_q);
+    output.on_v = Eigen::VectorXd(P.transpose() * output.on_v);
+  }
+  return frame;
+}
+
+/// Nodes of the interfaces by the numbers on the cards.
+std::string numbered_table(const coupling::ReducedFrame &frame)
+{
+  std::ostringstream out;
+  out << "name, node, x, y, z\n";
+  for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
+  {
+    out << written_text(frame.interfaces[i].name) << ", " << i + 1;
+    for (const double x : frame.interfaces[i].position)
+      out << ", " << digits(x);
+    out << '\n';
+  }
+  return out.str();
+}
+
+/// frame.pch and nodes.csv; returns the keys that take them back.
+std::string write_cards(Export &files, const coupling::ReducedFrame &frame, const Labels &labels,
+                        const std::string &remark)
+{
+  coupling::NodePlaces places;
+  for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
+    places[long(i + 1)] = frame.interfaces[i].position;
+  files.cards({{"KAAX", frame.C}, {"MAAX", frame.M}, {"BAAX", frame.B}}, labels, places, remark);
+  files.text("nodes.csv", numbered_table(frame));
+  std::string keys = "mass = \"frame.pch\"\nstiffness = \"frame.pch\"\nnodes = \"nodes.csv\"\n";
+  return frame.B.isZero(0.) ? keys : keys + "damping = \"frame.pch\"\n";
+}
 
 /// Interfaces with their rows, then the points of the skin.
 std::string node_table(const coupling::ReducedFrame &frame)
@@ -145,10 +241,12 @@ MatrixFormat matrix_format(const std::string &name)
     return MatrixFormat::matrix_market;
   if (name == "petsc")
     return MatrixFormat::petsc;
-  throw std::invalid_argument("--export: got '" + name + "'; valid: matrix-market, petsc");
+  if (name == "dmig")
+    return MatrixFormat::dmig;
+  throw std::invalid_argument("--export: got '" + name + "'; valid: matrix-market, petsc, dmig");
 }
 
-std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &frame,
+std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &given,
                                       MatrixFormat format, const std::string &remark)
 {
   const char *const whole = "frame.toml"; // written last: without it the export is incomplete
@@ -157,15 +255,30 @@ std::vector<std::string> export_frame(const std::string &folder, const coupling:
   std::string scene = "# " + remark + "\n# Paths are relative to the scene that takes this table.\n[frame]\n";
   const auto  add   = [&](const std::string &key, const Eigen::MatrixXd &A, bool symmetric = false)
   { scene += key + " = " + written_text(files.matrix(key, A, symmetric)) + '\n'; };
-  add("mass", frame.M, true);
-  add("damping", frame.B, true);
-  add("stiffness", frame.C, true);
+  const bool on_cards = format == MatrixFormat::dmig;
+  const auto labels   = on_cards ? labels_of(given) : Labels{};
+  const auto frame    = on_cards ? in_order_of(labels, given) : given;
+  if (on_cards)
+  {
+    Labels sorted(labels);
+    std::sort(sorted.begin(), sorted.end());
+    scene += write_cards(files, frame, sorted, remark);
+  }
+  else
+  {
+    add("mass", frame.M, true);
+    add("damping", frame.B, true);
+    add("stiffness", frame.C, true);
+  }
   add("translations", coupling::unit_translations(frame));
   if (frame.mass > 0.)
     scene += "total_mass = " + digits(frame.mass) + '\n';
-  files.text("nodes.csv", node_table(frame));
-  scene += "nodes = \"nodes.csv\"\n";
-  if (!frame.points.empty())
+  if (!on_cards)
+  {
+    files.text("nodes.csv", node_table(frame));
+    scene += "nodes = \"nodes.csv\"\n";
+  }
+  if (!frame.points.empty() && !on_cards)
   {
     files.text("triangles.csv", triangle_table(frame));
     scene += "triangles = \"triangles.csv\"\n";

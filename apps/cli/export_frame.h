@@ -11,10 +11,11 @@ namespace gestell::apps
 enum class MatrixFormat
 {
   matrix_market, ///< .mtx
-  petsc          ///< PETSc's binary format, .petsc
+  petsc,         ///< PETSc's binary format, .petsc
+  dmig           ///< mass, damping and stiffness on cards of Nastran, frame.pch, with the nodes of the interfaces
 };
 
-/// "matrix-market" or "petsc".  @throws std::invalid_argument for others.
+/// "matrix-market", "petsc" or "dmig".  @throws std::invalid_argument for others.
 MatrixFormat matrix_format(const std::string &name);
 
 /**
@@ -24,6 +25,9 @@ MatrixFormat matrix_format(const std::string &name);
  *
  * `translations` are M^-1 f with f the load of a unit acceleration: in the coordinates of the reduced frame the best a
  * unit translation of the whole frame can be told by, and gravity is the same.
+ *
+ * On cards of Nastran interfaces are grid points 1, 2, ... with motions along the axes, all other coordinates scalar
+ * points from 1001 on (or the next power of ten); rows are in this order, and numbers have ten digits.
  *
  * @param remark  of the scene the frame is from, for people.
  * @return the files written.

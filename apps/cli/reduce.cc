@@ -177,7 +177,7 @@ Command reduce_command()
           {"gestell reduce apps/scenes/press.toml --set reduction.modes=40",
            "gestell reduce --explain apps/scenes/press.toml", "gestell reduce --prune --older-than '30 d' --list"},
           CommandInput::scene_or_none,
-          {{"--export", &own->export_format, "write the reduced matrices, too: matrix-market or petsc"},
+          {{"--export", &own->export_format, "write the reduced matrices, too: matrix-market, petsc or dmig (Nastran)"},
            {"--partition", &own->partition,
             "why every coordinate of the interfaces is kept, and interfaces that are superfluous, instead"},
            {"--list", &own->list, "the frames in the cache instead"},

@@ -68,6 +68,8 @@ void add_frame(Tables &tables)
       "Holds two parts together; signals `frame.joint.NAME.fx` to `mz` and `normal_force`, of a tie rod `force`.",
       frame_joint_keys());
   add("matrices", "[frame]", "The frame given by matrices, M q'' + B q' + C q = f.", matrix_frame_keys());
+  add("matrices.file_units", "[frame.file_units]", "What one of each is in the files of another program.",
+      file_unit_keys());
   add("matrices.interface", "[frame.interface.NAME]", "Rows of the matrices that are motions of a node.",
       matrix_interface_keys());
   add("matrices.cut", "[frame.cut.NAME]", "Signal `frame.cut.NAME` of a frame given by matrices.",

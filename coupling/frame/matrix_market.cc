@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -41,6 +42,16 @@ public:
   {
     if (!file_)
       throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
+    file_.seekg(0, std::ios::end);
+    size_ = file_.tellg();
+    file_.seekg(0);
+  }
+
+  /// Refuses more numbers than a file of this length holds, each with a blank or an end of its line.
+  void require_room(double numbers, const std::string &what) const
+  {
+    if (2. * numbers > double(size_) + 1.)
+      fail(what + " cannot stand in a file of " + std::to_string(size_) + " bytes; it is cut off, or its head wrong");
   }
 
   [[noreturn]] void fail(const std::string &expected) const
@@ -120,6 +131,7 @@ private:
   std::string   line_;
   char         *rest_   = nullptr;
   long          number_ = 0;
+  std::int64_t  size_   = 0;
 };
 
 struct Header
@@ -162,7 +174,7 @@ void add(Entries &entries, int row, int column, double value, bool symmetric)
 void read_coordinates(MatrixMarketReader &reader, int rows, int columns, int count, bool symmetric, Entries &entries)
 {
   const char *expected = "expected 'row column value'";
-  entries.reserve(std::min<std::size_t>(std::size_t(count) * (symmetric ? 2 : 1), 100000000));
+  entries.reserve(std::size_t(count) * (symmetric ? 2 : 1));
   for (int k = 0; k < count; ++k)
   {
     if (!reader.next_entry())
@@ -232,6 +244,11 @@ Matrix read_matrix_market(const std::string &file)
                 " rows or columns is larger than any frame that could be computed; check the file");
   if (header.symmetric && rows != columns)
     reader.fail("a symmetric matrix must be square");
+  if (header.coordinate)
+    reader.require_room(3. * count, std::to_string(count) + " entries");
+  else
+    reader.require_room(double(rows) * columns / (header.symmetric ? 2. : 1.),
+                        std::to_string(rows) + " x " + std::to_string(columns) + " values");
 
   Entries entries;
   if (header.coordinate)

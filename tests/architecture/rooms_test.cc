@@ -39,7 +39,7 @@ const std::vector<std::vector<std::string>> directions = {
     {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/eigensolvers", "coupling/parallel",
      "coupling/reduction/shapes", "coupling/reduction/estimates", "coupling/reduction/methods", "coupling/reduction",
      "coupling/plugin/frame"},
-    {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/machine", "coupling/equilibrium",
+    {"coupling/integration", "coupling/frame", "coupling/exchange", "coupling/algebra", "coupling/machine", "coupling/equilibrium",
      "coupling/modes", "coupling/simulation", "coupling/sensitivity"},
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/elements", "apps/scene/build"},
     {"apps/scene", "apps/session", "apps/cli"},

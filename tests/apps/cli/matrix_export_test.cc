@@ -72,6 +72,37 @@ TEST_P(MatrixExport, ComesBackAsTheSameFrame)
 
 INSTANTIATE_TEST_SUITE_P(Formats, MatrixExport, ::testing::Values("matrix-market", "petsc"));
 
+TEST(MatrixExportOnCards, ComesBackToTenDigitsWithMotionsAlongTheAxes)
+{
+  const test::SceneFolder folder;
+  const auto              frame = frame_with_picture();
+  apps::export_frame(folder.path(""), frame, apps::matrix_format("dmig"), "a test");
+  const auto scene = apps::read_scene(folder.write("back.toml", text_of_file(folder.path("frame.toml"))));
+  const auto back  = coupling::dense_frame(scene.frame.matrices);
+
+  Eigen::VectorXd sign = Eigen::VectorXd::Ones(frame.M.rows());
+  sign[0]              = -1.; // row 0 counts against z
+  const auto same      = [&](const Eigen::MatrixXd &a, const Eigen::MatrixXd &b)
+  {
+    const Eigen::MatrixXd along = sign.asDiagonal() * b * sign.asDiagonal();
+    return (a - along).cwiseAbs().maxCoeff() <= 5.1e-10 * b.cwiseAbs().maxCoeff();
+  };
+  ASSERT_EQ(frame.interfaces[0].coordinate[fem::uz], 0);
+  EXPECT_TRUE(same(back.M, frame.M));
+  EXPECT_TRUE(same(back.B, frame.B));
+  EXPECT_TRUE(same(back.C, frame.C));
+  ASSERT_EQ(back.interfaces.size(), 1u);
+  EXPECT_EQ(back.interfaces[0].name, "top");
+  EXPECT_EQ(back.interfaces[0].coordinate, frame.interfaces[0].coordinate);
+  EXPECT_EQ(back.interfaces[0].sign[fem::uz], 1.);
+  EXPECT_EQ(back.interfaces[0].position, frame.interfaces[0].position);
+  EXPECT_LT((back.outputs.at(0).on_q - sign.asDiagonal() * frame.outputs[0].on_q).norm(),
+            1e-15 * frame.outputs[0].on_q.norm());
+  EXPECT_LT((back.translations_load - sign.asDiagonal() * frame.translations_load).norm(),
+            1e-8 * frame.translations_load.norm());
+  EXPECT_EQ(back.mass, frame.mass);
+}
+
 TEST(MatrixFormat, OfAnotherNameIsRefused)
 {
   EXPECT_THROW(apps::matrix_format("nastran"), std::invalid_argument);

@@ -161,11 +161,18 @@ struct Asked
   }
 };
 
-/// Reads a scene beside a file "frame.step"; what it says against it, and what was asked.
+/// Matrices and a node as Nastran writes them.
+const std::string cards = "GRID,1,,0.,0.,0.\n"
+                          "DMIG,KAAX,0,6,2\nDMIG,KAAX,1,3,,1,3,2.\n"
+                          "DMIG,MAAX,0,6,2\nDMIG,MAAX,1,3,,1,3,1.\n"
+                          "DMIG,BAAX,0,6,2\nDMIG,BAAX,1,3,,1,3,0.1\n";
+
+/// Reads a scene beside files "frame.step" and "frame.pch"; what it says against it, and what was asked.
 std::string read(const std::string &text, Asked &asked)
 {
   const SceneFolder folder;
   folder.write("frame.step", "no geometry");
+  folder.write("frame.pch", cards);
   const std::string file  = folder.write("scene.toml", text);
   const SceneNode   root  = read_scene_file(file, {});
   const std::string error = gestell::tests::refusal([&] { read_scene(root, file, gestell::fem::Scripts::harmless); });
@@ -191,6 +198,7 @@ const Asked &all_asked()
     EXPECT_EQ(read(content("tests/apps/reference/machine.toml"), everything), "");
     EXPECT_EQ(read(content("tests/apps/reference/frame_from_cad.toml"), everything), "");
     EXPECT_EQ(read(content("tests/apps/reference/frame_of_parts.toml"), everything), "");
+    EXPECT_EQ(read(content("tests/apps/reference/imported_frame.toml"), everything), "");
     for (const BodyType &type : body_types())
       EXPECT_NE(read(body_from_cad(type.name), everything), "") << type.name;
     return everything;

@@ -109,6 +109,8 @@ TEST_F(MatrixMarket, ErrorsNameFileLineAndRemedy)
   says(head + "2 2 1\n1 1 nan\n", "3", "not a finite number");
   says(head + "2 2 1\n1 1 -inf\n", "3", "not a finite number");
   says(head + "2000000000 2000000000 1\n1 1 1\n", "2", "more than 20000000 rows or columns");
+  says(head + "20000000 20000000 2000000000\n1 1 1\n", "2", "cannot stand in a file of");
+  says("%%MatrixMarket matrix array real general\n2000000 2000000\n1\n", "2", "cannot stand in a file of");
   says("\x80\x01 junk\n", "1", "'?? junk': expected the head line");
   says(head + "2 2 1\n1 1 1 1\n", "3", "row column value");
   says(head + "2 2 1\n1 one 1\n", "3", "row column value");

@@ -150,7 +150,8 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
       suspicions.push_back(text_of({"the frame is lighter than the air in its box, ",
                                     " kg/m^3: are masses in tonnes? They must be in kg, so that stiffness in N/m fits"},
                                    density));
-    else if (density > heaviest_metal && !frame.picture.points.empty()) // interfaces alone bound no frame
+    else if (density > heaviest_metal &&
+             frame.picture.points.size() > frame.interfaces.size()) // interfaces alone bound no frame
       suspicions.push_back(text_of({"the frame is heavier than any metal that fills its box, ",
                                     " kg/m^3: check the units of mass (kg) and of positions (m)"},
                                    density));

@@ -2,25 +2,30 @@
 
 #include "apps/scene/file/csv_file.h"
 #include "apps/scene/language/units.h"
+#include "coupling/exchange/node_places.h"
 #include "coupling/frame/matrix_file.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 
 namespace gestell::apps
 {
 namespace
 {
 
-const std::vector<std::string> columns{"name", "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz"};
-constexpr std::size_t          first_position = 1, first_motion = 4;
+const std::vector<std::string> columns{"name", "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz", "node"};
+constexpr std::size_t          first_position = 1, first_motion = 4, number_column = 10;
 
 /// Where each of `columns` stands in the table, and the length that positions are in.
 struct Layout
 {
   std::vector<std::optional<std::size_t>> column = std::vector<std::optional<std::size_t>>(columns.size());
-  std::array<double, 3>                   unit{1., 1., 1.};
+  std::array<double, 3>                   unit;
+
+  explicit Layout(double length) : unit{length, length, length} {}
 };
 
 /// "x [mm]" is the column x in millimetres.
@@ -47,9 +52,9 @@ void add_column(const CsvFile &table, std::size_t at, Layout &layout)
   layout.unit[index - first_position] = unit->second.value;
 }
 
-Layout layout_of(const CsvFile &table)
+Layout layout_of(const CsvFile &table, double length)
 {
-  Layout layout;
+  Layout layout(length);
   for (std::size_t at = 0; at < table.head.size(); ++at)
     add_column(table, at, layout);
   for (std::size_t d = first_position; d < first_motion; ++d)
@@ -86,18 +91,31 @@ TableNode read_node(const CsvFile &table, const CsvFile::Line &line, const Layou
   return node;
 }
 
+/// Place of the node of a number, or -1.
+using NodeIndex = std::map<long, int>;
+
+NodeIndex index_of(const std::vector<TableNode> &nodes)
+{
+  NodeIndex index;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    index.emplace(nodes[i].number > 0 ? nodes[i].number : long(i + 1), int(i));
+  return index;
+}
+
 /// Three nodes or, of a quadrilateral, two times three.
-void add_triangles(const CsvFile &table, const CsvFile::Line &line, int n_nodes, fem::Picture &picture)
+void add_triangles(const CsvFile &table, const CsvFile::Line &line, const NodeIndex &nodes, fem::Picture &picture)
 {
   std::vector<int> corner;
   for (std::size_t column = 0; column < line.cells.size(); ++column)
     if (column < 3 || !line.cells[column].empty())
     {
-      const int node = table.integer(line, column);
-      if (node < 1 || node > n_nodes)
-        throw std::invalid_argument(table.place(line.number) + "there is no node " + std::to_string(node) +
-                                    "; the table of nodes has 1 to " + std::to_string(n_nodes));
-      corner.push_back(node - 1);
+      const int  number = table.integer(line, column);
+      const auto node   = nodes.find(number);
+      if (node == nodes.end())
+        throw std::invalid_argument(table.place(line.number) + "there is no node " + std::to_string(number) +
+                                    "; the table of nodes has " + std::to_string(nodes.begin()->first) + " to " +
+                                    std::to_string(nodes.rbegin()->first));
+      corner.push_back(node->second);
     }
   for (std::size_t i = 2; i < corner.size(); ++i)
     picture.triangles.push_back({corner[0], corner[i - 1], corner[i]});
@@ -115,20 +133,126 @@ Eigen::SparseMatrix<double> displacements_by_rows(const std::vector<TableNode> &
   return A;
 }
 
+/// Of matrices whose rows are known: motions of each node, by numbers.
+std::map<long, TableNode> nodes_of_rows(const std::vector<coupling::RowLabel> &rows)
+{
+  std::map<long, TableNode> nodes;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].component > 0)
+    {
+      TableNode &node                                             = nodes[rows[i].node];
+      node.number                                                 = rows[i].node;
+      node.motions.coordinate[std::size_t(rows[i].component - 1)] = int(i);
+    }
+  return nodes;
+}
+
+/// Lines of a table with a column `node`; nodes without rows do not count unless they have a name.
+void place_by_numbers(const CsvFile &table, const Layout &layout, std::map<long, TableNode> &nodes,
+                      coupling::NodePlaces &places)
+{
+  for (std::size_t motion = first_motion; motion < number_column; ++motion)
+    if (layout.column[motion])
+      throw std::invalid_argument(table.place(table.head_number) + "has both 'node' and '" + columns[motion] +
+                                  "'; the rows of a node are known by its number, leave the other out");
+  for (const auto &line : table.lines)
+  {
+    TableNode  read   = read_node(table, line, layout, 0);
+    const long number = table.integer(line, *layout.column[number_column]);
+    const auto node   = nodes.find(number);
+    if (node == nodes.end() && !read.motions.name.empty())
+      throw std::invalid_argument(read.place + "node " + std::to_string(number) + " ('" + read.motions.name +
+                                  "') has no row in the matrices");
+    if (node == nodes.end())
+      continue;
+    if (!places.emplace(number, read.motions.position).second)
+      throw std::invalid_argument(read.place + "node " + std::to_string(number) + " is there already");
+    node->second.motions.name = read.motions.name;
+    node->second.place        = read.place;
+  }
+}
+
+/// Every node with rows needs a place, once some are given.
+void require_places(const SceneTable &frame, const std::string &key, const std::map<long, TableNode> &nodes,
+                    const coupling::NodePlaces &places)
+{
+  std::vector<long> without;
+  for (const auto &[number, node] : nodes)
+    if (places.count(number) == 0)
+      without.push_back(number);
+  if (!without.empty())
+    throw frame.error(key, "has no place of node " + std::to_string(without.front()) +
+                               (without.size() > 1 ? " and " + std::to_string(without.size() - 1) + " more" : "") +
+                               " of " + std::to_string(nodes.size()) +
+                               ", which have rows in the matrices; is it of another model?");
+}
+
+/// Of matrices whose rows are known.
+FrameNodes read_known_nodes(const SceneTable &frame, const GivenMatrices &given)
+{
+  std::map<long, TableNode> nodes = nodes_of_rows(given.rows);
+  FrameNodes                found;
+  const bool                has_key = frame.has("nodes");
+  const std::string         path = has_key ? frame.file("nodes") : given.model, key = has_key ? "nodes" : "stiffness";
+  if (!path.empty())
+    try
+    {
+      if (!has_key || coupling::has_node_places(path))
+      {
+        std::set<long> wanted;
+        for (const auto &[number, node] : nodes)
+          wanted.insert(number);
+        found.places = coupling::read_node_places(path, wanted);
+        for (auto &[number, x] : found.places)
+          for (double &coordinate : x)
+            coordinate *= given.length;
+      }
+      else
+      {
+        const CsvFile table  = read_csv(path);
+        const Layout  layout = layout_of(table, given.length);
+        if (!layout.column[number_column])
+          throw std::invalid_argument(table.place(table.head_number) +
+                                      "has no column 'node' with the numbers by which the rows are known");
+        place_by_numbers(table, layout, nodes, found.places);
+      }
+    }
+    catch (const std::invalid_argument &e)
+    {
+      throw frame.error(key, e.what());
+    }
+  if (!path.empty())
+    require_places(frame, key, nodes, found.places);
+  for (auto &[number, node] : nodes)
+  {
+    if (!found.places.empty())
+      node.motions.position = found.places.at(number);
+    found.all.push_back(std::move(node));
+  }
+  return found;
+}
+
 } // namespace
 
-std::vector<TableNode> read_node_table(const SceneTable &frame, Eigen::Index n)
+FrameNodes read_frame_nodes(const SceneTable &frame, const GivenMatrices &given, Eigen::Index n)
 {
-  std::vector<TableNode> nodes;
+  if (!given.rows.empty())
+    return read_known_nodes(frame, given);
+  FrameNodes nodes;
   if (!frame.has("nodes"))
     return nodes;
   const std::string path = frame.file("nodes");
   try
   {
     const CsvFile table  = read_csv(path);
-    const Layout  layout = layout_of(table);
+    const Layout  layout = layout_of(table, given.length);
+    if (layout.column[number_column])
+      throw std::invalid_argument(
+          table.place(table.head_number) +
+          "has a column 'node', but the matrices do not tell the nodes of their rows; add rows = "
+          "the file that does (.dof, .mapping), or give the columns ux to rz");
     for (const auto &line : table.lines)
-      nodes.push_back(read_node(table, line, layout, n));
+      nodes.all.push_back(read_node(table, line, layout, n));
   }
   catch (const std::invalid_argument &e)
   {
@@ -137,9 +261,12 @@ std::vector<TableNode> read_node_table(const SceneTable &frame, Eigen::Index n)
   return nodes;
 }
 
-fem::Picture read_node_picture(const SceneTable &frame, const std::vector<TableNode> &nodes, Eigen::Index n)
+fem::Picture read_node_picture(const SceneTable &frame, const FrameNodes &of_frame, Eigen::Index n)
 {
-  fem::Picture picture;
+  const bool are_placed               = of_frame.all.empty() || of_frame.all[0].number == 0 || !of_frame.places.empty();
+  const std::vector<TableNode> &nodes = are_placed ? of_frame.all : std::vector<TableNode>{};
+  const NodeIndex               numbers = index_of(nodes);
+  fem::Picture                  picture;
   for (const std::string key : {"triangles", "node_displacements"})
     if (frame.has(key) && nodes.empty())
       throw frame.error(key, "is about the nodes of a table; add nodes = \"nodes.csv\"");
@@ -167,7 +294,7 @@ fem::Picture read_node_picture(const SceneTable &frame, const std::vector<TableN
              throw std::invalid_argument(table.place(table.head_number) + "has " + std::to_string(table.head.size()) +
                                          " columns; a line has the numbers of three or four nodes");
            for (const auto &line : table.lines)
-             add_triangles(table, line, int(nodes.size()), picture);
+             add_triangles(table, line, numbers, picture);
          });
   placed("node_displacements",
          [&](const std::string &path)

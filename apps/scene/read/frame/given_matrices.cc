@@ -1,0 +1,307 @@
+#include "apps/scene/read/frame/given_matrices.h"
+
+#include "apps/scene/read/frame/matrix_checks.h"
+#include "coupling/exchange/matrices_of_file.h"
+#include "coupling/exchange/node_places.h"
+#include "coupling/exchange/row_table.h"
+#include "coupling/frame/matrix_file.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::LabelledMatrix;
+using coupling::MatrixRole;
+using coupling::RowLabel;
+using Sparse = Eigen::SparseMatrix<double>;
+
+Eigen::MatrixXd dense(const std::vector<std::vector<double>> &rows)
+{
+  Eigen::MatrixXd result(rows.size(), rows.front().size());
+  for (Eigen::Index i = 0; i < result.rows(); ++i)
+    for (Eigen::Index j = 0; j < result.cols(); ++j)
+      result(i, j) = rows[i][j];
+  return result;
+}
+
+/// What a reader says against a file, at the key that names it.
+template <typename Read>
+auto at_key(const SceneTable &frame, const std::string &key, const Read &read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw frame.error(key, e.what());
+  }
+}
+
+struct FileUnits
+{
+  double length = 1., mass = 1., time = 1., force = 1.; ///< SI
+
+  bool are_si() const { return length == 1. && mass == 1. && time == 1. && force == 1.; }
+};
+
+FileUnits read_units(const SceneTable &frame)
+{
+  FileUnits  units;
+  const auto table = frame.optional_table("file_units");
+  if (!table)
+    return units;
+  units.length = table->value("length");
+  units.mass   = table->value("mass");
+  units.time   = table->value("time");
+  units.force  = table->value_or("force", units.mass * units.length / (units.time * units.time));
+  return units;
+}
+
+/// Files of other programs, each read once.
+class MatrixFiles
+{
+public:
+  explicit MatrixFiles(const SceneTable &frame) : frame_(frame), names_(frame.optional_table("matrix_names"))
+  {
+    if (frame.has("rows"))
+      rows_ = at_key(frame, "rows", [&] { return coupling::read_row_table(frame.file("rows")); });
+  }
+
+  LabelledMatrix read(const std::string &key, MatrixRole role, const Kind &kind)
+  {
+    LabelledMatrix matrix;
+    if (!frame_.is_text(key))
+      matrix.A = dense(frame_.matrix(key, kind)).sparseView();
+    else
+      matrix = at_key(frame_, key, [&] { return from_file(frame_.file(key), key, role); });
+    if (matrix.A.rows() != matrix.A.cols())
+      throw frame_.error(key, "is " + shape_text(matrix.A.rows(), matrix.A.cols()) + ", but must be square");
+    if (matrix.rows.empty() && !rows_.empty())
+      name_rows(key, matrix);
+    return matrix;
+  }
+
+  /// Names of other matrices in the files that were read, by a test of their names.
+  template <typename Is>
+  std::string left_in_files(const Is &is) const
+  {
+    for (const auto &[path, matrices] : read_)
+      for (const auto &[name, matrix] : matrices)
+        if (is(name))
+          return name;
+    return "";
+  }
+
+private:
+  LabelledMatrix from_file(const std::string &path, const std::string &key, MatrixRole role)
+  {
+    const auto found = read_.find(path);
+    auto      &all   = found != read_.end() ? found->second : read_[path] = coupling::matrices_of_file(path);
+    return coupling::matrix_for(all, role, names_ ? names_->text(key, "") : "", path);
+  }
+
+  void name_rows(const std::string &key, LabelledMatrix &matrix) const
+  {
+    if (matrix.A.rows() != Eigen::Index(rows_.size()))
+      throw frame_.error("rows", "names " + std::to_string(rows_.size()) + " rows, but " + key + " is " +
+                                     shape_text(matrix.A.rows(), matrix.A.cols()) +
+                                     "; is it the file of another matrix?");
+    matrix.rows = rows_;
+  }
+
+  const SceneTable                                            &frame_;
+  std::optional<SceneTable>                                    names_;
+  std::vector<RowLabel>                                        rows_;
+  std::map<std::string, std::map<std::string, LabelledMatrix>> read_;
+};
+
+std::string text_of_some(const std::vector<RowLabel> &rows)
+{
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(rows.size(), 3); ++i)
+    text += (i > 0 ? "; " : "") + text_of(rows[i]);
+  return text + (rows.size() > 3 ? "; ..." : "");
+}
+
+/// Of `of` those that are not in `in`.
+std::vector<RowLabel> missing_rows(const std::vector<RowLabel> &of, const std::vector<RowLabel> &in)
+{
+  const std::vector<int> place = places_of(of, in);
+  std::vector<RowLabel>  missing;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (place[i] < 0)
+      missing.push_back(of[i]);
+  return missing;
+}
+
+/// Rows of mass or damping join those of the stiffness.
+void join_rows(const SceneTable &frame, const std::string &key, const std::vector<RowLabel> &stiff,
+               const LabelledMatrix &other, std::vector<RowLabel> &rows)
+{
+  const auto more = missing_rows(other.rows, stiff);
+  if (more.size() == other.rows.size() && !more.empty())
+    throw frame.error(key, "has no row in common with the stiffness (" + text_of_some(more) + " here, " +
+                               text_of_some(stiff) + " there); are they of different models?");
+  if (!more.empty())
+    frame.warn(key, count_text(more.size(), "row") +
+                        " of it are not in the stiffness, so that nothing holds them: " + text_of_some(more) +
+                        "; right for interfaces that hold the frame statically determinate, else "
+                        "the files are of different models");
+  for (const RowLabel &row : missing_rows(more, rows))
+    rows.push_back(row);
+}
+
+bool is_named(const LabelledMatrix &matrix)
+{
+  return !matrix.rows.empty();
+}
+
+/// All named or none.
+void require_named_alike(const SceneTable &frame, const LabelledMatrix &M, const LabelledMatrix &C,
+                         const std::optional<LabelledMatrix> &B)
+{
+  if (is_named(M) == is_named(C) && (!B || is_named(*B) == is_named(C)))
+    return;
+  const std::string key = is_named(M) != is_named(C) ? "mass" : "damping";
+  throw frame.error(key, "does not tell what its rows are like the stiffness: one of the files names nodes and "
+                         "directions, the other counts rows; 'rows' names those of files that count (.dof, .mapping)");
+}
+
+Eigen::VectorXd scales(const std::vector<RowLabel> &rows, const FileUnits &units)
+{
+  Eigen::VectorXd s(Eigen::Index(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    s[Eigen::Index(i)] = rows[i].is_rotation()       ? 1.
+                         : rows[i].is_displacement() ? 1. / units.length
+                                                     : 1. / (units.length * std::sqrt(units.mass));
+  return s;
+}
+
+void require_size(const SceneTable &frame, const std::string &key, const Sparse &A, Eigen::Index n)
+{
+  if (A.rows() != n)
+    throw frame.error(key, "is " + shape_text(A.rows(), A.cols()) + ", but must be " + shape_text(n, n) +
+                               " like the mass matrix");
+}
+
+/// The three in one order of rows, in SI.
+void unite(const SceneTable &frame, LabelledMatrix &M, LabelledMatrix &C, std::optional<LabelledMatrix> &B,
+           const FileUnits &units, GivenMatrices &given)
+{
+  given.rows = C.rows;
+  join_rows(frame, "mass", C.rows, M, given.rows);
+  if (B)
+    join_rows(frame, "damping", C.rows, *B, given.rows);
+  if (const auto massless = missing_rows(given.rows, M.rows); !massless.empty())
+    given.statements.push_back("mass: " + count_text(massless.size(), "row") +
+                               " of the stiffness have none: " + text_of_some(massless));
+  const Eigen::VectorXd s      = scales(given.rows, units);
+  const double          energy = units.force * units.length;
+  const auto            in_si  = [&](const LabelledMatrix &matrix, double factor)
+  {
+    Sparse A = spread(matrix, given.rows);
+    for (int j = 0; j < A.outerSize() && !units.are_si(); ++j)
+      for (Sparse::InnerIterator a(A, j); a; ++a)
+        a.valueRef() *= factor * (s[a.row()] * s[j]);
+    return A;
+  };
+  given.M = in_si(M, units.mass * units.length * units.length);
+  given.C = in_si(C, energy);
+  if (B)
+    given.B = in_si(*B, energy * units.time);
+}
+
+void check(const SceneTable &frame, const GivenMatrices &given)
+{
+  const auto magnitude = [&](const std::string &key, const Sparse &A)
+  {
+    check_symmetry(frame, key, A, given.rows);
+    check_magnitude(frame, key, A);
+  };
+  magnitude("mass", given.M);
+  magnitude("stiffness", given.C);
+  require_positive_diagonal(frame, "stiffness", given.C, given.rows); // by the factor all of it is judged later
+  if (given.B)
+  {
+    magnitude("damping", *given.B);
+    check_semidefinite(frame, "damping", *given.B, given.rows);
+  }
+  check_mass(frame, given.M, given.C, given.rows);
+}
+
+/// Damping that the files hold and the scene does not name.
+void tell_left_damping(const SceneTable &frame, const MatrixFiles &files)
+{
+  if (frame.has("damping"))
+    return;
+  const std::string viscous    = files.left_in_files([](const std::string &name) { return name[0] == 'B'; });
+  const std::string structural = files.left_in_files([](const std::string &name) { return name.rfind("K4", 0) == 0; });
+  if (!viscous.empty())
+    frame.warn("stiffness",
+               "the file has a damping matrix " + viscous +
+                   ", which is left out; damping = the same file takes it, damping = { ratio = 0.01 } says "
+                   "that it is not wanted");
+  if (!structural.empty())
+    frame.warn("stiffness", "the file has structural damping " + structural +
+                                ", a loss in each cycle that no motion in time has as a matrix; it is left out: give "
+                                "damping = { ratio = ... } at half the loss factor");
+}
+
+} // namespace
+
+std::string shape_text(Eigen::Index rows, Eigen::Index columns)
+{
+  return std::to_string(rows) + " x " + std::to_string(columns);
+}
+
+Sparse read_plain_matrix(const SceneTable &frame, const std::string &key, const Kind &kind)
+{
+  if (!frame.is_text(key))
+    return dense(frame.matrix(key, kind)).sparseView();
+  return at_key(frame, key, [&] { return coupling::read_matrix_file(frame.file(key)); });
+}
+
+GivenMatrices read_given_matrices(const SceneTable &frame)
+{
+  const FileUnits units = read_units(frame);
+  GivenMatrices   given;
+  given.length = units.length;
+  MatrixFiles                   files(frame);
+  LabelledMatrix                M = files.read("mass", MatrixRole::mass, kind::mass_entry);
+  LabelledMatrix                C = files.read("stiffness", MatrixRole::stiffness, kind::stiffness_entry);
+  std::optional<LabelledMatrix> B;
+  if (frame.has("damping") && !frame.is_table("damping"))
+    B = files.read("damping", MatrixRole::damping, kind::damping_entry);
+  require_named_alike(frame, M, C, B);
+  if (is_named(C))
+    unite(frame, M, C, B, units, given);
+  else
+  {
+    if (!units.are_si())
+      throw frame.error("file_units", "needs to know which rows are displacements and which rotations: add rows = the "
+                                      "file that tells (.dof, .mapping), or write the matrices in kg, m, N");
+    require_size(frame, "stiffness", C.A, M.A.rows());
+    given.M = std::move(M.A);
+    given.C = std::move(C.A);
+    if (B)
+    {
+      require_size(frame, "damping", B->A, given.M.rows());
+      given.B = std::move(B->A);
+    }
+  }
+  check(frame, given);
+  tell_left_damping(frame, files);
+  if (is_named(C) && frame.is_text("stiffness") && coupling::has_node_places(frame.file("stiffness")))
+    given.model = frame.file("stiffness");
+  return given;
+}
+
+} // namespace gestell::apps

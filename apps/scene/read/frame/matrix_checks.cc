@@ -1,0 +1,133 @@
+#include "apps/scene/read/frame/matrix_checks.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace gestell::apps
+{
+namespace
+{
+
+using coupling::RowLabel;
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr double symmetry_tolerance     = 1e-9; // of the largest entry: files written with 10 digits pass
+constexpr double semidefinite_tolerance = 1e-9; // of unit diagonal, likewise
+constexpr double largest_entry          = 1e100;
+constexpr double vanishing_mass         = 1e-30; // of the largest
+
+std::string number_text(double x)
+{
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
+bool has_one_triangle_only(const Sparse &A)
+{
+  bool below = false, above = false;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Sparse::InnerIterator a(A, j); a; ++a)
+      if (a.value() != 0. && a.row() != j)
+        (a.row() > j ? below : above) = true;
+  return below != above;
+}
+
+} // namespace
+
+std::string row_text(Eigen::Index row, const std::vector<RowLabel> &rows)
+{
+  return "row " + std::to_string(row + 1) + (rows.empty() ? "" : " (" + text_of(rows[std::size_t(row)]) + ")");
+}
+
+void check_symmetry(const SceneTable &frame, const std::string &key, const Sparse &A, const std::vector<RowLabel> &rows)
+{
+  double size = 0., skew = 0.;
+  int    row = 0, column = 0;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Sparse::InnerIterator a(A, j); a; ++a)
+    {
+      if (!std::isfinite(a.value()))
+        throw frame.error(key, "has an entry that is not a finite number in " + row_text(a.row(), rows));
+      size = std::max(size, std::abs(a.value()));
+    }
+  const Sparse difference = A - Sparse(A.transpose());
+  for (int j = 0; j < difference.outerSize(); ++j)
+    for (Sparse::InnerIterator a(difference, j); a; ++a)
+      if (std::abs(a.value()) > skew)
+      {
+        skew   = std::abs(a.value());
+        row    = int(a.row());
+        column = j;
+      }
+  if (skew <= symmetry_tolerance * size)
+    return;
+  if (has_one_triangle_only(A))
+    throw frame.error(key, "holds one triangle of a symmetric matrix only; write both, or a MatrixMarket file with "
+                           "'symmetric' in its head line and the lower triangle");
+  const auto entry = [&](int i, int j)
+  {
+    return "row " + std::to_string(i + 1) + ", column " + std::to_string(j + 1) +
+           (rows.empty() ? "" : " (" + text_of(rows[i]) + "; " + text_of(rows[j]) + ")") + " is " +
+           number_text(A.coeff(i, j));
+  };
+  throw frame.error(key, "is not symmetric: " + entry(row, column) + ", but " + entry(column, row) +
+                             "; frames with gyroscopic or follower terms cannot be taken, export the symmetric part");
+}
+
+void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Sparse &matrix,
+                               const std::vector<RowLabel> &rows)
+{
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  Eigen::Index          lowest;
+  if (diagonal.minCoeff(&lowest) < 0.)
+    throw frame.error(key, "is not positive semidefinite: " + row_text(lowest, rows) + " has " +
+                               number_text(diagonal[lowest]) + " on the diagonal; it must be zero or positive");
+}
+
+void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix,
+                        const std::vector<RowLabel> &rows)
+{
+  require_positive_diagonal(frame, key, matrix, rows);
+  const Eigen::VectorXd diagonal = matrix.diagonal();
+  const double          largest  = diagonal.maxCoeff() > 0. ? diagonal.maxCoeff() : 1.;
+  const Eigen::VectorXd scale =
+      diagonal.unaryExpr([largest](double m) { return 1. / std::sqrt(m > 0. ? m : largest); });
+  Sparse unit(matrix.rows(), matrix.rows());
+  unit.setIdentity();
+  const Sparse shifted = Sparse(scale.asDiagonal() * matrix * scale.asDiagonal()) + semidefinite_tolerance * unit;
+  if (Eigen::SimplicialLLT<Sparse>(shifted).info() != Eigen::Success)
+    throw frame.error(key, "is not positive semidefinite: by its entries beside the diagonal some motion has negative "
+                           "energy; check their signs and units");
+}
+
+void check_mass(const SceneTable &frame, const Sparse &M, const Sparse &C, const std::vector<RowLabel> &rows)
+{
+  check_semidefinite(frame, "mass", M, rows);
+  if (M.diagonal().maxCoeff() == 0.)
+    throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
+  const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+    if (mass[i] == 0. && stiffness[i] == 0.)
+      throw frame.error("mass", row_text(i, rows) + " has neither mass nor stiffness, so that nothing says how "
+                                                    "it moves; remove the row and column from all matrices");
+    else if (mass[i] > 0. && mass[i] < vanishing_mass * mass.maxCoeff())
+      throw frame.error("mass", row_text(i, rows) + " has " + number_text(mass[i]) +
+                                    " on the diagonal, next to nothing beside the largest, " +
+                                    number_text(mass.maxCoeff()) +
+                                    ": its frequency would be beyond all numbers; write 0 where there is no mass");
+}
+
+void check_magnitude(const SceneTable &frame, const std::string &key, const Sparse &A)
+{
+  const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.;
+  if (largest > largest_entry || (largest > 0. && largest < 1. / largest_entry))
+    throw frame.error(key, "has " + number_text(largest) +
+                               " as its largest entry, which no frame has in kg, m, N and "
+                               "rad; check its units and how it was written");
+}
+
+} // namespace gestell::apps

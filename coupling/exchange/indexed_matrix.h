@@ -1,0 +1,19 @@
+#pragma once
+
+#include "coupling/exchange/labelled_matrix.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * Reads lines `row column value`, as CalculiX writes .sti and .mas (*FREQUENCY, SOLVER=MATRIXSTORAGE): from 1, one
+ * triangle, either of them.  What the rows are stands in a file beside it (read_row_table()).
+ *
+ * @throws std::invalid_argument with line: numbers of rows beyond what a file of its length can hold, entries twice.
+ */
+LabelledMatrix read_indexed_matrix(const std::string &file);
+
+/// Whether a file begins with such a line.
+bool is_indexed_matrix(TextFile &file);
+
+} // namespace gestell::coupling

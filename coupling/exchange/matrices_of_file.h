@@ -1,0 +1,37 @@
+#pragma once
+
+#include "coupling/exchange/labelled_matrix.h"
+
+#include <map>
+#include <string>
+
+namespace gestell::coupling
+{
+
+/**
+ * All matrices of a file, by their names in it; "" where the format has one without a name.  Told apart by content:
+ * DMIG of Nastran, *MATRIX of CalculiX and Abaqus, Harwell-Boeing, lines `row column value`, else MatrixMarket or
+ * PETSc's binary format.
+ *
+ * @throws std::invalid_argument of their readers.
+ */
+std::map<std::string, LabelledMatrix> matrices_of_file(const std::string &file);
+
+/// What a matrix of a frame is for.
+enum class MatrixRole
+{
+  mass,
+  damping,
+  stiffness
+};
+
+/**
+ * The one of them that is meant: of name `asked`, or without it the one whose name says what it is (MAAX, BAAX, KAAX;
+ * MASS, STIFFNESS; the only one that begins with M, B or K).
+ *
+ * @throws std::invalid_argument  with the names that are there.
+ */
+const LabelledMatrix &matrix_for(const std::map<std::string, LabelledMatrix> &matrices, MatrixRole role,
+                                 const std::string &asked, const std::string &file);
+
+} // namespace gestell::coupling

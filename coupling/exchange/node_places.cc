@@ -1,0 +1,241 @@
+#include "coupling/exchange/node_places.h"
+
+#include "coupling/exchange/bulk_cards.h"
+#include "fem/values/inp_lines.h"
+
+#include <algorithm>
+#include <regex>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+/// Places found so far; refuses a second one of a node.
+class Found
+{
+public:
+  explicit Found(const std::set<long> &wanted) : wanted_(wanted) {}
+
+  bool wants(long node) const { return wanted_.count(node) > 0; }
+
+  /// @return whether the node stood elsewhere before
+  bool contradicts(long node, const std::array<double, 3> &x)
+  {
+    const auto [place, is_new] = places_.emplace(node, x);
+    return !is_new && place->second != x;
+  }
+
+  const NodePlaces &places() const { return places_; }
+
+private:
+  const std::set<long> &wanted_;
+  NodePlaces            places_;
+};
+
+constexpr std::size_t longest_format = 80;
+
+std::string elsewhere(long node)
+{
+  return "node " + std::to_string(node) + " has a place already, another one; keep one of them";
+}
+
+void refuse_system(const TextFile &file, long line, long node, const std::string &key, std::string_view system)
+{
+  const bool is_place = key == "CP";
+  file.fail_at(line, "grid point " + std::to_string(node) + " counts its " + (is_place ? "place" : "motions") +
+                         " in coordinate system " + std::string(system) + " (" + key +
+                         "); only the basic one is taken: " +
+                         (is_place ? "write places in it" : "export the matrices with " + key + " = 0 at this point"));
+}
+
+bool names_system(std::string_view field)
+{
+  return !field.empty() && field != "0" && field != "-1";
+}
+
+void read_grids(const std::string &name, Found &found)
+{
+  constexpr std::size_t grid_id = 0, grid_cp = 1, grid_x = 2, grid_cd = 5;
+  TextFile              file(name);
+  std::string           usual_cp, usual_cd; // of GRDSET
+  {
+    BulkCards defaults(file, {"GRDSET"});
+    while (defaults.next())
+    {
+      usual_cp = std::string(defaults.fields()[grid_cp]);
+      if (defaults.fields().size() > grid_cd)
+        usual_cd = std::string(defaults.fields()[grid_cd]);
+    }
+  }
+  file.restart();
+  BulkCards cards(file, {"GRID"});
+  while (cards.next())
+  {
+    auto field = cards.fields();
+    field.resize(std::max(field.size(), grid_cd + 1));
+    const long node = file.whole(field[grid_id], "the number of a grid point");
+    if (!found.wants(node))
+      continue;
+    const std::string_view cp = field[grid_cp].empty() ? std::string_view(usual_cp) : field[grid_cp],
+                           cd = field[grid_cd].empty() ? std::string_view(usual_cd) : field[grid_cd];
+    if (names_system(cp))
+      refuse_system(file, cards.line(), node, "CP", cp);
+    if (names_system(cd))
+      refuse_system(file, cards.line(), node, "CD", cd);
+    std::array<double, 3> x{};
+    for (std::size_t d = 0; d < 3; ++d)
+      if (!field[grid_x + d].empty()) // blank is 0
+        x[d] = file.real(field[grid_x + d], "a coordinate");
+    if (found.contradicts(node, x))
+      file.fail_at(cards.line(), elsewhere(node));
+  }
+}
+
+class InpNodes
+{
+public:
+  explicit InpNodes(Found &found) : found_(found) {}
+
+  /// @param in_nodes  whether the file's first lines are nodes already
+  void read(const std::string &name, bool in_nodes, int depth)
+  {
+    fem::InpLines lines(name);
+    if (!lines.opened() || depth > 20)
+      throw std::invalid_argument(name + ": cannot be read; it is the INPUT of another file, check its path");
+    const auto refused = [&](const std::string &what)
+    { return std::invalid_argument(name + ":" + std::to_string(lines.number()) + ": " + what); };
+    while (lines.next())
+    {
+      if (lines.is_keyword())
+      {
+        const fem::InpKeyword keyword = lines.keyword();
+        if (keyword.name == "TRANSFORM")
+          throw refused("*TRANSFORM turns the directions of nodes, and the rows of the matrices with them; only global "
+                        "directions are taken, leave it out");
+        in_nodes = keyword.name == "NODE";
+        if (in_nodes && keyword.has("SYSTEM") && keyword["SYSTEM"] != "R" && keyword["SYSTEM"] != "r")
+          throw refused("nodes in a system other than rectangular are not taken; write their x, y, z");
+        if (const std::string other = fem::input_of(keyword, name);
+            !other.empty() && (in_nodes || keyword.name == "INCLUDE"))
+          read(other, in_nodes, depth + 1);
+      }
+      else if (in_nodes)
+        add(lines, refused);
+    }
+  }
+
+private:
+  template <typename Refused>
+  void add(const fem::InpLines &lines, const Refused &refused)
+  {
+    const auto            fields = lines.fields();
+    std::array<double, 3> x{};
+    long                  node;
+    try
+    {
+      node = std::stol(fields.at(0));
+      for (std::size_t d = 0; d < 3 && d + 1 < fields.size(); ++d)
+        x[d] = std::stod(fields[d + 1]);
+    }
+    catch (const std::exception &)
+    {
+      throw refused("expected the number of a node and its x, y, z");
+    }
+    if (found_.wants(node) && found_.contradicts(node, x))
+      throw refused(elsewhere(node));
+  }
+
+  Found &found_;
+};
+
+/// NBLOCK, then a format such as (3i9,6e21.13e3), then nodes until a line that begins with N or -1.
+void read_nblocks(const std::string &name, Found &found)
+{
+  static const std::regex form("\\(\\s*([0-9]+)\\s*[iI]\\s*([0-9]+)\\s*,\\s*([0-9]+)\\s*[eE]\\s*([0-9]+)");
+  TextFile                file(name);
+  while (file.next())
+  {
+    if (!begins(file.line(), "NBLOCK"))
+      continue;
+    std::match_results<std::string_view::const_iterator> found_form;
+    const std::string_view line = file.next() ? file.line().substr(0, longest_format) : "";
+    if (!std::regex_search(line.begin(), line.end(), found_form, form))
+      file.fail("expected the format of the nodes, such as (3i9,6e21.13e3)");
+    const auto        number   = [&](int i) { return std::size_t(std::stoul(found_form[i].str())); };
+    const std::size_t integers = number(1), integer_width = number(2), width = number(4);
+    while (file.next() && !begins(file.line(), "N") && trimmed(file.line()) != "-1")
+    {
+      const std::string_view line = file.line();
+      const long             node = file.whole(line.substr(0, integer_width), "the number of a node");
+      if (!found.wants(node))
+        continue;
+      std::array<double, 6> value{}; // x, y, z and three angles; zeros at the end may be left out
+      for (std::size_t i = 0, at = integers * integer_width; i < 6 && at < line.size(); ++i, at += width)
+        if (const auto field = trimmed(line.substr(at, width)); !field.empty())
+          value[i] = file.real(field, "a coordinate");
+      if (value[3] != 0. || value[4] != 0. || value[5] != 0.)
+        file.fail("node " + std::to_string(node) +
+                  " counts its motions in a system turned against the global one; only "
+                  "global directions are taken: rotate it back (NROTAT, NMODIF) before the matrices are written");
+      if (found.contradicts(node, {value[0], value[1], value[2]}))
+        file.fail(elsewhere(node));
+    }
+  }
+}
+
+enum class NodeKeyword
+{
+  none,
+  grid,
+  node,
+  nblock
+};
+
+NodeKeyword node_keyword(const std::string &name)
+{
+  TextFile file(name);
+  while (file.next())
+  {
+    const std::string_view line = file.line();
+    if (line.empty())
+      continue;
+    if (line[0] == '*' && (begins(line, "*NODE,") || capitals(trimmed(line)) == "*NODE" || begins(line, "*INCLUDE")))
+      return NodeKeyword::node;
+    if (begins(line, "NBLOCK"))
+      return NodeKeyword::nblock;
+    if (begins(line, "GRID") && line.size() > 4 && std::string_view(" *,").find(line[4]) != std::string_view::npos)
+      return NodeKeyword::grid;
+  }
+  return NodeKeyword::none;
+}
+
+} // namespace
+
+NodePlaces read_node_places(const std::string &file, const std::set<long> &wanted)
+{
+  Found found(wanted);
+  switch (node_keyword(file))
+  {
+  case NodeKeyword::grid:
+    read_grids(file, found);
+    break;
+  case NodeKeyword::node:
+    InpNodes(found).read(file, false, 0);
+    break;
+  case NodeKeyword::nblock:
+    read_nblocks(file, found);
+    break;
+  case NodeKeyword::none:
+    break;
+  }
+  return found.places();
+}
+
+bool has_node_places(const std::string &file)
+{
+  return node_keyword(file) != NodeKeyword::none;
+}
+
+} // namespace gestell::coupling
