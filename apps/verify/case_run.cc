@@ -11,7 +11,8 @@
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
-#include <cmath>
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -32,6 +33,14 @@ public:
       if (name == key)
         return value;
     return otherwise;
+  }
+  std::vector<std::string> texts(const std::string &key) ///< parted by commas
+  {
+    std::vector<std::string> texts;
+    std::istringstream       all(text(key));
+    for (std::string one; std::getline(all, one, ',');)
+      texts.push_back(one);
+    return texts;
   }
   int number(const std::string &key, int otherwise)
   {
@@ -66,8 +75,8 @@ Result modes(Session &session, Asked &asked)
 Result responses(Session &session, Asked &asked)
 {
   FrfOptions options;
-  options.from    = {asked.text("from")};
-  options.to      = {asked.text("to")};
+  options.from    = asked.texts("from");
+  options.to      = asked.texts("to");
   options.kind    = asked.text("kind", options.kind);
   options.at      = asked.text("at", options.at);
   options.lowest  = asked.text("lowest");

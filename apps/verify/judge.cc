@@ -33,7 +33,7 @@ struct Pairs
 void compare_cells(const std::string &obtained, const std::string &expected, const std::string &where, Pairs &pairs)
 {
   double o = 0., e = 0.;
-  if (obtained.empty())
+  if (obtained.empty() || expected.empty())
     ++pairs.n_left;
   else if (is_number(obtained, o) && is_number(expected, e))
   {
@@ -110,8 +110,9 @@ std::vector<Pairs> all_pairs(const CaseRun &run, const Check &check)
 {
   if (check.value.empty())
     return row_pairs(run, check);
-  Pairs pair;
-  pair.add(run.value(check.value), expected_value(run, check));
+  Pairs        pair;
+  const double plus = check.plus.empty() ? 0. : run.expected(check.plus);
+  pair.add(run.value(check.value) + plus, expected_value(run, check));
   return {pair};
 }
 
@@ -136,14 +137,14 @@ CheckOutcome worst(const std::vector<Pairs> &columns, const Check &check)
     double scale = 0.;
     for (const double e : column.expected)
       scale = std::max(scale, std::abs(e));
-    const double allowed = check.absolute + check.relative * scale;
     outcome.n_left += column.n_left;
     outcome.n_numbers += static_cast<int>(column.expected.size());
     for (std::size_t i = 0; i < column.expected.size(); ++i)
     {
-      const double error = miss(check, column.obtained[i], column.expected[i]);
-      const double used  = allowed > 0. ? error / allowed : error > 0. ? INFINITY : 0.;
-      outcome.passed     = outcome.passed && error <= allowed;
+      const double allowed = check.absolute + check.relative * (check.each ? std::abs(column.expected[i]) : scale);
+      const double error   = miss(check, column.obtained[i], column.expected[i]);
+      const double used    = allowed > 0. ? error / allowed : error > 0. ? INFINITY : 0.;
+      outcome.passed       = outcome.passed && error <= allowed;
       if (used <= most)
         continue;
       most             = used;

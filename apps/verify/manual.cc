@@ -33,7 +33,7 @@ std::string file_name(const std::string &path)
 std::string compared(const Check &check)
 {
   if (!check.value.empty())
-    return check.value;
+    return check.value + (check.plus.empty() ? "" : " + " + check.plus);
   std::string text;
   for (const auto &[own, other] : check.columns)
     text += (text.empty() ? check.table + ": " : ", ") + own;
@@ -67,7 +67,10 @@ std::string tolerance_text(const Check &check)
 {
   std::string text;
   if (check.relative > 0. || check.absolute == 0.)
-    text = short_text(check.relative, 3) + " of the " + (check.value.empty() ? "largest" : "value");
+    text = short_text(check.relative, 3) + " of " +
+           (check.each            ? "each"
+            : check.value.empty() ? "the largest"
+                                  : "the value");
   if (check.absolute > 0.)
     text += (text.empty() ? "" : " + ") + short_text(check.absolute, 3);
   if (check.bound != Bound::none)
@@ -83,7 +86,7 @@ std::string name_with_count(const Check &check, const CheckOutcome &outcome)
   else if (outcome.n_numbers > 1)
     text += ", " + std::to_string(outcome.n_numbers) + " numbers";
   if (outcome.n_left > 0)
-    text += " (" + std::to_string(outcome.n_left) + " of methods that Gestell has not)";
+    text += " (" + std::to_string(outcome.n_left) + " without a value)";
   return text;
 }
 

@@ -80,7 +80,7 @@ Bound bound_of(const SceneTable &table)
   return word == "none" ? Bound::none : word == "least" ? Bound::least : Bound::most;
 }
 
-Check read_check(const SceneTable &table, const SceneNode &node, const std::string &source)
+Check read_check(const SceneTable &table, const SceneNode &node, const Check &usual)
 {
   Check check;
   check.place    = table.place();
@@ -92,10 +92,12 @@ Check read_check(const SceneTable &table, const SceneNode &node, const std::stri
   check.expected = read_expectation(table, node);
   check.relative = table.not_negative("relative", kind::number, 0.);
   check.absolute = table.not_negative("absolute", kind::number, 0.);
+  check.each     = table.choice("relative_to", {"largest", "each"}, "largest") == "each";
   check.bound    = bound_of(table);
   check.order    = table.not_negative("order", kind::number, 0.);
-  check.because  = table.text("because", "");
-  check.source   = table.text("source", source);
+  check.because  = table.text("because", usual.because);
+  check.source   = table.text("source", usual.source);
+  check.plus     = table.text("plus", "");
   check.name     = table.text("name", check.value.empty() ? check.table : check.value);
   require_something(table, check);
   return check;
@@ -123,12 +125,15 @@ void read_refinements(const SceneTable &table, ReferenceCase &one)
     throw refine.error("values", "needs two or more values, such as [\"2 ms\", \"1 ms\"]");
 }
 
-void read_checks(const SceneTable &table, const SceneNode &node, ReferenceCase &one, const std::string &source)
+void read_checks(const SceneTable &table, const SceneNode &node, ReferenceCase &one)
 {
+  Check usual;
+  usual.source      = table.text("source", "");
+  usual.because     = table.text("because", "");
   const auto checks = table.table_array("check");
   for (std::size_t i = 0; i < checks.size(); ++i)
   {
-    one.checks.push_back(read_check(checks[i], node.find("check")->elements[i], source));
+    one.checks.push_back(read_check(checks[i], node.find("check")->elements[i], usual));
     if (one.checks.back().order > 0. && one.refined.empty())
       throw checks[i].error(
           "order", "needs 'refine' in its case, such as { key = \"run.step\", values = [\"2 ms\", \"1 ms\"] }");
@@ -155,7 +160,7 @@ ReferenceCase read_case(const SceneTable &table, const SceneNode &node)
     for (const SceneTable &method : table.tables("methods"))
       one.methods[method.name()] = read_method(method);
   read_refinements(table, one);
-  read_checks(table, node, one, table.text("source", ""));
+  read_checks(table, node, one);
   return one;
 }
 

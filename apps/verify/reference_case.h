@@ -37,7 +37,8 @@ enum class Bound
  *
  *     |obtained - expected| <= absolute + relative scale,
  *
- * scale the largest magnitude expected of its column; of a bound the difference counts on the wrong side alone.
+ * scale the largest magnitude expected of its column, or that of the number itself; of a bound the difference counts on
+ * the wrong side alone.
  */
 struct Check
 {
@@ -49,8 +50,10 @@ struct Check
   std::vector<std::pair<std::string, std::string>> at{};      ///< columns by which rows belong together; none: in order
   Expectation                                      expected{};
   double                                           relative = 0., absolute = 0.;
+  bool                                             each  = false; ///< relative to each number, not to the largest
   Bound                                            bound = Bound::none;
   double      order = 0.; ///< with which the error falls, see ReferenceCase::refined; 0: none
+  std::string plus{};     ///< formula that is added to a value
   std::string because{};  ///< where the tolerance comes from
   std::string source{};   ///< of the expected value
   std::string place{};
