@@ -5,6 +5,7 @@
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 
@@ -63,19 +64,31 @@ std::string data_of(const ReferenceCase &one)
   return text;
 }
 
-std::string tolerance_text(const Check &check)
+std::string provenance(const Check &check)
 {
-  std::string text;
-  if (check.relative > 0. || check.absolute == 0.)
-    text = short_text(check.relative, 3) + " of " +
-           (check.each            ? "each"
-            : check.value.empty() ? "the largest"
-                                  : "the value");
-  if (check.absolute > 0.)
-    text += (text.empty() ? "" : " + ") + short_text(check.absolute, 3);
+  std::string text = "expected by " + expected_in(check) + " (" + check.source + ")";
   if (check.bound != Bound::none)
-    text += std::string(", expected is ") + (check.bound == Bound::least ? "a lower" : "an upper") + " bound";
-  return text + "; " + check.because;
+    text += std::string(", ") + (check.bound == Bound::least ? "a lower" : "an upper") + " bound";
+  return text + "; allowed: " + check.because;
+}
+
+/// What each compares, checks with the same expectation and tolerance in one line.
+std::vector<std::string> notes_of(const ReferenceCase &one)
+{
+  std::vector<std::pair<std::string, std::string>> notes; ///< provenance, what is compared
+  for (const Check &check : one.checks)
+  {
+    const std::string from = provenance(check);
+    const auto same = std::find_if(notes.begin(), notes.end(), [&](const auto &note) { return note.first == from; });
+    if (same == notes.end())
+      notes.emplace_back(from, compared(check));
+    else if (same->second.find(compared(check)) == std::string::npos)
+      same->second += ", " + compared(check);
+  }
+  std::vector<std::string> lines;
+  for (const auto &[from, what] : notes)
+    lines.push_back(what + ": " + from + ".");
+  return lines;
 }
 
 std::string name_with_count(const Check &check, const CheckOutcome &outcome)
@@ -105,11 +118,9 @@ std::string case_section(const ReferenceCase &one, const CaseOutcome &outcome)
     const CheckOutcome &out   = outcome.checks[j];
     table.add({name_with_count(check, out), out.expected, out.obtained, short_text(out.error, 3),
                short_text(out.allowed, 3), peak(verdict(out), !out.passed)});
-    notes += "<li>" +
-             escape_xml(check.name + ": " + compared(check) + "; expected " + expected_in(check) + ", " + check.source +
-                        ". Tolerance " + tolerance_text(check) + ".") +
-             "</li>\n";
   }
+  for (const std::string &note : notes_of(one))
+    notes += "<li>" + escape_xml(note) + "</li>\n";
   return "<h3>" + escape_xml(one.name) + "</h3>\n<p>" + escape_xml(one.states) +
          (one.equation.empty() ? "" : " <span class=\"soft\">" + escape_xml(one.equation) + "</span>") +
          "</p>\n<p class=\"soft\">" + escape_xml(data_of(one)) + "; " + short_text(outcome.cpu_s, 2) + " s</p>\n" +
@@ -163,9 +174,9 @@ std::string case_in_document(const ReferenceCase &one, const CaseOutcome &outcom
     const CheckOutcome &out   = outcome.checks[j];
     text += "| " + cell(name_with_count(check, out)) + " | " + out.expected + " | " + out.obtained + " | " +
             short_text(out.error, 2) + " | " + short_text(out.allowed, 2) + " | " + cell(verdict(out)) + " |\n";
-    notes += "- " + check.name + ": `" + compared(check) + "`; expected `" + expected_in(check) + "`, " + check.source +
-             ". Tolerance " + tolerance_text(check) + ".\n";
   }
+  for (const std::string &note : notes_of(one))
+    notes += "- " + note + "\n";
   return text + "\n" + notes + "\n";
 }
 
