@@ -172,6 +172,9 @@ int verify(const VerifyOptions &asked)
   }
   const fs::path folder = asked.folder;
   require_writable(folder);
+  if (!asked.docs.empty() && !fs::is_directory(asked.docs))
+    throw std::invalid_argument("--renew: there is no folder '" + asked.docs +
+                                "'; it takes the folder of the documents, docs");
   const int    n_skipped = leave_long_ones(files, asked);
   Verification all       = computed(files);
   all.n_skipped          = n_skipped;

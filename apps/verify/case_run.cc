@@ -5,7 +5,6 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/language/parse_quantity.h"
-#include "apps/study/runs/answer_entries.h"
 #include "apps/verify/integrator_maps.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "fem/values/nearest_name.h"
@@ -173,9 +172,9 @@ CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more,
       result_ = computation.compute(session, asked);
 }
 
-double CaseRun::value(const std::string &entry) const
+AnswerValue CaseRun::value(const std::string &entry) const
 {
-  return answer_entry::value(segments_of(entry), result_).value;
+  return answer_entry::value(segments_of(entry), result_);
 }
 
 DataTable CaseRun::table(const std::string &name, const DataTable &expected) const
@@ -199,11 +198,17 @@ DataTable CaseRun::table(const std::string &name, const DataTable &expected) con
   throw std::invalid_argument("'" + case_->compute + "' leaves no table '" + name + "'" + suggestion(name, names));
 }
 
-double CaseRun::expected(const std::string &formula) const
+double CaseRun::expected(const std::string &formula, const std::string &unit) const
 {
-  return parse_quantity(
-             formula, [this](const std::string &name) { return parameters_.find(name); }, parameters_.names())
-      .value;
+  const Quantity own = parse_quantity(
+      formula, [this](const std::string &name) { return parameters_.find(name); }, parameters_.names());
+  if (!own.checked || equal(own.dimension, {0., 0., 0.}) || unit.empty())
+    return own.value;
+  const Quantity needed = parse_quantity("1 " + unit, [](const std::string &) { return std::optional<Quantity>(); });
+  if (!equal(own.dimension, needed.dimension))
+    throw std::invalid_argument("\"" + formula + "\" is in " + describe(own.dimension) +
+                                ", what it is compared with in " + unit);
+  return own.value;
 }
 
 } // namespace gestell::apps

@@ -94,10 +94,10 @@ std::vector<Pairs> row_pairs(const CaseRun &run, const Check &check)
   return columns;
 }
 
-double expected_value(const CaseRun &run, const Check &check)
+double expected_value(const CaseRun &run, const Check &check, const std::string &unit)
 {
   if (check.expected.column.empty())
-    return run.expected(check.expected.formula);
+    return run.expected(check.expected.formula, unit);
   const DataTable rows  = read_table(check.expected.table.file).chosen(check.expected.table.rows);
   double          value = 0.;
   if (rows.rows.size() != 1 || !is_number(rows.rows.front()[rows.column(check.expected.column)], value))
@@ -110,9 +110,10 @@ std::vector<Pairs> all_pairs(const CaseRun &run, const Check &check)
 {
   if (check.value.empty())
     return row_pairs(run, check);
-  Pairs        pair;
-  const double plus = check.plus.empty() ? 0. : run.expected(check.plus);
-  pair.add(run.value(check.value) + plus, expected_value(run, check));
+  const AnswerValue value = run.value(check.value);
+  const double      plus  = check.plus.empty() ? 0. : run.expected(check.plus, value.unit);
+  Pairs             pair;
+  pair.add(value.value + plus, expected_value(run, check, value.unit));
   return {pair};
 }
 

@@ -127,6 +127,7 @@ TEST(Verify, CasesThatSayWhatThereIsNotAreRefusedWithTheirPlace)
   refused("{ table = 'history.csv', expected = { file = 'exact.csv' } }", {"columns", "is missing"});
   refused("{ value = 'signals.x.max', " + expected + ", order = 2 }", {"order", "refine"});
   refused("{ value = 'signals.x.max', " + expected + "}", {"compute", "runs"}, "compute = 'runs'\n");
+  refused("{ value = 'signals.x.max', expected = '2 kg', relative = 1e-3 }", {"in kg", "in m"});
   refused("{ value = 'modes.1', " + expected + "}", {"'with'", "alongg"},
           "compute = 'modes'\nwith = { alongg = 'mass' }\n");
 }
@@ -135,6 +136,7 @@ TEST(Verify, NamesThatAreNoCaseAreRefusedWithTheNearest)
 {
   expect_answer(gestell("verify 'conical pendulums'"), 2, {"conical pendulum", "--list"});
   expect_answer(gestell("verify no_such.toml"), 2, {"no_such.toml"});
+  expect_answer(gestell("verify --renew no_such_folder"), 2, {"--renew", "no_such_folder"});
 }
 
 TEST(Verify, EveryTableOfReferenceValuesIsReadByACaseOrNamedAsNotCovered)
