@@ -1,11 +1,12 @@
-# Writes scenes, studies and meshes of `top` into `share`, with the paths of meshes as they lie there.
+# Writes scenes, studies, cases of reference and meshes of `top` into `share`, with the paths of meshes and tables as they lie there.
 set(staged "$ENV{DESTDIR}${share}") # as file(INSTALL) does by itself
 file(INSTALL "${top}/meshes/" DESTINATION "${share}/meshes" PATTERN README.md EXCLUDE)
-file(GLOB_RECURSE files RELATIVE "${top}/apps" "${top}/apps/scenes/*" "${top}/apps/studies/*")
+file(GLOB_RECURSE files RELATIVE "${top}/apps" "${top}/apps/scenes/*" "${top}/apps/studies/*" "${top}/apps/verification/*")
 foreach(name IN LISTS files)
   if(name MATCHES "\\.toml$")
     file(READ "${top}/apps/${name}" text)
     string(REPLACE "\"../../meshes/" "\"../meshes/" text "${text}")
+    string(REPLACE "\"../../tests/reference/" "\"../reference/" text "${text}")
     message(STATUS "Installing: ${staged}/${name}")
     file(CONFIGURE OUTPUT "${staged}/${name}" CONTENT "@text@" @ONLY)
   else()

@@ -52,6 +52,10 @@ class Tree(unittest.TestCase):
         self.call(self.prefix / "bin/gestell", "new", "press")
         self.assertIn("is well formed", self.call(self.prefix / "bin/gestell", "check", "press.toml"))
 
+    def verifies_itself(self):
+        """Cases and tables of reference lie beside the program."""
+        self.assertIn("all passed", self.call(self.prefix / "bin/gestell", "verify", "press", "mechanisms", "-o", "verified"))
+
     def lies_anywhere(self):
         """No run path leads into the build."""
         for path in self.prefix.rglob("*"):
@@ -68,6 +72,7 @@ class Prefix(Tree):
         self.computes(begin)
         self.lies_anywhere()
         self.tells_of_itself()
+        self.verifies_itself()
         self.builds_examples()
 
     def builds_examples(self):
@@ -97,6 +102,7 @@ class DebianPackage(Tree):
         self.computes(begin)
         self.lies_anywhere()
         self.tells_of_itself()
+        self.verifies_itself()
         depends = called("dpkg-deb", "-f", package, "Depends", folder=self.folder)
         for needed in ("libdeal.ii", "libvtk9", "libopenblas0", "python3-numpy", "libpetsc-real"):
             self.assertIn(needed, depends)

@@ -73,7 +73,7 @@ const std::vector<Key> &mesh_keys()
 const std::vector<Key> &frame_keys()
 {
   static const std::vector<Key> keys = {
-      key::plain("cad", Key::Form::file, "`.step .stp .brep .geo .msh .inp`, see [geometry](#geometry-and-meshes)")
+      key::plain("cad", Key::Form::file, "`.step .stp .brep .geo .msh .inp`, see [geometry](frame.md#geometry-and-meshes)")
           .by_default("`reduced`, or [matrices](#frame-given-by-matrices)"),
       key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`")
           .above_zero()

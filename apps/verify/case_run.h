@@ -1,0 +1,38 @@
+#pragma once
+
+#include "apps/output/values/result.h"
+#include "apps/scene/file/parameters.h"
+#include "apps/session/session.h"
+#include "apps/study/runs/answer_entries.h"
+#include "apps/verify/data_table.h"
+
+namespace gestell::apps
+{
+
+/// Words of what a case computes: "run", "modes", "frf", "periodic", "integrators".
+std::vector<std::string> computations();
+
+/// A case as it was computed once.
+class CaseRun
+{
+public:
+  /// @param more  entries of the scene beside those of the case
+  /// @throws std::invalid_argument, std::runtime_error: it cannot be computed
+  CaseRun(const ReferenceCase &one, const std::vector<std::string> &more, const std::atomic<bool> *interruption);
+
+  /// An entry of the answer, such as "signals.F.max", with its unit.
+  AnswerValue value(const std::string &entry) const;
+  /// A file of results, "events" or, of integrators, a map of the rows of `expected`.
+  DataTable table(const std::string &name, const DataTable &expected) const;
+  /// A formula of the scene's parameters, in SI.
+  /// @param unit  that it must have, unless it is a plain number; empty: any
+  /// @throws std::invalid_argument for another one
+  double expected(const std::string &formula, const std::string &unit) const;
+
+private:
+  const ReferenceCase *case_;
+  Parameters           parameters_{};
+  Result               result_{};
+};
+
+} // namespace gestell::apps

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "apps/verify/judge.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A file of cases with what came out, one outcome a case.
+struct VerifiedFile
+{
+  CaseFile                 file{};
+  std::vector<CaseOutcome> outcomes{};
+};
+
+/// All cases that were computed.
+struct Verification
+{
+  std::vector<VerifiedFile> files{};
+  std::string               version{}, commit{};
+  int                       n_skipped = 0; ///< long cases that were not asked for
+
+  int n_cases() const;
+  int n_checks() const;
+  int n_failed() const; ///< checks
+};
+
+std::string verification_page(const Verification &all);     ///< HTML, self-contained
+std::string verification_document(const Verification &all); ///< Markdown
+std::string verification_csv(const Verification &all);      ///< one row a check
+
+/// "18 cases, 43 checks: all passed".
+std::string verdict_text(const Verification &all);
+
+/// "1.2e-9 of 1e-6" and the like, of a check.
+std::string outcome_line(const Check &check, const CheckOutcome &outcome);
+
+} // namespace gestell::apps
