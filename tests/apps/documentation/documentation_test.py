@@ -1,7 +1,7 @@
 """Runs the commands of a page as its reader would, and compares what is printed.
 
     documentation_test.py GESTELL usual|long PAGE     in a fresh folder, whose top looks like that of the sources
-    documentation_test.py GESTELL lists               what is not run, scenes on pages, blocks of other languages
+    documentation_test.py GESTELL lists               what is not run, links, scenes on pages, blocks of other languages
     documentation_test.py GESTELL gallery             every scene of apps/scenes is on the page, with picture and command
     documentation_test.py GESTELL times PAGE          runs all and tells CPU times
 """
@@ -118,7 +118,7 @@ def check_lists(gestell):
                 wrong.append(f"not_run.toml, {kind}: `{entry['command']}` needs a reason")
     if sum(len(entries) for entries in not_run().values()) > 30:
         wrong.append("not_run.toml has become long")
-    wrong += unknown_languages() + wrong_scenes(gestell)
+    wrong += unknown_languages() + dead_links() + wrong_scenes(gestell)
     print(*wrong, sep="\n")
     return len(wrong)
 
@@ -136,6 +136,16 @@ def unknown_languages():
         if page not in (pages.SOURCES / tester).read_text(encoding="utf-8"):
             wrong.append(f"{tester} does not run {page}")
     return wrong
+
+
+def dead_links():
+    """Links to files and pictures that are not there."""
+    return [
+        f"{page}: there is no {target}"
+        for page in pages.pages()
+        for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", pages.FENCE.sub("", pages.text_of(page)))
+        if "://" not in target and not (pages.SOURCES / page.parent / target).exists()
+    ]
 
 
 def is_part(part, whole):
