@@ -23,13 +23,14 @@ import printed
 HERE = pathlib.Path(__file__).resolve().parent
 
 
-def not_run():
-    with open(HERE / "not_run.toml", "rb") as file:
-        return tomllib.load(file)
+def entries_of(name):
+    """Of not_run.toml or long.toml: page, begins, reason."""
+    with open(HERE / name, "rb") as file:
+        return tomllib.load(file)["command"]
 
 
-def listed(kind, page, block):
-    return any(entry["page"] == str(page) and block.commands.lstrip().startswith(entry["command"]) for entry in not_run().get(kind, []))
+def listed(name, page, block):
+    return any(entry["page"] == str(page) and block.commands.lstrip().startswith(entry["begins"]) for entry in entries_of(name))
 
 
 def root_copy(folder, gestell):
@@ -84,8 +85,8 @@ def cpu_seconds():
 
 
 def run_page(page, gestell, with_long, tell_times=False):
-    blocks = [block for block in pages.blocks(page) if not listed("elsewhere", page, block)]
-    skipped = [] if with_long else [block for block in blocks if listed("long", page, block)]
+    blocks = [block for block in pages.blocks(page) if not listed("not_run.toml", page, block)]
+    skipped = [] if with_long else [block for block in blocks if listed("long.toml", page, block)]
     failed = 0
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -108,19 +109,24 @@ def run_page(page, gestell, with_long, tell_times=False):
 def check_lists(gestell):
     """Entries that no page has, without a reason, or too many; scenes and blocks that no test knows."""
     wrong = []
-    for kind, entries in not_run().items():
-        for entry in entries:
-            page = pathlib.Path(entry["page"])
-            exists = (pages.SOURCES / page).exists()
-            if not exists or not any(block.commands.lstrip().startswith(entry["command"]) for block in pages.blocks(page)):
-                wrong.append(f"not_run.toml, {kind}: {page} has no command `{entry['command']}`")
-            if len(entry.get("reason", "")) < 10:
-                wrong.append(f"not_run.toml, {kind}: `{entry['command']}` needs a reason")
-    if sum(len(entries) for entries in not_run().values()) > 30:
-        wrong.append("not_run.toml has become long")
+    for name in ("not_run.toml", "long.toml"):
+        entries = entries_of(name)
+        wrong += [f"{name}: {complaint}" for entry in entries for complaint in wrong_entry(entry)]
+        if len(entries) > 15:
+            wrong.append(f"{name} has become long")
     wrong += unknown_languages() + dead_links() + wrong_scenes(gestell)
     print(*wrong, sep="\n")
     return len(wrong)
+
+
+def wrong_entry(entry):
+    page, wrong = entry["page"], []
+    exists = (pages.SOURCES / page).exists()
+    if not exists or not any(block.commands.lstrip().startswith(entry["begins"]) for block in pages.blocks(page)):
+        wrong.append(f"{page} has no command `{entry['begins']}`")
+    if len(entry.get("reason", "")) < 20:
+        wrong.append(f"`{entry['begins']}` needs a reason")
+    return wrong
 
 
 def unknown_languages():
