@@ -12,6 +12,7 @@
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -103,6 +104,26 @@ void print_energies(const Result &result)
               << kinetic_text(*result.energy_shares, j) << '\n';
 }
 
+/// Whether nothing but the frame moves: its modes are those of the machine.
+bool same_modes(const std::vector<coupling::Mode> &one, const std::vector<coupling::Mode> &other)
+{
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const coupling::Mode &a, const coupling::Mode &b)
+                    { return std::abs(a.frequency_hz - b.frequency_hz) <= 1e-9 * b.frequency_hz; });
+}
+
+void print_coupled_modes(const Result &result)
+{
+  if (!result.coupled_modes.empty() && same_modes(result.frame_modes, result.coupled_modes))
+  {
+    std::cout << "coupled machine: the modes of the frame, nothing changes them\n";
+    return;
+  }
+  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
+              result.model.frequency_limit);
+  print_energies(result);
+}
+
 void print_answer(const Result &result, const std::optional<coupling::MeshConvergence> &convergence, double tolerance)
 {
   for (const std::string &line : frame_text(result.model))
@@ -110,9 +131,7 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
   if (convergence)
     print_convergence(*convergence, tolerance);
   print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
-  print_modes("coupled machine", result.coupled_modes, "free motion: nothing elastic holds it",
-              result.model.frequency_limit);
-  print_energies(result);
+  print_coupled_modes(result);
   print_poles(result.poles);
   if (result.along)
     print_along(*result.along);

@@ -104,6 +104,12 @@ TEST(Messages, AnUnknownSignalIsAnsweredInALine)
   EXPECT_NE(part.find("did you mean one of 'hinge."), std::string::npos) << part;
 }
 
+TEST(Messages, AnElementOnABodyIsToldItsKey)
+{
+  expect_complaint(rotor(1., "1 s") + "[element.f]\ntype = \"force\"\non = \"shaft\"\nconstant = \"1 N m\"\n",
+                   "on: 'shaft' is no measure; a body or an interface is named by `from`");
+}
+
 TEST(Messages, AShareAboveOneIsPercent)
 {
   const std::string motor = "[element.m]\ntype = \"asynchronous motor\"\non = \"shaft\"\nbreakdown_torque = 1\n"
