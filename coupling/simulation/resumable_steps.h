@@ -3,24 +3,21 @@
 #include "coupling/integration/system/error_control.h"
 #include "coupling/integration/system/time_integrator.h"
 
-#include <limits>
 #include <memory>
 
 namespace gestell::coupling
 {
 
 /**
- * The steps of another integrator, the last one of which is cut at an instant where the machine communicates.
+ * The steps of another integrator, which may begin in the midst of a motion: with the history that elements have there.
  *
- * For whoever drives it that is a step like any other.  Behind a cut, and where loads jumped, the past is forgotten.
+ * Where loads jumped that no law tells of, the past is forgotten before the next step.
  */
-class CommunicatedSteps : public TimeIntegrator, public ErrorControl
+class ResumableSteps : public TimeIntegrator, public ErrorControl
 {
 public:
-  CommunicatedSteps(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> inner);
+  ResumableSteps(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> inner);
 
-  /// A step that goes beyond is cut there [s].
-  void cut_at(double t) { end_ = t; }
   /// The next step begins with other loads.
   void load_jumped() { restarts_ = true; }
   /// The next begin() is one in the midst of a motion, with this history of the elements.
@@ -29,7 +26,7 @@ public:
 
   void           begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
   void           advance() override;
-  void           cut(double t) override;
+  void           cut(double t) override { inner_->cut(t); }
   void           restart() override;
   const Instant &instant() const override { return inner_->instant(); }
 
@@ -53,7 +50,6 @@ private:
   ErrorControl                   *control_; ///< of it, or null
   Eigen::VectorXd                 history_;
   bool                            with_history_ = false, located_ = true, restarts_ = false;
-  double                          end_ = std::numeric_limits<double>::infinity();
 };
 
 } // namespace gestell::coupling

@@ -1,14 +1,14 @@
-#include "coupling/simulation/communicated_steps.h"
+#include "coupling/simulation/resumable_steps.h"
 
 namespace gestell::coupling
 {
 
-CommunicatedSteps::CommunicatedSteps(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> inner)
+ResumableSteps::ResumableSteps(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> inner)
     : system_(system), inner_(std::move(inner)), control_(dynamic_cast<ErrorControl *>(inner_.get()))
 {
 }
 
-void CommunicatedSteps::begin_with(const Eigen::VectorXd &history, bool located)
+void ResumableSteps::begin_with(const Eigen::VectorXd &history, bool located)
 {
   history_      = history;
   with_history_ = true;
@@ -16,36 +16,28 @@ void CommunicatedSteps::begin_with(const Eigen::VectorXd &history, bool located)
 }
 
 /// Whoever drives it has started a history, which is replaced.
-void CommunicatedSteps::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+void ResumableSteps::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   if (with_history_)
   {
     system_.events().follow_history(located_);
     system_.events().restore_history(history_);
   }
-  with_history_ = restarts_ = false;
   inner_->begin(t, q, v);
+  if (with_history_)
+    system_.events().accept(inner_->local()); // the history may be that of the step in which t lies
+  with_history_ = restarts_ = false;
 }
 
-void CommunicatedSteps::advance()
+void ResumableSteps::advance()
 {
   if (restarts_)
     inner_->restart();
   restarts_ = false;
   inner_->advance();
-  if (!(inner_->time() > end_))
-    return;
-  inner_->cut(end_);
-  restarts_ = true;
 }
 
-void CommunicatedSteps::cut(double t)
-{
-  inner_->cut(t);
-  restarts_ = true;
-}
-
-void CommunicatedSteps::restart()
+void ResumableSteps::restart()
 {
   inner_->restart();
   restarts_ = false;
