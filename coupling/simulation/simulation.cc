@@ -10,7 +10,9 @@
 #include "coupling/simulation/checks/hydraulic_limits.h"
 #include "coupling/simulation/checks/momentary_modes.h"
 #include "coupling/simulation/checks/stiffness_check.h"
+#include "coupling/simulation/no_tiny_numbers.h"
 #include "coupling/simulation/recorder.h"
+#include "coupling/simulation/run_method.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 
@@ -19,9 +21,6 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#ifdef __SSE2__
-#include <xmmintrin.h>
-#endif
 
 namespace gestell::coupling
 {
@@ -33,33 +32,6 @@ constexpr double most_steps = 1e10, most_bytes = 1e9;
 constexpr double seldom            = 1e-4; ///< share of a run whose events need not be located
 constexpr double often             = 0.1;  ///< share of controlled steps that go over events
 constexpr double samples_of_period = 32.;
-
-/// While it lives, numbers below 1e-308 are zero.  Motions that nothing excites, as of bodies in space that move in a
-/// plane, die away to such numbers, on which a processor is seven times slower.
-class NoTinyNumbers
-{
-public:
-#ifdef __SSE2__
-  NoTinyNumbers() : before_(_mm_getcsr())
-  {
-    _mm_setcsr(before_ | flush_to_zero | denormals_are_zero);
-  }
-  ~NoTinyNumbers()
-  {
-    _mm_setcsr(before_);
-  }
-#else
-  NoTinyNumbers() = default;
-#endif
-  NoTinyNumbers(const NoTinyNumbers &)            = delete;
-  NoTinyNumbers &operator=(const NoTinyNumbers &) = delete;
-
-private:
-#ifdef __SSE2__
-  static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
-  unsigned                  before_;
-#endif
-};
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts &...parts)
@@ -102,19 +74,6 @@ void check_size(const Machine &machine, const RunOptions &options, std::size_t n
          " GB of states for pictures; give output.step", history > pictures ? "" : " or output.picture_step",
          " a larger value than ", history > pictures ? output_step(options) : options.picture_step,
          " s, or say output.allow_large = true if that is what you want");
-}
-
-/// The largest step of a controlled one: small enough that no load goes by between two steps.
-MethodOptions with_largest_step(const Machine &machine, const RunOptions &options)
-{
-  MethodOptions method = options.method;
-  if (!controlled(method) || method.step > 0.)
-    return method;
-  method.step        = (options.end - options.begin) / 50.;
-  const double omega = fastest_load(machine.linear().excitation());
-  if (omega > 0.)
-    method.step = std::min(method.step, 0.25 * M_PI / omega);
-  return method;
 }
 
 /// Fixed steps of implicit methods are short against what they show; controlled ones are as long as their order allows.

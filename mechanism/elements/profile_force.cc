@@ -30,7 +30,12 @@ void ProfileForce::transition(int i, const LocalMotion &motion, double *history)
 
 bool ProfileForce::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
-  return course_.command(order, motion.t, history);
+  return !input_ && course_.command(order, motion.t, history);
+}
+
+std::vector<std::string> ProfileForce::command_names() const
+{
+  return input_ ? std::vector<std::string>() : CommandedProfile::commands();
 }
 
 std::vector<Quantity> ProfileForce::quantities() const

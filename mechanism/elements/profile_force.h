@@ -2,6 +2,9 @@
 
 #include "mechanism/differentiable_element.h"
 #include "mechanism/functions/commanded_profile.h"
+#include "mechanism/functions/input_value.h"
+
+#include <memory>
 
 namespace gestell::mechanism
 {
@@ -9,17 +12,21 @@ namespace gestell::mechanism
 /**
  * Force or torque that follows a course over time:   p = F(t)        [N or N m]
  *
- * +F acts on the measure u [m or rad].  Corners of the course are events.  Its work counts as input.
+ * +F acts on the measure u [m or rad].  Corners of the course are events.  Its work counts as input.  Or F is an input
+ * that is set from outside, which obeys no orders.
  */
 class ProfileForce : public DifferentiableElement<ProfileForce, 1, Branches, Commands>
 {
 public:
   explicit ProfileForce(const CommandedProfile &course) : course_(course) {}
+  explicit ProfileForce(std::shared_ptr<InputValue> input) : input_(std::move(input)) {}
+
+  const std::shared_ptr<InputValue> &input() const { return input_; } ///< null: it follows its course
 
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
-    p[0] = Number(course_.at(m.t, m.by_history, history).value);
+    p[0] = Number(input_ ? input_->at(m.t) : course_.at(m.t, m.by_history, history).value);
   }
 
   int                n_history() const override { return course_.n_history(); }
@@ -31,12 +38,13 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
   bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> command_names() const override { return CommandedProfile::commands(); }
+  std::vector<std::string> command_names() const override;
   std::vector<Quantity>    quantities() const override;
   double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  CommandedProfile course_;
+  CommandedProfile            course_;
+  std::shared_ptr<InputValue> input_;
 };
 
 } // namespace gestell::mechanism

@@ -88,7 +88,12 @@ void SpeedDrive::transition(int i, const LocalMotion &motion, double *history) c
 
 bool SpeedDrive::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
-  return parameters_.speed.command(order, motion.t, history + 1);
+  return !parameters_.input && parameters_.speed.command(order, motion.t, history + 1);
+}
+
+std::vector<std::string> SpeedDrive::command_names() const
+{
+  return parameters_.input ? std::vector<std::string>() : CommandedProfile::commands();
 }
 
 std::vector<Quantity> SpeedDrive::quantities() const
@@ -101,7 +106,7 @@ double SpeedDrive::quantity(int i, const LocalMotion &motion, const double *hist
   if (i == 4)
     return motion.u[1];
   if (i == 2 || i == 3)
-    return parameters_.speed.at(motion.t, motion.by_history, history + 1).value - (i == 3 ? motion.v[0] : 0.);
+    return wanted_speed(motion.t, motion.by_history, history) - (i == 3 ? motion.v[0] : 0.);
   double p[2];
   force(motion, history, p);
   return i == 0 ? p[0] : p[0] * motion.v[0];

@@ -2,6 +2,9 @@
 
 #include "mechanism/differentiable_element.h"
 #include "mechanism/functions/commanded_profile.h"
+#include "mechanism/functions/input_value.h"
+
+#include <memory>
 
 namespace gestell::mechanism
 {
@@ -33,9 +36,13 @@ public:
     double           integral_gain     = 0.;                 ///< k_i [N m/rad], >= 0
     double           largest_torque    = Profile::unlimited; ///< M_max [N m], > 0
     CommandedProfile speed;                                  ///< w_r [rad/s]
+
+    std::shared_ptr<InputValue> input{}; ///< w_r set from outside, which obeys no orders; null: the course
   };
 
   explicit SpeedDrive(const Parameters &parameters);
+
+  const std::shared_ptr<InputValue> &input() const { return parameters_.input; }
 
   /// Time constant [s] of the second measure; 1 s without an integral.
   double lag() const;
@@ -59,7 +66,7 @@ public:
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void               transition(int i, const LocalMotion &motion, double *history) const override;
   bool               command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;
-  std::vector<std::string> command_names() const override { return CommandedProfile::commands(); }
+  std::vector<std::string> command_names() const override;
   std::vector<Quantity>    quantities() const override;
   double                   quantity(int i, const LocalMotion &motion, const double *history) const override;
 
@@ -76,8 +83,11 @@ private:
   template <typename Number>
   Number wanted(const Measures<Number> &m, const double *history) const
   {
-    const double wanted_speed = parameters_.speed.at(m.t, m.by_history, history + 1).value;
-    return parameters_.proportional_gain * (wanted_speed - m.v[0]) + m.u[1];
+    return parameters_.proportional_gain * (wanted_speed(m.t, m.by_history, history) - m.v[0]) + m.u[1];
+  }
+  double wanted_speed(double t, bool by_history, const double *history) const
+  {
+    return parameters_.input ? parameters_.input->at(t) : parameters_.speed.at(t, by_history, history + 1).value;
   }
   double wanted(const LocalMotion &motion, const double *history) const;
 

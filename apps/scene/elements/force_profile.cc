@@ -1,6 +1,7 @@
 #include "mechanism/elements/profile_force.h"
 
 #include "apps/scene/elements/element_types.h"
+#include "apps/scene/read/read_input.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -15,6 +16,8 @@ void read_force_profile(const SceneTable &table, const Names &names, Scene &scen
   const double from   = table.value("initial", motion.rotation);
   if (!table.has("profile"))
     throw table.error("needs 'profile', ramps such as [{ at = \"1 s\", to = \"" + kind.example + "\" }]");
+  if (const auto input = read_input(table, "profile", from))
+    return add_law<mechanism::ProfileForce>(scene, table, input, motion);
   const ProfileKeys keys    = level_profile(kind, kind.example);
   const auto        profile = read_free_course(table, "profile", keys, from);
   add_law<mechanism::ProfileForce>(scene, table, profile, motion);
@@ -27,8 +30,8 @@ ElementType force_profile_type()
           "A force over time acts on `from` along the direction and on `to` against it.",
           "`force`, `power`",
           joined({load_motion_keys(),
-                  {course_key("profile", level_profile(kind::force, kind::force.example),
-                              "force: a level, ramps or a function of time")
+                  {or_input(course_key("profile", level_profile(kind::force, kind::force.example),
+                                       "force: a level, ramps or a function of time"))
                        .on_angle(kind::torque),
                    key::number("initial", kind::force, "before the first ramp").on_angle(kind::torque).by_default(0.),
                    waits_key()}}),
@@ -43,6 +46,10 @@ profile    = { function = "3 N*t/s", period = "2 s", rise = "6 N" }
 )toml",
            R"toml(from    = "slide"
 profile = { table = [["0 s", 0], ["1 s", "3 N"], ["2 s", "12 N"]] }
+)toml",
+           R"toml(from    = "slide"
+initial = "2 N"
+profile = { input = "push" }            # that an FMU or another program sets
 )toml"}};
 }
 

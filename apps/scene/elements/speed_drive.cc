@@ -2,6 +2,7 @@
 
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
+#include "apps/scene/read/read_input.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 
@@ -24,10 +25,13 @@ void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
   drive.integral_gain     = table.value("integral_gain");
   drive.largest_torque    = table.value("largest_torque");
   const double from       = table.value("initial_speed");
-  drive.speed             = read_free_course(table, "speed", speed_profile(), from);
-  const auto element      = checked(table, [&] { return std::make_shared<mechanism::SpeedDrive>(drive); });
+  drive.input             = read_input(table, "speed", from);
+  if (!drive.input)
+    drive.speed = read_free_course(table, "speed", speed_profile(), from);
+  const auto element = checked(table, [&] { return std::make_shared<mechanism::SpeedDrive>(drive); });
   add_element_on(scene, table, element, shaft, {{table.name() + ".integral", element->lag()}});
-  scene.elements.back().levels = std::make_shared<ProfileKeys>(speed_profile());
+  if (!drive.input)
+    scene.elements.back().levels = std::make_shared<ProfileKeys>(speed_profile());
 }
 
 ElementType speed_drive_type()
@@ -39,7 +43,7 @@ ElementType speed_drive_type()
       "`torque`, `power`, `wanted_speed`, `speed_error`, `integral`",
       joined(
           {shaft_keys(),
-           {course_key("speed", speed_profile(), "wanted speed: a level, ramps or a function of time"),
+           {or_input(course_key("speed", speed_profile(), "wanted speed: a level, ramps or a function of time")),
             key::number("proportional_gain", gain, "k_p").above_zero(),
             key::number("integral_gain", gain_of_angle, "k_i").from_zero().by_default(own.integral_gain),
             key::number("largest_torque", kind::torque, "to either side").above_zero().by_default(own.largest_torque),
@@ -59,6 +63,11 @@ speed             = { table = [["0 s", 0], ["1 s", 3], ["2 s", 10]], period = "2
        R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 speed             = { function = "10 rad/s*sin(2*pi*t/(2 s))", period = "2 s" }
+)toml",
+       R"toml(on                = "crank"
+proportional_gain = "200 N m s/rad"
+initial_speed     = "30 1/min"
+speed             = { input = "w" }
 )toml"}};
 }
 

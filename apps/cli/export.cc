@@ -1,0 +1,117 @@
+#include "apps/cli/command.h"
+#include "apps/cli/progress.h"
+#include "apps/output/exchange/model_description.h"
+#include "apps/output/exchange/zip_file.h"
+#include "apps/output/result_folder.h"
+#include "apps/scene/file/scene_file.h"
+#include "apps/scene/scene.h"
+#include "apps/session/exchange/fmu_answer.h"
+#include "apps/session/exchange/scene_inputs.h"
+#include "coupling/plugin/plugin.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+
+namespace gestell::apps
+{
+namespace
+{
+
+constexpr const char *fmu_library = "libgestell_fmu.so";
+
+struct ExportOptions
+{
+  std::string              fmu;
+  std::vector<std::string> inputs;
+};
+
+std::string library_of_fmus()
+{
+  const auto file = coupling::find_plugin(fmu_library);
+  if (file.empty())
+    throw std::invalid_argument(std::string("gestell export: ") + fmu_library +
+                                " not found beside the program; build the target gestell_fmu, or set "
+                                "GESTELL_PLUGIN_DIR to its folder");
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// How it is used, for who opens the archive.
+std::string page_of(const FmuAnswer &answer)
+{
+  std::string text = "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><title>FMU by Gestell</title></head><body>"
+                     "<p>Machine of a scene of Gestell, FMI 2.0 for co-simulation. The scene is resources/scene.toml. "
+                     "All values are in SI. Inputs are held over a communication step, or follow the straight line of "
+                     "their derivative.</p>";
+  for (const std::string &note : answer.notes)
+    text += "<p>" + note + ".</p>";
+  return text + "</body></html>\n";
+}
+
+void write_fmu(const std::string &path, const FmuAnswer &answer)
+{
+  const std::string library = library_of_fmus();
+  ZipFile           zip(path);
+  zip.add("modelDescription.xml", model_description(answer.fmu));
+  zip.add("binaries/linux64/" + answer.fmu.identifier + ".so", library);
+  for (const auto &[name, bytes] : answer.files)
+    zip.add(name, bytes);
+  zip.add("documentation/index.html", page_of(answer));
+  zip.finish();
+}
+
+void print_variables(const std::string &kind, const std::vector<FmuVariable> &variables)
+{
+  constexpr std::size_t most = 40;
+  std::cout << "  " << variables.size() << ' ' << kind << (variables.empty() ? "" : ":");
+  for (std::size_t i = 0; i < variables.size() && i < most; ++i)
+    std::cout << (i > 0 ? ", " : " ") << variables[i].name
+              << (variables[i].unit.empty() ? "" : " [" + variables[i].unit + "]");
+  std::cout << (variables.size() > most ? " ...\n" : "\n");
+}
+
+int export_scene(const CommonOptions &options, const ExportOptions &asked)
+{
+  if (asked.fmu.empty())
+    throw std::invalid_argument("gestell export: names no file to write; give --fmu FILE.fmu");
+  library_of_fmus();
+  const auto folder = std::filesystem::absolute(asked.fmu).parent_path();
+  require_writable(folder);
+  ProgressLine progress(options.quiet);
+  SceneNode    root = read_scene_file(options.input, options.overrides);
+  add_scene_inputs(asked.inputs, read_scene(root, options.input, options.scripts), root);
+  Session         session(read_scene(root, options.input, options.scripts), options.overrides, {progress.callback()});
+  const FmuAnswer answer = fmu_of(root, session);
+  progress.done();
+  std::filesystem::create_directories(folder);
+  write_fmu(asked.fmu, answer);
+  std::cout << "FMU 2.0 for co-simulation: " << asked.fmu << '\n';
+  print_variables("inputs", answer.fmu.variables.inputs);
+  print_variables("outputs", answer.fmu.variables.outputs);
+  print_variables("parameters", answer.fmu.variables.parameters);
+  for (const std::string &note : answer.notes)
+    std::cout << "  " << note << '\n';
+  return exit_done;
+}
+
+} // namespace
+
+Command export_command()
+{
+  const auto own = std::make_shared<ExportOptions>();
+  return {"export",
+          "the machine for other programs that step it together with their own: an FMU 2.0 for co-simulation",
+          {"gestell export apps/scenes/press_minimal.toml --fmu press.fmu --inputs F=slide,frame.crown.uz"},
+          CommandInput::scene,
+          {{"--fmu", &own->fmu, "file to write, such as press.fmu"},
+           {"--inputs", &own->inputs,
+            "forces and speeds set from outside, beside those that the scene names: slide, crank, frame.crown.uz, "
+            "drive.speed, or by a name of their own F=slide"}},
+          [own](const CommonOptions &options) { return export_scene(options, *own); }};
+}
+
+} // namespace gestell::apps

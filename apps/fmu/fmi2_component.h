@@ -1,0 +1,87 @@
+#pragma once
+
+#include "apps/fmu/fmi2_types.h"
+#include "apps/fmu/fmu_model.h"
+
+#include <memory>
+#include <set>
+#include <string>
+
+namespace gestell::apps
+{
+
+/// One instance of the FMU, as its importer holds it.
+struct FmuComponent
+{
+  enum class Phase
+  {
+    instantiated,
+    initialising,
+    stepping,
+    terminated,
+    failed
+  };
+
+  std::string               name;
+  fmi2CallbackFunctions     callbacks{};
+  bool                      logging = false;
+  std::set<std::string>     categories{}; ///< empty: all
+  std::unique_ptr<FmuModel> model{};
+  Phase                     phase = Phase::instantiated;
+  double                    stop  = 0.; ///< [s] no step goes beyond; 0: not given
+  bool                      stops = false;
+
+  void log(fmi2Status status, const std::string &category, const std::string &message) const;
+  void tell_notes(); ///< warnings and events of the model
+};
+
+/// A component of the importer; null if it is none.
+inline FmuComponent *component_of(fmi2Component component)
+{
+  return static_cast<FmuComponent *>(component);
+}
+
+/// Calls f, which returns a status, and turns what it throws into one, with the message logged.  Nothing else leaves.
+/// @param within  names of phases in which the function may be called
+template <typename F>
+fmi2Status answered(fmi2Component c, const char *function, std::initializer_list<FmuComponent::Phase> within,
+                    F f) noexcept
+{
+  FmuComponent *const component = component_of(c);
+  if (!component)
+    return fmi2Error;
+  const auto failed = [&](fmi2Status status, const std::string &message)
+  {
+    if (status == fmi2Fatal)
+      component->phase = FmuComponent::Phase::failed;
+    component->log(status, "logStatusError", std::string(function) + ": " + message);
+    return status;
+  };
+  try
+  {
+    try
+    {
+      for (const FmuComponent::Phase phase : within)
+        if (phase == component->phase)
+          return f(*component);
+      static const char *const names[] = {"before its initialisation", "in its initialisation", "while it steps",
+                                          "after its end", "after a failure"};
+      return failed(fmi2Error, std::string("is not for an FMU ") + names[int(component->phase)] +
+                                   (component->phase == FmuComponent::Phase::failed ? "; reset it" : ""));
+    }
+    catch (const std::bad_alloc &)
+    {
+      return failed(fmi2Fatal, "the memory does not suffice");
+    }
+    catch (const std::exception &error)
+    {
+      return failed(fmi2Error, error.what());
+    }
+  }
+  catch (...)
+  {
+    return fmi2Fatal;
+  }
+}
+
+} // namespace gestell::apps

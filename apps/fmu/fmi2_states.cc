@@ -1,0 +1,190 @@
+#include "apps/fmu/fmi2_component.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#define FMI2_SHOWN extern "C" __attribute__((visibility("default")))
+
+namespace gestell::apps
+{
+namespace
+{
+
+using Phase = FmuComponent::Phase;
+
+/// A state as the importer holds it.
+struct KeptState
+{
+  FmuState state;
+  Phase    phase;
+};
+
+constexpr auto before_failure = {Phase::instantiated, Phase::initialising, Phase::stepping, Phase::terminated};
+constexpr auto always = {Phase::instantiated, Phase::initialising, Phase::stepping, Phase::terminated, Phase::failed};
+
+fmi2Status no_function(fmi2Component c, const char *function, const char *reason) noexcept
+{
+  return answered(c, function, always, [reason](FmuComponent &) -> fmi2Status { throw std::invalid_argument(reason); });
+}
+
+constexpr const char *never_pending = "steps are done when fmi2DoStep returns; none is under way";
+
+/// Phase, then the state.
+std::string bytes_of(const KeptState &kept)
+{
+  return char('0' + int(kept.phase)) + kept.state.bytes();
+}
+
+KeptState kept_of(const std::string &bytes)
+{
+  const int phase = bytes.empty() ? -1 : bytes[0] - '0';
+  if (phase < 0 || phase > int(Phase::terminated))
+    throw std::invalid_argument("these bytes are no state of an FMU of Gestell");
+  return {FmuState::of_bytes(bytes.substr(1)), Phase(phase)};
+}
+
+} // namespace
+} // namespace gestell::apps
+
+using namespace gestell::apps;
+
+FMI2_SHOWN fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+  return answered(c, "fmi2GetFMUstate", before_failure,
+                  [&](FmuComponent &own)
+                  {
+                    auto kept = std::make_unique<KeptState>(KeptState{own.model->state(), own.phase});
+                    delete static_cast<KeptState *>(*state);
+                    *state = kept.release();
+                    return fmi2OK;
+                  });
+}
+
+FMI2_SHOWN fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+{
+  return answered(c, "fmi2SetFMUstate", always,
+                  [&](FmuComponent &own)
+                  {
+                    if (!state)
+                      throw std::invalid_argument("there is no state");
+                    const auto &kept = *static_cast<const KeptState *>(state);
+                    own.phase        = Phase::failed; // until it is restored as a whole
+                    own.model->restore(kept.state);
+                    own.phase = kept.phase;
+                    return fmi2OK;
+                  });
+}
+
+FMI2_SHOWN fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+{
+  return answered(c, "fmi2FreeFMUstate", always,
+                  [&](FmuComponent &)
+                  {
+                    if (state)
+                    {
+                      delete static_cast<KeptState *>(*state);
+                      *state = nullptr;
+                    }
+                    return fmi2OK;
+                  });
+}
+
+FMI2_SHOWN fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, std::size_t *size)
+{
+  return answered(c, "fmi2SerializedFMUstateSize", always,
+                  [&](FmuComponent &)
+                  {
+                    if (!state)
+                      throw std::invalid_argument("there is no state");
+                    *size = bytes_of(*static_cast<const KeptState *>(state)).size();
+                    return fmi2OK;
+                  });
+}
+
+FMI2_SHOWN fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], std::size_t size)
+{
+  return answered(c, "fmi2SerializeFMUstate", always,
+                  [&](FmuComponent &)
+                  {
+                    if (!state)
+                      throw std::invalid_argument("there is no state");
+                    const std::string all = bytes_of(*static_cast<const KeptState *>(state));
+                    if (size < all.size())
+                      throw std::invalid_argument("the state takes " + std::to_string(all.size()) +
+                                                  " bytes, but there is room for " + std::to_string(size));
+                    std::memcpy(bytes, all.data(), all.size());
+                    return fmi2OK;
+                  });
+}
+
+FMI2_SHOWN fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], std::size_t size,
+                                              fmi2FMUstate *state)
+{
+  return answered(c, "fmi2DeSerializeFMUstate", always,
+                  [&](FmuComponent &)
+                  {
+                    *state = std::make_unique<KeptState>(kept_of(std::string(bytes, size))).release();
+                    return fmi2OK;
+                  });
+}
+
+// --- what the model description does not promise
+
+FMI2_SHOWN fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference *, std::size_t,
+                                                   const fmi2ValueReference *, std::size_t, const fmi2Real *,
+                                                   fmi2Real *)
+{
+  return no_function(c, "fmi2GetDirectionalDerivative", "derivatives are not provided, as the model description says");
+}
+
+FMI2_SHOWN fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference *, std::size_t,
+                                                   const fmi2Integer *, fmi2Real *)
+{
+  return no_function(c, "fmi2GetRealOutputDerivatives",
+                     "derivatives of outputs are not provided, as the model description says");
+}
+
+FMI2_SHOWN fmi2Status fmi2CancelStep(fmi2Component c)
+{
+  return no_function(c, "fmi2CancelStep", never_pending);
+}
+
+FMI2_SHOWN fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind, fmi2Status *)
+{
+  return no_function(c, "fmi2GetStatus", never_pending);
+}
+
+FMI2_SHOWN fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind, fmi2Integer *)
+{
+  return no_function(c, "fmi2GetIntegerStatus", never_pending);
+}
+
+FMI2_SHOWN fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind, fmi2String *)
+{
+  return no_function(c, "fmi2GetStringStatus", never_pending);
+}
+
+FMI2_SHOWN fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
+{
+  return answered(c, "fmi2GetRealStatus", always,
+                  [&](FmuComponent &own)
+                  {
+                    if (kind != fmi2LastSuccessfulTime)
+                      throw std::invalid_argument("only the last successful time is a real");
+                    *value = own.model->time();
+                    return fmi2OK;
+                  });
+}
+
+FMI2_SHOWN fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
+{
+  return answered(c, "fmi2GetBooleanStatus", always,
+                  [&](FmuComponent &own)
+                  {
+                    if (kind != fmi2Terminated)
+                      throw std::invalid_argument("only whether it has terminated is a boolean");
+                    *value = !own.model->ended().empty();
+                    return fmi2OK;
+                  });
+}

@@ -1,0 +1,82 @@
+#include "apps/output/exchange/zip_file.h"
+
+#include <stdexcept>
+
+#include <unistd.h>
+#ifdef GESTELL_MINIZIP
+#include <minizip/zip.h>
+#endif
+
+namespace gestell::apps
+{
+
+#ifdef GESTELL_MINIZIP
+namespace
+{
+
+[[noreturn]] void fail_archive(const std::string &path)
+{
+  throw std::runtime_error(path + ": cannot be written; is the disk full, or the folder not writable?");
+}
+
+} // namespace
+
+bool ZipFile::available()
+{
+  return true;
+}
+
+ZipFile::ZipFile(const std::filesystem::path &path)
+    : path_(path.string()), beside_(path_ + ".part" + std::to_string(getpid())),
+      zip_(zipOpen64(beside_.c_str(), APPEND_STATUS_CREATE))
+{
+  if (!zip_)
+    fail_archive(path_);
+}
+
+ZipFile::~ZipFile()
+{
+  if (zip_)
+    zipClose(zip_, nullptr);
+  std::error_code ignored;
+  std::filesystem::remove(beside_, ignored);
+}
+
+void ZipFile::add(const std::string &name, const std::string &bytes)
+{
+  zip_fileinfo about{};
+  about.tmz_date.tm_year = 1980; // the first one an archive knows: contents alone count
+  about.tmz_date.tm_mday = 1;
+  if (zipOpenNewFileInZip64(zip_, name.c_str(), &about, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
+                            Z_DEFAULT_COMPRESSION, 0) != ZIP_OK ||
+      zipWriteInFileInZip(zip_, bytes.data(), unsigned(bytes.size())) != ZIP_OK || zipCloseFileInZip(zip_) != ZIP_OK)
+    fail_archive(path_);
+}
+
+void ZipFile::finish()
+{
+  const bool closed = zipClose(zip_, nullptr) == ZIP_OK;
+  zip_              = nullptr;
+  std::error_code failed;
+  if (closed)
+    std::filesystem::rename(beside_, path_, failed);
+  if (!closed || failed)
+    fail_archive(path_);
+}
+#else
+bool ZipFile::available()
+{
+  return false;
+}
+
+ZipFile::ZipFile(const std::filesystem::path &)
+{
+  throw std::runtime_error("this build has no minizip, which writes archives: install libminizip-dev and build again");
+}
+
+ZipFile::~ZipFile() = default;
+void ZipFile::add(const std::string &, const std::string &) {}
+void ZipFile::finish() {}
+#endif
+
+} // namespace gestell::apps

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace gestell::apps
+{
+
+/// An archive that appears whole or not at all: written beside its place and renamed by finish().  Equal contents give
+/// equal bytes.
+class ZipFile
+{
+public:
+  static bool available(); ///< built with minizip
+
+  /// @throws std::runtime_error if it cannot be written
+  explicit ZipFile(const std::filesystem::path &path);
+  ~ZipFile(); ///< removes what was not finished
+  ZipFile(const ZipFile &) = delete;
+
+  /// @param name  "resources/scene.toml"
+  void add(const std::string &name, const std::string &bytes);
+  void finish(); ///< @throws std::runtime_error
+
+private:
+  std::string path_, beside_;
+  void       *zip_ = nullptr;
+};
+
+} // namespace gestell::apps

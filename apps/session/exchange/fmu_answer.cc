@@ -1,0 +1,219 @@
+#include "apps/session/exchange/fmu_answer.h"
+
+#include "apps/fmu/fmu_model.h"
+#include "apps/scene/file/written_scene.h"
+#include "apps/version.h"
+#include "coupling/frame/frame_recipe.h"
+#include "coupling/frame/reduced_frame_file.h"
+#include "coupling/integration/method_options.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <unistd.h>
+
+namespace gestell::apps
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// A folder that is there while it is needed.
+class PassingFolder
+{
+public:
+  PassingFolder() : path_(fs::temp_directory_path() / ("gestell-fmu-" + std::to_string(getpid())))
+  {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~PassingFolder()
+  {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  PassingFolder(const PassingFolder &) = delete;
+
+  const fs::path &path() const { return path_; }
+
+private:
+  fs::path path_;
+};
+
+std::string bytes_of_file(const fs::path &path)
+{
+  std::ifstream in(path, std::ios::binary);
+  if (!in)
+    throw std::invalid_argument(path.string() + ": cannot be read");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const fs::path &path, const std::string &bytes)
+{
+  fs::create_directories(path.parent_path());
+  std::ofstream out(path, std::ios::binary);
+  out.write(bytes.data(), std::streamsize(bytes.size()));
+  if (!out.flush())
+    throw std::runtime_error(path.string() + ": cannot be written; is the disk full?");
+}
+
+void erase(SceneNode &table, const std::vector<std::string> &keys)
+{
+  const auto goes = [&](const SceneNode::Entry &entry)
+  { return std::find(keys.begin(), keys.end(), entry.first) != keys.end(); };
+  table.entries.erase(std::remove_if(table.entries.begin(), table.entries.end(), goes), table.entries.end());
+}
+
+SceneNode text_node(const std::string &text)
+{
+  SceneNode node;
+  node.type = SceneNode::Type::text;
+  node.text = text;
+  return node;
+}
+
+/// Files that values name go with the scene; the values then name them there.
+void take_files(SceneNode &node, std::map<std::string, std::string> &files)
+{
+  std::error_code ignored;
+  if (node.type == SceneNode::Type::text && node.text.find('.') != std::string::npos)
+    if (const fs::path file = fs::path(node.folder) / node.text; fs::is_regular_file(file, ignored))
+    {
+      const std::string name = "files/" + std::to_string(files.size()) + "_" + file.filename().string();
+      files[name]            = bytes_of_file(file);
+      node.text              = name;
+    }
+  for (SceneNode &element : node.elements)
+    take_files(element, files);
+  for (auto &entry : node.entries)
+    take_files(entry.second, files);
+}
+
+/// A name that C allows.
+std::string identifier_of(const std::string &name)
+{
+  std::string identifier;
+  for (const unsigned char c : name)
+    identifier += std::isalnum(c) && c < 128 ? char(c) : '_';
+  return identifier.empty() || std::isdigit(static_cast<unsigned char>(identifier[0])) ? "m_" + identifier : identifier;
+}
+
+void require_portable(const Scene &scene)
+{
+  for (const BodyRequest &body : scene.bodies)
+    if (body.part)
+      throw std::invalid_argument(body.place +
+                                  ": the body is taken from CAD, which an FMU does not read; give its "
+                                  "mass, inertia and position as numbers (" +
+                                  body.part->found + ")");
+  if (scene.reduction.superposition)
+    throw std::invalid_argument(scene.reduction.options.place +
+                                ": in an FMU the machine does not move in its modes; leave out the superposition");
+  if (scene.start.periodic)
+    throw std::invalid_argument(scene.start.place + ": an FMU does not look for periodic motions; give the start by "
+                                                    "rule = \"given\", \"static\" or \"steady\"");
+  if (frame_path(scene) == FramePath::sparse)
+    throw std::invalid_argument(scene.frame.place + ": the frame is not reduced; give [reduction] a method that makes "
+                                                    "a reduced frame, such as \"craig-bampton\"");
+}
+
+/// The frame as a file that is at hand.
+void take_frame(SceneNode &root, Session &session, FmuResources &resources, std::map<std::string, std::string> &files,
+                std::vector<std::string> &notes)
+{
+  const FramePath path = frame_path(session.scene());
+  if (path != FramePath::reduce && path != FramePath::from_file)
+    return;
+  const PassingFolder folder;
+  const fs::path      file  = folder.path() / "frame.h5";
+  const auto          frame = path == FramePath::reduce ? session.reduced_frame().frame
+                                                        : coupling::read_reduced_frame(session.scene().frame.reduced_file);
+  coupling::write_reduced_frame(file.string(), frame);
+  files["frame.h5"] = bytes_of_file(file);
+  SceneNode of_frame;
+  for (const char *const key : {"frame", "reduction"})
+    if (const SceneNode *table = root.find(key))
+      of_frame.entries.emplace_back(key, *table);
+  resources.frozen = parameters_in(of_frame, root.find("parameters"));
+  erase(root, {"frame", "reduction"});
+  SceneNode reduced;
+  reduced.entries.emplace_back("reduced", text_node("frame.h5"));
+  root.entries.emplace_back("frame", reduced);
+  if (!resources.frozen.empty())
+    notes.push_back("the frame is reduced once for all: " + std::to_string(resources.frozen.size()) +
+                    " parameters that it depends on cannot be set in the FMU");
+}
+
+void keep_signals_alone(SceneNode &root)
+{
+  erase(root, {"extends", "without", "modes"});
+  SceneNode *output = root.find("output");
+  if (!output)
+    return;
+  const SceneNode *signals = output->find("signals");
+  SceneNode        kept;
+  if (signals)
+    kept.entries.emplace_back("signals", *signals);
+  *output = kept;
+}
+
+/// Equal for equal files alone.
+std::string guid_of(const std::map<std::string, std::string> &files)
+{
+  coupling::Recipe recipe{{"version", version}};
+  for (const auto &[name, bytes] : files)
+    recipe.push_back({name, bytes});
+  return "{" + coupling::content_key(recipe) + "}";
+}
+
+FmuDescription described(const FmuModel &model)
+{
+  constexpr double steps  = 100.; ///< of a run between which it communicates, about
+  const Scene     &scene  = model.scene();
+  const auto      &run    = scene.run.options;
+  const double     h      = run.method.step;
+  const bool       fixed  = h > 0. && !coupling::controlled(run.method);
+  const double     wanted = (run.end - run.begin) / steps;
+  FmuDescription   fmu{scene.name, scene.description, identifier_of(scene.name), model.resources().guid, version, {}};
+  fmu.variables = model.interface();
+  fmu.begin     = run.begin;
+  fmu.end       = run.end;
+  fmu.step      = fixed ? h * std::max(1., std::floor(wanted / h)) : wanted;
+  return fmu;
+}
+
+} // namespace
+
+FmuAnswer fmu_of(const SceneNode &root, Session &session)
+{
+  session.check_run();
+  require_portable(session.scene());
+  FmuAnswer                          answer;
+  FmuResources                       resources;
+  SceneNode                          flat = root;
+  std::map<std::string, std::string> files;
+  keep_signals_alone(flat);
+  take_frame(flat, session, resources, files, answer.notes);
+  take_files(flat, files);
+  files["scene.toml"] = written_scene(flat);
+  resources.guid      = guid_of(files);
+  files["fmu.toml"]   = resources.text();
+
+  const PassingFolder folder;
+  for (const auto &[name, bytes] : files)
+    write_bytes(folder.path() / name, bytes);
+  FmuModel model(folder.path());
+  model.start();
+  answer.fmu = described(model);
+  for (const auto &[name, bytes] : files)
+    answer.files["resources/" + name] = bytes;
+  return answer;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/step/loads_to_come.h"
+#include "coupling/machine/accelerations.h"
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
+#include "coupling/simulation/resumable_steps.h"
+#include "coupling/simulation/run_result.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// From which a motion goes on: q, v [n] and the history of all elements.
+struct MotionState
+{
+  double          t = 0.;
+  Eigen::VectorXd q, v, history;
+};
+
+/**
+ * A run that goes on piece by piece, as others that are coupled with it demand, with the run's own method, steps and
+ * events.  Between two pieces loads may change from outside.
+ *
+ * Steps go over the end of a piece as they go over a row of a history: what holds there is told by the dense output.
+ * As long as no load changes, they are therefore those of simulate(), however short the pieces are.  Where a load jumps
+ * or bends, the integration begins anew from the end of the piece, and what was stepped beyond is forgotten.
+ */
+class SteppedRun
+{
+public:
+  /// Starts.  The machine must outlive it.
+  /// @throws std::invalid_argument as check_run() and StabilityGuard::check(); ConvergenceFailure if the machine does
+  /// not start
+  SteppedRun(Machine &machine, const InitialState &initial, const RunOptions &options, std::vector<Signal> signals);
+  SteppedRun(const SteppedRun &)            = delete;
+  SteppedRun &operator=(const SteppedRun &) = delete;
+
+  double time() const { return now_; } ///< [s]
+  /// An instant that is no other than the present one: 1e-6 of a step from it.
+  bool is_now(double t) const;
+
+  /// Integrates to t > time(), or until a switch ends the run.
+  /// @throws ConvergenceFailure; time() is then the last instant reached
+  void go_on_to(double t);
+  /// Statement of the switch that ended the run at time(); empty: it goes on.
+  std::string ended() const { return ahead_ ? "" : ended_; }
+  /// A load is another one from now on, in value or rate.
+  void load_jumped();
+
+  const std::vector<double>      &values();                              ///< of the signals at time()
+  std::vector<Event>              take_events();                         ///< up to time(), since they were taken last
+  const std::vector<std::string> &warnings() const { return warnings_; } ///< of the method, at the start
+
+  /// The present state; the run itself goes on from it as one that restores it does: multistep formulas start anew.
+  MotionState state();
+  void        restore(const MotionState &state);
+
+private:
+  void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+  void note(const Event &event);
+  void look_at_step();
+  void look_into_step(double t, const Eigen::VectorXd &history);
+  bool stays_in_step(double t);
+  void evaluate(const LocalState &local);
+
+  Machine                     &machine_;
+  RunOptions                   options_;
+  MethodOptions                method_;
+  std::vector<Signal>          signals_;
+  std::vector<std::string>     warnings_;
+  ResumableSteps               steps_;
+  EventDriver                  driver_;
+  std::vector<int>             coordinates_;   ///< that signals read
+  std::optional<Accelerations> accelerations_; ///< if a signal reads any
+  LocalState                   inside_;        ///< scratch
+  Eigen::VectorXd              q_, v_, a_;
+  std::vector<double>          values_;
+  LoadedMotion                 loaded_;                         ///< by what is to come in the scene's run
+  double                       now_ = 0., target_ = 0., slack_; ///< [s]
+  bool                         ahead_ = false;                  ///< the last step went beyond now_
+  MotionState                  there_;                          ///< at now_, if it did
+  std::vector<Event>           events_;                         ///< not taken yet
+  std::string                  ended_;
+  double                       end_ = 0.; ///< [s] where it ended
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "tests/apps/fmu/fmu_master.h"
+#include "tests/support/csv_table.h"
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace gestell::tests
+{
+
+/// An FMU of a scene, exported and unpacked.
+struct Exported
+{
+  Exported(const Folder &folder, const std::string &name, const std::string &scene, const std::string &options = "")
+  {
+    const auto answer =
+        gestell("export " + scene + " --quiet --fmu '" + (folder / (name + ".fmu")).string() + "' " + options);
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    fmu = std::make_unique<Fmu>(folder / (name + ".fmu"), folder / name);
+  }
+
+  std::unique_ptr<Fmu> fmu;
+};
+
+/// Range of a column of a history.
+inline double range_of(const CsvTable &table, const std::string &column)
+{
+  double least = table.number(0, column), most = least;
+  for (int row = 1; row < table.rows(); ++row)
+  {
+    least = std::min(least, table.number(row, column));
+    most  = std::max(most, table.number(row, column));
+  }
+  return most - least;
+}
+
+/// The largest difference between an FMU that communicates at the rows of a history and that history, by the range of
+/// each signal.
+inline double difference_from_run(const Fmu &fmu, const std::filesystem::path &history)
+{
+  const CsvTable table(history.string());
+  FmuInstance    instance(fmu);
+  EXPECT_EQ(instance.start({}, table.number(0, "t [s]")), fmi2OK) << instance.last_message();
+  std::map<std::string, std::string> columns;
+  std::map<std::string, double>      ranges;
+  for (const FmuScalar &scalar : fmu.scalars())
+    if (scalar.causality == "output")
+    {
+      columns[scalar.name] = scalar.name + " [" + scalar.unit + "]";
+      ranges[scalar.name]  = range_of(table, columns[scalar.name]);
+    }
+  double worst = 0.;
+  for (int row = 0; row < table.rows(); ++row)
+  {
+    const double t = table.number(row, "t [s]");
+    if (row > 0)
+      if (const double before = table.number(row - 1, "t [s]"); instance.step(before, t - before) != fmi2OK)
+        ADD_FAILURE() << t << ": " << instance.last_message();
+    for (const auto &[name, column] : columns)
+      worst = std::max(worst, std::abs(instance.get(name) - table.number(row, column)) / ranges[name]);
+  }
+  return worst;
+}
+
+} // namespace gestell::tests

@@ -1,0 +1,323 @@
+// Machines as FMUs, stepped by a master of our own: the same motion as that of a run, and the error of a coupling.
+
+#include "tests/apps/fmu/exported_fmu.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace gestell::tests
+{
+namespace
+{
+
+/// m x'' + b x' + c x = F on a slider, integrated much finer than it communicates.
+std::string oscillator(const std::string &name, double mass, double stiffness, double start)
+{
+  return "name = \"" + name + "\"\n[parameters]\nM = \"" + std::to_string(mass) + " kg\"\nc = \"" +
+         std::to_string(stiffness) +
+         " N/m\"\n[body.mass]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"M\"\n"
+         "[element.spring]\ntype = \"spring-damper\"\nfrom = \"mass\"\nstiffness = \"c\"\ndamping = \"2 N s/m\"\n"
+         "[element.push]\ntype = \"force profile\"\nfrom = \"mass\"\nprofile = { input = \"F\" }\n"
+         "[start]\nrule = \"given\"\nq = { mass = " +
+         std::to_string(start) +
+         " }\n[run]\nmethod = \"newmark\"\nstep = \"0.05 ms\"\nend = \"0.4 s\"\n"
+         "[output.signals]\nx = \"mass.displacement\"\nv = \"mass.velocity\"\n";
+}
+
+/// Both, with the spring between them that the master computes in the tests.
+const char *const both = R"(
+[body.one]
+type = "slider"
+axis = [1, 0, 0]
+mass = "2 kg"
+[body.two]
+type = "slider"
+axis = [1, 0, 0]
+mass = "3 kg"
+[element.first]
+type = "spring-damper"
+from = "one"
+stiffness = "800 N/m"
+damping = "2 N s/m"
+[element.second]
+type = "spring-damper"
+from = "two"
+stiffness = "500 N/m"
+damping = "2 N s/m"
+[element.between]
+type = "spring-damper"
+from = "one"
+to = "two"
+stiffness = "600 N/m"
+[start]
+rule = "given"
+q = { one = "10 mm" }
+[run]
+method = "newmark"
+step = "0.05 ms"
+end = "0.4 s"
+[output.signals]
+x1 = "one.displacement"
+x2 = "two.displacement"
+)";
+
+constexpr double between = 600.; // N/m
+
+enum class Between
+{
+  held,
+  extrapolated
+};
+
+/// Error of the displacements at 0.4 s, of two FMUs whose spring between them is computed every H.
+double coupling_error(const Fmu &first, const Fmu &second, double H, Between how, double x1, double x2)
+{
+  FmuInstance one(first, "first"), two(second, "second");
+  EXPECT_EQ(one.start(), fmi2OK) << one.last_message();
+  EXPECT_EQ(two.start(), fmi2OK) << two.last_message();
+  const int steps = int(std::lround(0.4 / H));
+  for (int i = 0; i < steps; ++i)
+  {
+    const double force = between * (two.get("x") - one.get("x")), rate = between * (two.get("v") - one.get("v"));
+    for (const auto &[instance, sign] : {std::pair{&one, 1.}, std::pair{&two, -1.}})
+    {
+      EXPECT_EQ(instance->set("F", sign * force), fmi2OK);
+      if (how == Between::extrapolated)
+      {
+        EXPECT_EQ(instance->set_rate("F", sign * rate), fmi2OK);
+      }
+      EXPECT_EQ(instance->step(i * H, H), fmi2OK) << instance->last_message();
+    }
+  }
+  return std::hypot(one.get("x") - x1, two.get("x") - x2);
+}
+
+} // namespace
+
+TEST(Fmu, IsDescribedAsTheStandardDemands)
+{
+  const Folder   folder("fmu_description");
+  const Exported press(folder, "press", scene("press_minimal.toml"), "--inputs F=slide,frame.crown.uz,crank");
+  const Fmu     &fmu = *press.fmu;
+  EXPECT_EQ(fmu.head().at("fmiVersion"), "2.0");
+  EXPECT_EQ(fmu.co_simulation().at("modelIdentifier"), "press_minimal");
+  EXPECT_THAT(fmu.named("input"), testing::UnorderedElementsAre("F", "frame.crown.uz", "crank"));
+  EXPECT_EQ(fmu.named("output").size(), 14u);
+  EXPECT_THAT(fmu.named("parameter"), testing::AllOf(testing::Contains("c_P"), testing::Contains("s_cl")));
+  EXPECT_THAT(fmu.named("parameter"), testing::Not(testing::Contains("F_max"))); // follows from others
+  EXPECT_THAT(fmu.named("parameter"), testing::Not(testing::Contains("t_end"))); // is no limit
+  std::set<std::string> names, units(fmu.units().begin(), fmu.units().end());
+  std::set<unsigned>    references;
+  for (std::size_t i = 0; i < fmu.scalars().size(); ++i)
+  {
+    const FmuScalar &scalar = fmu.scalars()[i];
+    EXPECT_TRUE(names.insert(scalar.name).second) << scalar.name;
+    EXPECT_TRUE(references.insert(scalar.reference).second) << scalar.name;
+    EXPECT_TRUE(scalar.unit.empty() || units.count(scalar.unit) > 0) << scalar.unit;
+    const bool output = scalar.causality == "output";
+    EXPECT_EQ(scalar.starts, !output) << scalar.name;
+    EXPECT_EQ(std::count(fmu.outputs().begin(), fmu.outputs().end(), int(i + 1)), output ? 1 : 0) << scalar.name;
+  }
+  FmuInstance instance(fmu);
+  EXPECT_EQ(instance.get("s_cl"), 0.4e-3);
+  EXPECT_EQ(instance.get("c_P"), 9e8);
+}
+
+TEST(Fmu, MovesAsARunOfTheSameScene)
+{
+  const Folder folder("fmu_run");
+  ASSERT_EQ(gestell("run " + scene("press_minimal.toml") + " --set output.step='\"1 ms\"' --set output.picture_step=0" +
+                    folder.option())
+                .exit_code,
+            0);
+  const Exported press(folder, "press", scene("press_minimal.toml"));
+  // Inputs do not change, so that the steps are those of the run: what is left is the rounding of its table.
+  EXPECT_LT(difference_from_run(*press.fmu, folder.results() / "history.csv"), 1e-9);
+}
+
+TEST(Fmu, TakesTheSameStepsWhereverItCommunicates)
+{
+  const Folder   folder("fmu_inside");
+  const Exported press(folder, "press", scene("press_minimal.toml"));
+  FmuInstance    whole(*press.fmu, "whole"), parts(*press.fmu, "parts");
+  ASSERT_EQ(whole.start(), fmi2OK);
+  ASSERT_EQ(parts.start(), fmi2OK);
+  EXPECT_EQ(whole.step(0., 0.4), fmi2OK);
+  for (int i = 0; i < 6000; ++i) // of six steps and two thirds
+    ASSERT_EQ(parts.step(i * 0.4 / 6000, 0.4 / 6000), fmi2OK) << parts.last_message();
+  for (const std::string &signal : press.fmu->named("output"))
+    EXPECT_NEAR(parts.get(signal), whole.get(signal), 1e-12 * std::abs(whole.get(signal))) << signal;
+}
+
+TEST(Fmu, ErrorOfACouplingFallsWithTheStepOfCommunicationAndItsSquare)
+{
+  const Folder folder("fmu_coupled");
+  ASSERT_EQ(gestell("run " + folder.file("both.toml", both) + folder.option()).exit_code, 0);
+  const std::string json = read(folder.results() / "summary.json");
+  const double   x1 = json_number(json, {"signals", "x1", "final"}), x2 = json_number(json, {"signals", "x2", "final"});
+  const Exported first(folder, "first", folder.file("first.toml", oscillator("first", 2., 800., 0.01)));
+  const Exported second(folder, "second", folder.file("second.toml", oscillator("second", 3., 500., 0.)));
+  for (const auto &[how, order] : {std::pair{Between::held, 1.}, std::pair{Between::extrapolated, 2.}})
+  {
+    const double coarse = coupling_error(*first.fmu, *second.fmu, 2e-3, how, x1, x2);
+    const double fine   = coupling_error(*first.fmu, *second.fmu, 1e-3, how, x1, x2);
+    EXPECT_NEAR(std::log2(coarse / fine), order, 0.15) << coarse << " " << fine;
+    EXPECT_LT(fine, how == Between::held ? 3e-4 : 1e-6);
+  }
+}
+
+TEST(Fmu, GoesOnFromAStateAsItDidBefore)
+{
+  const Folder   folder("fmu_state");
+  const Exported press(folder, "press", scene("press_minimal.toml"), "--inputs F=slide");
+  FmuInstance    one(*press.fmu, "one"), other(*press.fmu, "other");
+  ASSERT_EQ(one.start(), fmi2OK);
+  EXPECT_EQ(one.set("F", 500.), fmi2OK);
+  EXPECT_EQ(one.step(0., 0.1), fmi2OK);
+  fmi2FMUstate      kept = one.keep(), copied = nullptr;
+  const std::string bytes   = one.bytes(kept);
+  const auto        goes_on = [](const FmuInstance &from)
+  {
+    std::vector<double> values;
+    for (int i = 0; i < 100; ++i) // through the cutting shock
+    {
+      EXPECT_EQ(from.step(0.1 + i * 3e-3, 3e-3), fmi2OK) << from.last_message();
+      for (const char *signal : {"F_P", "x3", "phi2", "M_T"})
+        values.push_back(from.get(signal));
+    }
+    return values;
+  };
+  const auto at_first = goes_on(one);
+  EXPECT_EQ(one.back_to(kept), fmi2OK) << one.last_message();
+  EXPECT_EQ(one.get("F"), 500.);
+  const auto again = goes_on(one);
+  ASSERT_EQ(other.from_bytes(bytes, copied), fmi2OK) << other.last_message();
+  EXPECT_EQ(other.back_to(copied), fmi2OK) << other.last_message();
+  const auto elsewhere = goes_on(other);
+  for (std::size_t i = 0; i < at_first.size(); ++i)
+  {
+    const double size = std::abs(at_first[i]) + 1e-6; // Newton's error: its scale is that of the motion seen so far
+    EXPECT_NEAR(again[i], at_first[i], 1e-6 * size) << i;
+    EXPECT_NEAR(elsewhere[i], at_first[i], 1e-6 * size) << i;
+  }
+  one.forget(kept);
+  other.forget(copied);
+}
+
+TEST(Fmu, TakesParametersAndInputsOfItsOwnPerInstance)
+{
+  const Folder   folder("fmu_instances");
+  const Exported slider(folder, "slider", folder.file("one.toml", oscillator("one", 2., 800., 0.)));
+  FmuInstance    soft(*slider.fmu, "soft"), hard(*slider.fmu, "hard");
+  ASSERT_EQ(soft.start({{"F", 8.}}), fmi2OK);
+  ASSERT_EQ(hard.start({{"F", 8.}, {"c", 3200.}}), fmi2OK);
+  // Over a small part of the period: x = F/c (1 - cos(w t)), w^2 = c/m, less what the damper takes.
+  const double t = 0.05;
+  EXPECT_EQ(soft.step(0., t), fmi2OK);
+  EXPECT_EQ(hard.step(0., t), fmi2OK);
+  for (const auto &[instance, c] : {std::pair{&soft, 800.}, std::pair{&hard, 3200.}})
+  {
+    const double m = 2., delta = 2. / (2. * m), w = std::sqrt(c / m - delta * delta);
+    const double x = 8. / c * (1. - std::exp(-delta * t) * (std::cos(w * t) + delta / w * std::sin(w * t)));
+    EXPECT_NEAR(instance->get("x"), x, 1e-5 * std::abs(x)); // w h = 2e-3: (w h)^2/12 of the phase
+  }
+  EXPECT_EQ(hard.reset(), fmi2OK);
+  EXPECT_EQ(hard.get("c"), 800.);
+  ASSERT_EQ(hard.start({{"F", 8.}}), fmi2OK);
+  EXPECT_EQ(hard.step(0., t), fmi2OK);
+  EXPECT_EQ(hard.get("x"), soft.get("x"));
+}
+
+TEST(Fmu, EndsWhereASwitchEndsTheRun)
+{
+  const Folder folder("fmu_end");
+  std::string  text = oscillator("one", 2., 800., 0.);
+  text += "[switch.far]\nwhen = \"mass.displacement\"\nabove = \"5 mm\"\norder = \"end\"\n";
+  const Exported slider(folder, "slider", folder.file("one.toml", text));
+  FmuInstance    one(*slider.fmu);
+  ASSERT_EQ(one.start({{"F", 8.}}), fmi2OK);
+  double t = 0.;
+  for (; t < 0.2 && one.step(t, 1e-2) == fmi2OK; t += 1e-2)
+    ;
+  EXPECT_TRUE(one.has_ended());
+  EXPECT_NEAR(one.get("x"), 5e-3, 1e-8);
+  EXPECT_GT(one.last_time(), t);
+  EXPECT_LT(one.last_time(), t + 1e-2);
+}
+
+TEST(Fmu, SaysWhatIsWrong)
+{
+  const Folder   folder("fmu_wrong");
+  const Exported press(folder, "press", scene("press_minimal.toml"), "--inputs F=slide");
+  const Fmu     &fmu = *press.fmu;
+  FmuInstance    one(fmu);
+  const auto     says = [&](fmi2Status status, const std::string &part)
+  {
+    EXPECT_EQ(status, fmi2Error);
+    EXPECT_THAT(one.last_message(), testing::HasSubstr(part));
+  };
+  says(one.step(0., 1e-3), "is not for an FMU before its initialisation");
+  says(one.set("F_P", 1.), "'F_P' is an output");
+  says(one.set("c_P", std::nan("")), "needs a finite number");
+  says(one.get_reference(9999), "there is no variable with the value reference 9999; they go from 0 to");
+  EXPECT_EQ(one.set("l", 0.05), fmi2OK); // a rod shorter than its crank
+  says(one.start(), "element.rod");
+  EXPECT_EQ(one.reset(), fmi2OK);
+  ASSERT_EQ(one.start(), fmi2OK) << one.last_message();
+  EXPECT_EQ(one.step(0., 1e-3), fmi2OK);
+  says(one.step(0., 1e-3), "the step begins at 0 s, but the machine is at 0.001 s");
+  says(one.step(1e-3, -1e-3), "needs a length above zero");
+  says(one.set("c_P", 1e9), "'c_P' is fixed once the machine has started");
+  fmi2FMUstate none = nullptr;
+  says(one.from_bytes("gestell", none), "no state of an FMU");
+  EXPECT_EQ(one.step(1e-3, 1e-3), fmi2OK); // and it goes on
+  EXPECT_EQ(one.terminate(), fmi2OK);
+  says(one.step(2e-3, 1e-3), "after its end");
+}
+
+TEST(Fmu, RefusesDamagedResources)
+{
+  const Folder   folder("fmu_damaged");
+  const Exported press(folder, "press", scene("press_minimal.toml"));
+  const Fmu     &fmu      = *press.fmu;
+  const auto     resource = fmu.folder() / "resources";
+  const auto     refused  = [&](const FmuInstance &instance, const std::string &part)
+  {
+    EXPECT_FALSE(instance.alive());
+    EXPECT_THAT(instance.last_message(), testing::HasSubstr(part));
+  };
+  refused(FmuInstance(fmu, "one", "{other}"), "they are of different FMUs");
+  refused(FmuInstance(fmu, "one", "", "file:///nowhere"), "there is no scene.toml in /nowhere");
+  refused(FmuInstance(fmu, "one", "", "https://example.org/x"), "can be read from file:// only");
+  const std::string text = read(resource / "scene.toml");
+  std::ofstream(resource / "scene.toml") << text.substr(0, text.size() / 2);
+  refused(FmuInstance(fmu), "scene.toml");
+  std::ofstream(resource / "scene.toml") << text;
+  std::ofstream(resource / "fmu.toml") << "guid = 1\n";
+  refused(FmuInstance(fmu), "it is not as gestell export wrote it");
+}
+
+TEST(FmuExport, RefusesOddInputWithTheWayOut)
+{
+  const Folder folder("fmu_odd");
+  const auto   refused = [&](const std::string &arguments, const std::vector<std::string> &words)
+  {
+    expect_answer(gestell("export " + arguments + " --fmu '" + (folder / "x.fmu").string() + "'"), 2, words);
+    EXPECT_FALSE(std::filesystem::exists(folder / "x.fmu"));
+  };
+  refused(scene("press_minimal.toml") + " --inputs slid", {"--inputs slid", "there is no place 'slid'", "'slide'"});
+  refused(scene("press_minimal.toml") + " --inputs frame.crwn.uz", {"frame.crwn", "crown"});
+  refused(scene("press_minimal.toml") + " --inputs c_P=slide", {"'c_P' is a parameter, an input or a signal at once"});
+  expect_answer(gestell("export " + scene("press_minimal.toml")), 2, {"give --fmu FILE.fmu"});
+  const std::string file = folder.file("file", "");
+  expect_answer(
+      gestell("export " + scene("press_minimal.toml") + " --fmu " + file.substr(0, file.size() - 1) + "/x.fmu'"), 2,
+      {"file"});
+}
+
+} // namespace gestell::tests

@@ -1,0 +1,141 @@
+// A run that goes on piece by piece: the same steps as a run as a whole, loads that jump between pieces, states.
+
+#include "coupling/simulation/stepped_run.h"
+
+#include "mechanism/elements/clearance.h"
+#include "mechanism/elements/profile_force.h"
+#include "tests/support/methods.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace coupling;
+
+constexpr double mass = 2., spring = 800., wall = 2e5, gap = 8e-3; // kg, N/m, N/m, m
+
+/// A sprung mass that an input pushes, between stops.
+struct PushedMass
+{
+  explicit PushedMass(double play = gap)
+  {
+    MachineModel  model;
+    const Measure x = slider(model, "x", mass);
+    model.add_linear("spring", x, {spring, 0., 0., 0.}, "N");
+    model.attach("stops", std::make_shared<mechanism::Clearance>(mechanism::Clearance::Parameters{play, wall, 0.}),
+                 {x});
+    model.attach("push", std::make_shared<mechanism::ProfileForce>(force), {x});
+    machine.emplace(std::move(model));
+  }
+
+  std::vector<Signal> signals() const
+  {
+    std::vector<Signal> signals;
+    for (const char *const path : {"x.displacement", "x.velocity", "stops.force", "x.acceleration"})
+      signals.push_back(machine->signal(path, path));
+    return signals;
+  }
+
+  std::shared_ptr<mechanism::InputValue> force =
+      std::make_shared<mechanism::InputValue>(mechanism::InputValue{"F", 5., 0., 0.});
+  std::optional<Machine> machine;
+};
+
+constexpr double step = 1e-4, end = 0.2, no_stops = 1.;
+
+} // namespace
+
+class SteppedRunBy : public testing::TestWithParam<const char *>
+{
+protected:
+  RunOptions options() const
+  {
+    const std::string name = GetParam();
+    return run_of(method(name, step, name == "exact" ? 6 : 2), end);
+  }
+};
+
+TEST_P(SteppedRunBy, MovesAsARunHoweverShortThePiecesAre)
+{
+  PushedMass      one, other;
+  const RunResult whole = simulate(*one.machine, start(0., 1.), options(), one.signals());
+  EXPECT_GT(whole.events.size(), 4u);
+  SteppedRun pieces(*other.machine, start(0., 1.), options(), other.signals());
+  for (int i = 1; i <= 3700; ++i) // shorter than the steps, and longer
+    pieces.go_on_to(i <= 3000 ? i * end / 6000 : end / 2 + (i - 3000) * end / 1400);
+  EXPECT_EQ(pieces.take_events().size(), whole.events.size());
+  for (std::size_t i = 0; i < whole.signals.size(); ++i)
+    EXPECT_NEAR(pieces.values()[i], whole.signals[i].final, 1e-12 * (whole.signals[i].max - whole.signals[i].min));
+}
+
+TEST_P(SteppedRunBy, ALoadThatJumpsMovesTheRestPosition)
+{
+  // x = F/c (1 - cos w t) up to t_1, then about F_1/c with what it has there; between stops that are far.
+  PushedMass   one(no_stops);
+  const double w = std::sqrt(spring / mass), t_1 = 0.05, x_0 = 5. / spring, x_1 = -12. / spring;
+  SteppedRun   run(*one.machine, start(0., 0.), options(), one.signals());
+  const auto   error_at = [&](double x) { return std::abs(run.values()[0] - x); };
+  run.go_on_to(t_1);
+  one.force->value = -12.;
+  run.load_jumped();
+  run.go_on_to(end);
+  const double q = x_0 * (1. - std::cos(w * t_1)), v = x_0 * w * std::sin(w * t_1), t = end - t_1;
+  const double x = x_1 + (q - x_1) * std::cos(w * t) + v / w * std::sin(w * t);
+  // Second order, w h = 2e-3: the period errs by (w h)^2/3 at most, over w t = 3 rad.
+  EXPECT_LT(error_at(x), 1e-5 * std::abs(x_1));
+}
+
+TEST_P(SteppedRunBy, GoesBackToAState)
+{
+  PushedMass one;
+  SteppedRun run(*one.machine, start(0., 1.), options(), one.signals());
+  run.go_on_to(0.0501);
+  const MotionState state = run.state();
+  run.go_on_to(0.15);
+  const std::vector<double> first = run.values();
+  run.restore(state);
+  EXPECT_EQ(run.time(), 0.0501);
+  run.go_on_to(0.15);
+  for (std::size_t i = 0; i < first.size(); ++i)
+    EXPECT_NEAR(run.values()[i], first[i], 1e-9 * std::abs(first[i]) + 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, SteppedRunBy, testing::Values("bdf", "newmark", "exact", "generalised-alpha"),
+                         [](const auto &info)
+                         {
+                           std::string name = info.param;
+                           for (char &c : name)
+                             c = c == '-' ? '_' : c;
+                           return name;
+                         });
+
+TEST(SteppedRun, EndsInsideAStepAndGoesOnFromThere)
+{
+  PushedMass   one(no_stops);
+  SteppedRun   run(*one.machine, start(0., 0.), run_of(bdf(2, step), end), one.signals());
+  const double w = std::sqrt(spring / mass);
+  for (int i = 1; i <= 37; ++i) // 54.05 steps each
+  {
+    run.go_on_to(i * end / 37);
+    EXPECT_NEAR(run.time(), i * end / 37, 1e-9 * step);
+    const double x = 5. / spring * (1. - std::cos(w * run.time()));
+    EXPECT_NEAR(run.values()[0], x, 1e-5 * 5. / spring);
+  }
+}
+
+TEST(SteppedRun, ControlsTheErrorOfItsStepsWithinPieces)
+{
+  PushedMass   one(no_stops);
+  SteppedRun   run(*one.machine, start(0., 0.), run_of(controlled(bdf(5, 0.), 1e-8), end), one.signals());
+  const double w = std::sqrt(spring / mass);
+  for (int i = 1; i <= 10; ++i)
+    run.go_on_to(i * end / 10);
+  EXPECT_NEAR(run.values()[0], 5. / spring * (1. - std::cos(w * end)), 1e-5 * 5. / spring);
+}
+
+} // namespace gestell::tests
