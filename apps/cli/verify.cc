@@ -150,9 +150,9 @@ Verification computed(const std::vector<CaseFile> &files)
     verified.file          = file;
     for (const ReferenceCase &one : file.cases)
     {
-      if (interruption())
-        throw std::runtime_error("interrupted");
       verified.outcomes.push_back(judged(one, &interruption()));
+      if (interruption())
+        throw std::runtime_error("nothing is written");
       tell(one, verified.outcomes.back());
     }
   }
