@@ -150,9 +150,9 @@ Verification computed(const std::vector<CaseFile> &files)
     verified.file          = file;
     for (const ReferenceCase &one : file.cases)
     {
-      if (interruption())
-        throw std::runtime_error("interrupted");
       verified.outcomes.push_back(judged(one, &interruption()));
+      if (interruption())
+        throw std::runtime_error("nothing is written");
       tell(one, verified.outcomes.back());
     }
   }
@@ -195,7 +195,7 @@ Command verify_command()
   const auto own = std::make_shared<VerifyOptions>();
   return {"verify",
           "compute reference cases anew and set them beside what is expected",
-          {"gestell verify", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
+          {"gestell verify --all", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
           CommandInput::none,
           {{"CASE", &own->cases,
             "files of cases (.toml), or names of cases and files shipped (default: all but long ones)"},

@@ -46,14 +46,24 @@ def add_sources(files, config):
         with open(page.abs_src_path, encoding="utf-8") as text:
             for up, link, _ in LINK.findall(text.read()):
                 if path := outside(page.src_path, up + link, config):
-                    sources[path] = "tree/" + path + ".md"
-    for path, page in sorted(sources.items()):
-        target = os.path.join(generated.name, page)
-        os.makedirs(os.path.dirname(target), exist_ok=True)
-        with open(os.path.join(os.path.dirname(config["docs_dir"]), path), encoding="utf-8") as text:
-            with open(target, "w", encoding="utf-8") as out:
-                out.write(f"# {path}\n\n" + "".join("    " + line for line in text))
-        files.append(File(page, generated.name, config["site_dir"], False))
+                    sources[path] = "tree/" + path
+    for path in sorted(sources):
+        with open(os.path.join(os.path.dirname(config["docs_dir"]), path), "rb") as content:
+            add_source(path, content.read(), files, config)
+
+
+def add_source(path, content, files, config):
+    """A page that shows a text; a picture or the like stays a file."""
+    try:
+        content = (f"# {path}\n\n" + "".join("    " + line for line in content.decode().splitlines(True))).encode()
+        sources[path] += ".md"
+    except UnicodeDecodeError:
+        pass
+    target = os.path.join(generated.name, sources[path])
+    os.makedirs(os.path.dirname(target), exist_ok=True)
+    with open(target, "wb") as out:
+        out.write(content)
+    files.append(File(sources[path], generated.name, config["site_dir"], False))
 
 
 def navigation(files, config):

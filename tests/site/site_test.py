@@ -55,7 +55,9 @@ class Tree:
 class Site(unittest.TestCase):
     def test_documents_become_pages(self):
         with Tree() as tree:
-            tree.add("tutorials/first.md", "# Your first frame\n\nsee [press](../../apps/scenes/press.toml)\n")
+            tree.add("tutorials/first.md", "# Your first frame\n\nsee [press](../../apps/scenes/press.toml)\n![x](../../picture.png)\n")
+            with open(tree.path("picture.png"), "wb") as picture:
+                picture.write(b"\x89PNG\xff")
             tree.add("stray.md", "# A page of no group\n")
             built = tree.build()
             self.assertEqual(built.returncode, 0, built.stderr)
@@ -63,6 +65,7 @@ class Site(unittest.TestCase):
             for title in ("First steps", "Your first frame", "Theory", "A page of no group"):
                 self.assertIn(title, start)
             self.assertIn("closing_length", tree.page("tree/apps/scenes/press.toml.html"))
+            self.assertTrue(os.path.exists(tree.path("pages", "tree", "picture.png")))
             self.assertIn("../tree/apps/scenes/press.toml.html", tree.page("tutorials/first.html"))
 
     def test_what_is_broken_is_named_and_fails(self):
