@@ -14,6 +14,9 @@ Json story_json(const RunStory &story);
 /// What a load does to a mode, in words: "acts like a step", "excites it by 60 %", "hardly excites it".
 std::string excitation_words(const LoadOnMode &on);
 
+/// An energy [J] left in a mode as it is told: rounding beside the largest of that load is 0.
+std::string energy_text(double energy, const LoadDuration &load);
+
 /// For a terminal: the loads against the periods, and the plays.
 std::string story_text(const RunStory &story);
 
