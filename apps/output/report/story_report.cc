@@ -28,7 +28,7 @@ std::string load_html(const LoadDuration &load, const Result &result)
   for (const LoadOnMode &on : load.modes)
     table.add({std::to_string(on.mode + 1), short_text(on.frequency_hz, 4), short_text(1e3 / on.frequency_hz, 4),
                short_text(on.duration, 3), short_text(on.rise, 3), peak(short_text(on.fall, 3), on.fall < 0.25),
-               short_text(on.fall_factor, 3), short_text(on.energy, 3), excitation_words(on),
+               short_text(on.fall_factor, 3), energy_text(on.energy, load), excitation_words(on),
                result.energy_shares ? strain_text(*result.energy_shares, std::size_t(on.mode)) : ""});
   return "<p><strong>" + escape_xml(load.signal) + "</strong> (" + escape_xml(load.element) + ") acts from " +
          short_text(load.begin, 6) + " s on, where it comes above 1 % of its peak, and begins to fall, below 90 %, " +

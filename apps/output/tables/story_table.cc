@@ -2,6 +2,7 @@
 
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -59,10 +60,18 @@ void add_load(const LoadDuration &load, std::ostream &text)
     text << std::setw(6) << on.mode + 1 << std::setw(9) << short_text(on.frequency_hz, 4) << std::setw(13)
          << short_text(on.duration, 3) << std::setw(9) << short_text(on.rise, 3) << std::setw(9)
          << short_text(on.fall, 3) << std::setw(17) << short_text(on.fall_factor, 3) << std::setw(13)
-         << short_text(on.energy, 3) << "   " << excitation_words(on) << '\n';
+         << energy_text(on.energy, load) << "   " << excitation_words(on) << '\n';
 }
 
 } // namespace
+
+std::string energy_text(double energy, const LoadDuration &load)
+{
+  double largest = 0.;
+  for (const LoadOnMode &on : load.modes)
+    largest = std::max(largest, on.energy);
+  return energy < 1e-6 * largest ? "0" : short_text(energy, 3);
+}
 
 Json story_json(const RunStory &story)
 {

@@ -17,6 +17,9 @@ std::string excitation_words(const LoadOnMode &on);
 /// That times of a load are read from rows too far apart, and the way out.
 std::string coarse_rows_words(const LoadDuration &load);
 
+/// An energy [J] left in a mode as it is told: rounding beside the largest of that load is 0.
+std::string energy_text(double energy, const LoadDuration &load);
+
 /// For a terminal: the loads against the periods, and the plays.
 std::string story_text(const RunStory &story);
 

@@ -1,5 +1,6 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/story_table.h"
 #include "apps/output/text/csv.h"
 #include "apps/output/text/json.h"
 #include "apps/output/text/write_file.h"
@@ -279,4 +280,14 @@ TEST(CsvField, IsQuotedWhereItMustBeWithItsQuotesDoubled)
   EXPECT_EQ(csv_field("F, largest"), "\"F, largest\"");
   EXPECT_EQ(csv_field("12\" pipe"), "\"12\"\" pipe\"");
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(StoryTable, RoundingBesideTheLargestEnergyIsZero)
+{
+  LoadDuration load;
+  for (const double energy : {402., 7e-8, 5.}) // [J]
+    load.modes.push_back({0, 10., 1., 0.1, 0.1, 1., energy});
+  EXPECT_EQ(energy_text(402., load), "402");
+  EXPECT_EQ(energy_text(5., load), "5");
+  EXPECT_EQ(energy_text(7e-8, load), "0");
 }
