@@ -70,6 +70,7 @@ TEST_F(Refused, CardsOfNastran)
   expect(head + "DMIG,K,1,1,,1,1,2.0.1\n", {"is no number"});
   expect(head + "DMIG,K,1,x,,1,1,2.\n", {"'x' is no whole number"});
   expect(head + "DMIG\tK\t1\n", {"tabs"});
+  expect(head + "DMIG,K,1,1,,1,1,2.,,2,1,3.\n", {"a.txt:2", "8 fields", "one more"});
   expect("", {"MatrixMarket"});
 }
 
