@@ -62,11 +62,16 @@ void BulkCards::add_fields()
   const bool        large = first_field(line).find('*') != std::string_view::npos;
   const std::size_t count = large ? large_fields : small_fields, first = fields_.size();
   if (const auto comma = line.find(','); comma != std::string_view::npos)
-    for (std::size_t at = comma; at != std::string_view::npos && fields_.size() < first + count;)
+    for (std::size_t at = comma; at != std::string_view::npos;)
     {
-      const std::size_t end = line.find(',', at + 1);
-      fields_.push_back(trimmed(line.substr(at + 1, end == std::string_view::npos ? end : end - at - 1)));
-      at = end;
+      const std::size_t      end  = line.find(',', at + 1);
+      const std::string_view text = trimmed(line.substr(at + 1, end == std::string_view::npos ? end : end - at - 1));
+      at                          = end;
+      if (fields_.size() < first + count)
+        fields_.push_back(text);
+      else if (!text.empty() && text[0] != '+' && text[0] != '*') // a mark of the continuation
+        file_.fail("a line has " + std::to_string(count) + " fields behind its name, and '" + std::string(text) +
+                   "' is one more; write it in a line that begins with a comma");
     }
   else
   {

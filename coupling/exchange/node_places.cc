@@ -1,6 +1,7 @@
 #include "coupling/exchange/node_places.h"
 
 #include "coupling/exchange/bulk_cards.h"
+#include "coupling/exchange/coordinate_systems.h"
 #include "fem/values/inp_lines.h"
 
 #include <algorithm>
@@ -23,15 +24,16 @@ public:
   /// @return whether the node stood elsewhere before
   bool contradicts(long node, const std::array<double, 3> &x)
   {
-    const auto [place, is_new] = places_.emplace(node, x);
+    const auto [place, is_new] = nodes_.places.emplace(node, x);
     return !is_new && place->second != x;
   }
+  void turn(long node, const Eigen::Matrix3d &axes) { nodes_.axes[node] = axes; }
 
-  const NodePlaces &places() const { return places_; }
+  const ModelNodes &nodes() const { return nodes_; }
 
 private:
   const std::set<long> &wanted_;
-  NodePlaces            places_;
+  ModelNodes            nodes_;
 };
 
 constexpr std::size_t longest_format = 80;
@@ -41,18 +43,19 @@ std::string elsewhere(long node)
   return "node " + std::to_string(node) + " has a place already, another one; keep one of them";
 }
 
-void refuse_system(const TextFile &file, long line, long node, const std::string &key, std::string_view system)
+/// The system that CP or CD of a grid point names.
+const CoordinateSystems::System &system_of(const TextFile &file, const BulkCards &card,
+                                           const CoordinateSystems &systems, std::string_view number,
+                                           const std::string &what)
 {
-  const bool is_place = key == "CP";
-  file.fail_at(line, "grid point " + std::to_string(node) + " counts its " + (is_place ? "place" : "motions") +
-                         " in coordinate system " + std::string(system) + " (" + key +
-                         "); only the basic one is taken: " +
-                         (is_place ? "write places in it" : "export the matrices with " + key + " = 0 at this point"));
-}
-
-bool names_system(std::string_view field)
-{
-  return !field.empty() && field != "0" && field != "-1";
+  const long id = number.empty() || number == "-1" ? 0 : file.whole(number, "the number of a coordinate system");
+  if (const auto *system = systems.find(id))
+    return *system;
+  file.fail_at(card.line(),
+               "grid point " + std::string(card.fields()[0]) + " counts its " + what + " in coordinate system " +
+                   std::to_string(id) +
+                   ", which no CORD2R card of this file gives; others than rectangular ones are not taken: "
+                   "write the point in the basic system, and the matrices with CD = 0 there");
 }
 
 void read_grids(const std::string &name, Found &found)
@@ -69,8 +72,8 @@ void read_grids(const std::string &name, Found &found)
         usual_cd = std::string(defaults.fields()[grid_cd]);
     }
   }
-  file.restart();
-  BulkCards cards(file, {"GRID"});
+  const CoordinateSystems systems(file);
+  BulkCards               cards(file, {"GRID"});
   while (cards.next())
   {
     auto field = cards.fields();
@@ -80,16 +83,21 @@ void read_grids(const std::string &name, Found &found)
       continue;
     const std::string_view cp = field[grid_cp].empty() ? std::string_view(usual_cp) : field[grid_cp],
                            cd = field[grid_cd].empty() ? std::string_view(usual_cd) : field[grid_cd];
-    if (names_system(cp))
-      refuse_system(file, cards.line(), node, "CP", cp);
-    if (names_system(cd))
-      refuse_system(file, cards.line(), node, "CD", cd);
+    const auto &of_place      = system_of(file, cards, systems, cp, "place (CP)"),
+               &of_motion     = system_of(file, cards, systems, cd, "motions (CD)");
     std::array<double, 3> x{};
     for (std::size_t d = 0; d < 3; ++d)
       if (!field[grid_x + d].empty()) // blank is 0
         x[d] = file.real(field[grid_x + d], "a coordinate");
+    if (&of_place != systems.find(0))
+    {
+      const Eigen::Vector3d basic = of_place.origin + of_place.axes * Eigen::Vector3d(x[0], x[1], x[2]);
+      x                           = {basic[0], basic[1], basic[2]};
+    }
     if (found.contradicts(node, x))
       file.fail_at(cards.line(), elsewhere(node));
+    if (&of_motion != systems.find(0))
+      found.turn(node, of_motion.axes);
   }
 }
 
@@ -213,7 +221,7 @@ NodeKeyword node_keyword(const std::string &name)
 
 } // namespace
 
-NodePlaces read_node_places(const std::string &file, const std::set<long> &wanted)
+ModelNodes read_model_nodes(const std::string &file, const std::set<long> &wanted)
 {
   Found found(wanted);
   switch (node_keyword(file))
@@ -230,7 +238,7 @@ NodePlaces read_node_places(const std::string &file, const std::set<long> &wante
   case NodeKeyword::none:
     break;
   }
-  return found.places();
+  return found.nodes();
 }
 
 bool has_node_places(const std::string &file)

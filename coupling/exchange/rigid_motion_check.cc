@@ -206,7 +206,9 @@ std::string statement_of(const RigidMotionCheck &check)
   if (largest - m.minCoeff() <= 1e-6 * largest)
     text += rounded(largest) + " kg";
   else
-    text += rounded(m[0]) + ", " + rounded(m[1]) + ", " + rounded(m[2]) + " kg by x, y, z";
+    for (int d = 0; d < 3; ++d)
+      if (m[d] > 0.) // of a plane frame some have no rows
+        text += (text.back() == ' ' ? "" : ", ") + rounded(m[d]) + " kg by " + "xyz"[d];
   text += ", centre " + place_text(check.centre);
   const std::string quiet = std::to_string(check.n_quiet) + " of " + std::to_string(check.n_rows) + " rows";
   if (check.n_quiet == 0)

@@ -4,6 +4,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "coupling/reduction/dense_frame.h"
 #include "tests/support/cached_frame.h"
+#include "tests/support/program.h"
 #include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
@@ -101,6 +102,24 @@ TEST(MatrixExportOnCards, ComesBackToTenDigitsWithMotionsAlongTheAxes)
   EXPECT_LT((back.translations_load - sign.asDiagonal() * frame.translations_load).norm(),
             1e-8 * frame.translations_load.norm());
   EXPECT_EQ(back.mass, frame.mass);
+}
+
+TEST(ImportedFrame, IsProvedByCheckAndWarnedOfWithExitCodes)
+{
+  const tests::Folder folder("imported");
+  const std::string   cards = "DMIG,KAAX,0,6,2\nDMIG,KAAX,1,1,,1,1,2.e6\nDMIG,KAAX,2,1,,1,1,-2.e6,,+\n,2,1,2.e6\n"
+                              "DMIG,MAAX,0,6,2\nDMIG,MAAX,1,1,,1,1,40.\nDMIG,MAAX,2,1,,2,1,60.\n";
+  const auto          check = [&](const std::string &grids)
+  {
+    folder.file("a.pch", grids + cards);
+    return tests::gestell("check " + folder.file("s.toml", "[frame]\nmass = \"a.pch\"\nstiffness = \"a.pch\"\n"
+                                                           "[frame.interface.top]\nnode = 2\n"));
+  };
+  tests::expect_answer(check("GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\n"), 0,
+                       {"frame: rigid motions of the nodes: mass 100 kg by x, centre [0", "free"});
+  tests::expect_answer(check("GRID,1,,0.,0.,0.\nGRID,2,,1.,1.,0.\n"), 0,
+                       {"warning", "places of nodes do not fit the stiffness"});
+  tests::expect_answer(check("GRID,1,,0.,0.,0.\n"), 2, {"s.toml:3: frame.stiffness", "no place of node 2"});
 }
 
 TEST(MatrixFormat, OfAnotherNameIsRefused)

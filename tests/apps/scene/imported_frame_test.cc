@@ -192,6 +192,34 @@ TEST_F(ImportedFrame, InTonnesAndMillimetresIsTheSameMachine)
   EXPECT_LT(largest_ratio(frequencies(scene), frequencies(held.C, held.M)), 1e-12);
 }
 
+TEST_F(ImportedFrame, OfNodesWithAxesOfTheirOwnIsTurnedToTheGlobalOnes)
+{
+  // System 5 lies in 4, whose origin is [0, 0, 1] and whose axes x, y, z are the basic y, z, x.
+  const std::string systems = "CORD2R,4,0,0.,0.,1.,1.,0.,1.,\n,0.,1.,1.\n"
+                              "CORD2R,5,4,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\n";
+  Eigen::Matrix3d   axes;
+  axes << 0., 0., 1., 1., 0., 0., 0., 1., 0.;
+  auto     local      = held;
+  MatrixXd G          = MatrixXd::Identity(24, 24); // u = G u' of node 12
+  G.block<3, 3>(6, 6) = G.block<3, 3>(9, 9) = axes;
+  local.M                                   = G.transpose() * held.M * G;
+  local.C                                   = G.transpose() * held.C * G;
+  const std::string matrices                = tests::dmig_text("KAAX", local.C, local.rows, tests::CardFields::free_) +
+                               tests::dmig_text("MAAX", local.M, local.rows, tests::CardFields::free_);
+  const std::string others = "GRID,11,,0.,0.,0.\nGRID,23,,0.2,0.9,0.3\nGRID,7,,0.4,0.3,1.5\n";
+  folder.write("a.pch", systems + others + "GRID,12,5,0.1,-1.,1.2,5\n" + matrices); // at [1.2, 0.1, 0]
+  folder.write("b.pch", cards(held, tests::CardFields::free_));
+  const auto turned = read(on_cards).frame.matrices;
+  const auto known  = read("mass = 'b.pch'\nstiffness = 'b.pch'\n").frame.matrices;
+  EXPECT_LT((MatrixXd(turned.C) - MatrixXd(known.C)).cwiseAbs().maxCoeff(), 1e-15 * MatrixXd(known.C).maxCoeff());
+  EXPECT_LT((MatrixXd(turned.M) - MatrixXd(known.M)).cwiseAbs().maxCoeff(), 1e-15 * MatrixXd(known.M).maxCoeff());
+  for (int d = 0; d < 3; ++d)
+    EXPECT_NEAR(turned.interfaces[0].position[d], known.interfaces[0].position[d], 1e-15);
+  folder.write("a.pch", systems + "GRID,12,,0.,0.,0.,5\nDMIG,KAAX,0,6,2\nDMIG,KAAX,12,1,,12,1,1.\n"
+                                  "DMIG,MAAX,0,6,2\nDMIG,MAAX,12,1,,12,1,1.\n");
+  refused(on_cards, {"node 12 counts its motions along axes of its own", "node 12, uy has no row"});
+}
+
 TEST_F(ImportedFrame, ReducedToNodesAndModesKeepsItsModesAndItsWeight)
 {
   const auto  reduced = tests::craig_bampton_frame(loose, 6);

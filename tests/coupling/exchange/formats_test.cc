@@ -100,7 +100,7 @@ TEST_F(Formats, WrittenCardsAreReadBack)
   const auto all = coupling::matrices_of_file(file);
   EXPECT_EQ(all.at("KAAX").rows, rows);
   EXPECT_LT((MatrixXd(all.at("KAAX").A) - frame.C).cwiseAbs().maxCoeff(), 5.1e-10 * frame.C.cwiseAbs().maxCoeff());
-  EXPECT_EQ(coupling::read_node_places(file, {7}).at(7), (std::array<double, 3>{0.1, -2e-150, 3.}));
+  EXPECT_EQ(coupling::read_model_nodes(file, {7}).places.at(7), (std::array<double, 3>{0.1, -2e-150, 3.}));
 }
 
 TEST_F(Formats, TrianglesOfCalculix)
@@ -146,7 +146,7 @@ TEST_F(Formats, PlacesOfNodesFromEachModel)
 {
   for (const std::string &text : {tests::grid_text(frame), tests::inp_text(frame), tests::nblock_text(frame)})
   {
-    const auto places = coupling::read_node_places(folder.write("model", text), {11, 12, 23, 7, 99});
+    const auto places = coupling::read_model_nodes(folder.write("model", text), {11, 12, 23, 7, 99}).places;
     ASSERT_EQ(places.size(), 4u) << text;
     for (const auto &[number, x] : frame.nodes)
       EXPECT_EQ(places.at(number), x);

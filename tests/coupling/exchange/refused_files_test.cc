@@ -39,7 +39,7 @@ struct Refused : ::testing::Test
   {
     const std::string said = tests::refusal(
         [&] {
-          coupling::read_node_places(folder.write("model.txt", text), {1, 2});
+          coupling::read_model_nodes(folder.write("model.txt", text), {1, 2});
         });
     for (const std::string &word : words)
       EXPECT_NE(said.find(word), std::string::npos) << "no '" << word << "' in: " << said;
@@ -70,6 +70,7 @@ TEST_F(Refused, CardsOfNastran)
   expect(head + "DMIG,K,1,1,,1,1,2.0.1\n", {"is no number"});
   expect(head + "DMIG,K,1,x,,1,1,2.\n", {"'x' is no whole number"});
   expect(head + "DMIG\tK\t1\n", {"tabs"});
+  expect(head + "DMIG,K,1,1,,1,1,2.,,2,1,3.\n", {"a.txt:2", "8 fields", "one more"});
   expect("", {"MatrixMarket"});
 }
 
@@ -137,8 +138,11 @@ TEST_F(Refused, TablesOfRows)
 
 TEST_F(Refused, SystemsOfNodesOtherThanTheGlobalOne)
 {
-  expect_places("GRID,1,,0.,0.,0.,5\n", {"model.txt:1", "grid point 1", "CD", "= 0"});
+  expect_places("GRID,1,,0.,0.,0.,5\n", {"model.txt:1", "grid point 1", "CD", "no CORD2R"});
   expect_places("GRID,1,5,0.,0.,0.\n", {"CP"});
+  expect_places("CORD2R,5,,0.,0.,0.,1.,0.,0.,\n,2.,0.,0.\nGRID,1,5,0.,0.,0.\n", {"model.txt:1", "on a line"});
+  expect_places("CORD2R,5,5,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,,0.,0.,0.\n", {"refers to itself"});
+  expect_places("CORD2C,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,,0.,0.,0.,5\n", {"rectangular"});
   expect_places("GRDSET,,,,,,5\nGRID,1,,0.,0.,0.\n", {"CD"});
   expect_places("GRID,1,,0.,0.,0.\nGRID,1,,1.,0.,0.\n", {"model.txt:2", "another one"});
   expect_places("GRID,1,,0.,zero,0.\n", {"'zero' is no number"});
@@ -149,7 +153,7 @@ TEST_F(Refused, SystemsOfNodesOtherThanTheGlobalOne)
                 "0.0000000000000E+000 0.0000000000000E+000 3.0000000000000E+001\n",
                 {"turned", "NROTAT"});
   expect_places("NBLOCK,6\nnone\n", {"format of the nodes"});
-  EXPECT_EQ(tests::refusal([&] { coupling::read_node_places(folder.write("m", "GRID,9,5,0.,0.,0.,7\n"), {1}); }), "")
+  EXPECT_EQ(tests::refusal([&] { coupling::read_model_nodes(folder.write("m", "GRID,9,5,0.,0.,0.,7\n"), {1}); }), "")
       << "a node without rows may be in any system";
 }
 
@@ -189,7 +193,7 @@ TEST_F(Refused, DamagedFilesAreReadOrRefusedWithTheirName)
                                std::function<void()>([&] { coupling::read_row_table(file); }),
                                std::function<void()>(
                                    [&] {
-                                     coupling::read_node_places(file, {7, 11, 12, 23});
+                                     coupling::read_model_nodes(file, {7, 11, 12, 23});
                                    })})
         if (const std::string said = tests::refusal(read); !said.empty())
         {

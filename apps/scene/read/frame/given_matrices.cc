@@ -262,6 +262,44 @@ std::string shape_text(Eigen::Index rows, Eigen::Index columns)
   return std::to_string(rows) + " x " + std::to_string(columns);
 }
 
+void turn_to_global(const SceneTable &frame, const std::map<long, Eigen::Matrix3d> &axes, GivenMatrices &given)
+{
+  if (axes.empty())
+    return;
+  std::map<RowLabel, int> place;
+  for (std::size_t i = 0; i < given.rows.size(); ++i)
+    place.emplace(given.rows[i], int(i));
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < given.rows.size(); ++i)
+  {
+    const RowLabel &row  = given.rows[i];
+    const auto      turn = axes.find(row.node);
+    if (row.component == 0 || turn == axes.end())
+    {
+      entries.emplace_back(int(i), int(i), 1.);
+      continue;
+    }
+    const int first = row.is_rotation() ? 4 : 1;
+    for (int d = 0; d < 3; ++d)
+    {
+      const auto other = place.find({row.node, first + d});
+      if (other == place.end())
+        throw frame.error(frame.has("nodes") ? "nodes" : "stiffness",
+                          "node " + std::to_string(row.node) + " counts its motions along axes of its own (CD), and " +
+                              text_of(RowLabel{row.node, first + d}) +
+                              " has no row; all three are needed to turn them to the global axes");
+      entries.emplace_back(other->second, int(i), turn->second(d, row.component - first));
+    }
+  }
+  Sparse G(given.M.rows(), given.M.rows());
+  G.setFromTriplets(entries.begin(), entries.end());
+  const auto turned = [&](const Sparse &A) { return Sparse(G * A * Sparse(G.transpose())); };
+  given.M           = turned(given.M);
+  given.C           = turned(given.C);
+  if (given.B)
+    given.B = turned(*given.B);
+}
+
 Sparse read_plain_matrix(const SceneTable &frame, const std::string &key, const Kind &kind)
 {
   if (!frame.is_text(key))

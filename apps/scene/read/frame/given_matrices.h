@@ -3,6 +3,7 @@
 #include "apps/scene/file/scene_table.h"
 #include "coupling/exchange/labelled_matrix.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,14 @@ struct GivenMatrices
  * Each of the matrices is symmetric; mass and damping have no motion of negative energy.
  */
 GivenMatrices read_given_matrices(const SceneTable &frame);
+
+/**
+ * Turns the rows of nodes that count their motions along axes of their own, E as columns, to the global ones: u = E u',
+ * A = G A' G^T with G of all E.
+ *
+ * @throws std::invalid_argument  if such a node has one or two of three displacements or rotations.
+ */
+void turn_to_global(const SceneTable &frame, const std::map<long, Eigen::Matrix3d> &axes, GivenMatrices &given);
 
 /// A matrix in rows or in a MatrixMarket or PETSc file, as it stands.
 Eigen::SparseMatrix<double> read_plain_matrix(const SceneTable &frame, const std::string &key, const Kind &kind);

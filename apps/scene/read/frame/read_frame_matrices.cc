@@ -109,11 +109,13 @@ void prove_rigid_motions(const SceneTable &frame, fem::FrameMatrices &matrices, 
 fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations)
 {
   GivenMatrices      given = read_given_matrices(frame);
+  const Eigen::Index n     = given.M.rows();
+  const FrameNodes   nodes = read_frame_nodes(frame, given, n);
+  turn_to_global(frame, nodes.axes, given);
   fem::FrameMatrices matrices;
-  matrices.M           = std::move(given.M);
-  matrices.C           = std::move(given.C);
-  matrices.statements  = given.statements;
-  const Eigen::Index n = matrices.M.rows();
+  matrices.M          = std::move(given.M);
+  matrices.C          = std::move(given.C);
+  matrices.statements = given.statements;
   matrices.B.resize(n, n);
   if (given.B)
     matrices.B = std::move(*given.B);
@@ -125,9 +127,8 @@ fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_transl
       matrices.B = damping.alpha * matrices.M + damping.beta * matrices.C;
   }
 
-  const FrameNodes nodes = read_frame_nodes(frame, given, n);
-  matrices.interfaces    = read_matrix_interfaces(frame, given, nodes, n);
-  matrices.picture       = read_node_picture(frame, nodes, n);
+  matrices.interfaces = read_matrix_interfaces(frame, given, nodes, n);
+  matrices.picture    = read_node_picture(frame, nodes, n);
   for (const auto &table : frame.tables("cut"))
     matrices.outputs.push_back(read_output(table, "cut.", n));
   for (const auto &table : frame.tables("support")) // by matrix_support_keys()

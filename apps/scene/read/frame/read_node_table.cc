@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -202,7 +203,9 @@ FrameNodes read_known_nodes(const SceneTable &frame, const GivenMatrices &given)
         std::set<long> wanted;
         for (const auto &[number, node] : nodes)
           wanted.insert(number);
-        found.places = coupling::read_node_places(path, wanted);
+        coupling::ModelNodes model = coupling::read_model_nodes(path, wanted);
+        found.places               = std::move(model.places);
+        found.axes                 = std::move(model.axes);
         for (auto &[number, x] : found.places)
           for (double &coordinate : x)
             coordinate *= given.length;

@@ -4,6 +4,7 @@
 #include "coupling/exchange/dmig.h"
 #include "fem/values/frame_matrices.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct FrameNodes
 {
   std::vector<TableNode> all;
   coupling::NodePlaces   places; ///< [m] of all nodes that have rows; empty unless they and their numbers are known
+  /// Axes of nodes that count their motions in others than the global ones, as columns.
+  std::map<long, Eigen::Matrix3d> axes;
 };
 
 /**
