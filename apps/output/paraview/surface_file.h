@@ -120,7 +120,7 @@ private:
 
 inline std::string numbered(const std::string &stem, std::size_t n)
 {
-  char digits[16];
+  char digits[32];
   std::snprintf(digits, sizeof digits, "%05zu", n);
   return stem + digits + ".vtp";
 }

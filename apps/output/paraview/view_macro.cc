@@ -66,7 +66,7 @@ if force > 0.:
     pushes.ScaleFactor = size / 6. / force
     pushes.GlyphMode = "All Points"
     shafts = Show(pushes, view)
-    ColorBy(shafts, None)
+    shafts.ColorArrayName = [None, ""]
     shafts.AmbientColor = shafts.DiffuseColor = [0.1, 0.5, 0.2]
 
 words = AnnotateTimeFilter(registrationName="time", Input=motion)

@@ -144,10 +144,11 @@ void add_between(const ForceBetween &between, const VectorXd &q, const VectorXd 
     all.push_back(acting(between.name, between.second.body, between.second.at, q, bodies, second));
     return;
   }
-  const bool by_first = first.translations > second.translations || between.second.own.empty();
-  if (by_first)
+  const bool by_first  = first.translations > second.translations || between.second.own.empty();
+  const bool by_second = second.translations > 0 || between.first.own.empty();
+  if (!between.is_coupling && by_first)
     second = reaction(first, x_1, x_2, second.translations);
-  else if (second.translations > 0 || between.first.own.empty())
+  else if (!between.is_coupling && by_second)
     first = reaction(second, x_2, x_1, first.translations);
   all.push_back(acting(between.name, between.first.body, between.first.at, q, bodies, first));
   all.push_back(acting(between.name, between.second.body, between.second.at, q, bodies, second));

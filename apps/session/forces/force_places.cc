@@ -93,6 +93,8 @@ void Places::add_joint(const JointRequest &joint, const coupling::ElementPlaceme
   else
     add_between(element.joint >= 0 ? joint.name + " friction" : joint.name, joint.from, joint.to, element, 0,
                 int(element.measures.size()));
+  if (joint.type == JointType::gear)
+    places_.between.back().is_coupling = true;
 }
 
 void Places::add_element(const ElementRequest &request, const coupling::ElementPlacement &element)
