@@ -77,6 +77,16 @@ class Prefix(Tree):
         (project / "CMakeLists.txt").write_text(re.search(r"^```cmake\n(.*?)^```", page, re.S | re.M)[1])
         for block in re.findall(r"^```cpp\n(.*?)^```", page, re.S | re.M):
             (project / re.match(r"// (\w+\.cc)", block)[1]).write_text(block)
+        for header in sorted((self.prefix / "include/gestell").iterdir()):
+            with self.subTest("compiles alone", header=header.name):
+                alone = project / "alone.cc"
+                alone.write_text(f"#include <gestell/{header.name}>\n#include <gestell/{header.name}>\n")
+                self.call("g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only",
+                          f"-I{self.prefix / 'include'}", alone)
+        flags = called("pkg-config", "--cflags", "--libs", "gestell", folder=self.folder,
+                       PKG_CONFIG_PATH=str(self.prefix / "lib/pkgconfig")).split()
+        self.call("g++", "-std=c++17", project / "duffing.cc", *flags, f"-Wl,-rpath,{self.prefix / 'lib'}", "-o", "plain")
+        self.assertIn("energy 0.75", self.call("./plain"))
         self.call("cmake", "-S", project, "-B", "out", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.call("cmake", "--build", "out")
         self.assertIn("energy 0.75", self.call("out/duffing"))

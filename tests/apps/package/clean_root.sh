@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# clean_root.sh PACKAGE.deb [ROOT.tar]: installs the package in a clean root of Debian 12, as apt does, uses it as a plain user,
+# removes and purges it.  As root; downloads some 700 MB of what the package depends on from the system's own sources.
+# ROOT.tar is kept for the next time.
+set -euo pipefail
+
+package=$(realpath "$1")
+sources=(/etc/apt/sources.list.d/debian.sources)
+[[ -s /etc/apt/sources.list ]] && sources=(/etc/apt/sources.list)
+work=$(mktemp -d)
+tar=${2:-$work/root.tar}
+root=$work/root
+unmount() { for place in proc dev; do mountpoint -q "$root/$place" && umount --recursive "$root/$place"; done; true; }
+trap 'unmount; rm -rf --one-file-system "$work"' EXIT
+
+[[ -e $tar ]] || mmdebstrap --quiet --variant=minbase bookworm "$tar" "${sources[@]}"
+mkdir "$root"
+tar -xf "$tar" -C "$root" --exclude=./dev
+mkdir -p "$root/dev"
+mount --rbind /dev "$root/dev" && mount --make-rslave "$root/dev"
+mount -t proc proc "$root/proc"
+for file in /etc/resolv.conf /etc/hosts; do cat "$file" >"$root$file"; done
+cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
+cp "$package" "$root/tmp/"
+name=$(basename "$package")
+in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
+files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./var/cache -o -path ./var/lib -o -path ./var/log -o -path ./tmp \) -prune -o -print | sort); }
+
+in_root apt-get -q update >/dev/null
+in_root apt-get -qq -y --download-only install "/tmp/$name" >/dev/null
+in_root useradd -m anna
+echo "depends on $(in_root apt-get -s install "/tmp/$name" | grep -c '^Inst') packages of a minimal system"
+
+begin=$(date +%s)
+in_root apt-get -qq -y install "/tmp/$name" >"$work/apt.log" 2>&1 || { cat "$work/apt.log"; exit 1; }
+installed=$(date +%s)
+as_user() { in_root su - anna -c "$1"; }
+as_user 'gestell new press && gestell run press.toml --quiet && test -s results/press/report.html'
+report=$(date +%s)
+echo "installed in $((installed - begin)) s, first report $((report - installed)) s later"
+[[ $((report - installed)) -le 60 ]] || { echo "the first report took more than 60 s" >&2; exit 1; }
+
+as_user 'python3 -c "import gestell; print(gestell.example(\"press_minimal\").run(peaks=\"F_P\"))"'
+as_user 'gestell show results/press -o pictures >/dev/null 2>&1 && ls pictures | head -2 || echo "show: needs xvfb, which is recommended"'
+as_user 'bash -c "source /usr/share/bash-completion/completions/gestell; complete -p gestell"'
+in_root test -s /usr/share/man/man1/gestell.1.gz
+cores=(HASWELL NEHALEM PRESCOTT)
+for core in "${cores[@]}"; do # BLAS for other processors; the program's own kernels are asked for likewise
+  as_user "OPENBLAS_CORETYPE=$core gestell run /usr/share/gestell/scenes/press_minimal.toml --quiet -o r-$core | head -1 >/dev/null && echo runs as $core"
+done
+
+in_root apt-get -qq -y install --no-install-recommends g++ cmake pkg-config >/dev/null 2>&1
+as_user 'mkdir -p example && cd example && sed -n "/^\`\`\`cmake/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >CMakeLists.txt &&
+  sed -n "/^\/\/ duffing.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >duffing.cc &&
+  sed -n "/^\/\/ stiffer_rod.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >stiffer_rod.cc &&
+  cmake -S . -B out >/dev/null && cmake --build out >/dev/null && out/duffing && out/stiffer_rod /usr/share/gestell/scenes/press_minimal.toml | tail -1 &&
+  g++ duffing.cc $(pkg-config --cflags --libs gestell) -o plain && ./plain'
+
+in_root apt-get -qq -y purge gestell >/dev/null 2>&1
+left=$(files | grep -i gestell | grep -v '^./home/anna' || true)
+[[ -z $left ]] || { printf 'purge leaves:\n%s\n' "$left" >&2; exit 1; }
+echo "removed and purged: nothing is left"
