@@ -180,8 +180,8 @@ void PythonScene::set(const std::string &key, py::handle value)
   require_known_parameter(root_, apps::key_segments(key, place), place);
   apps::apply_override(root_, key, node);
   const std::string of_key = key + "=";
-  overrides_.erase(std::remove_if(overrides_.begin(), overrides_.end(), [&](const std::string &set)
-                                  { return set.compare(0, of_key.size(), of_key) == 0; }),
+  overrides_.erase(std::remove_if(overrides_.begin(), overrides_.end(),
+                                  [&](const std::string &set) { return set.compare(0, of_key.size(), of_key) == 0; }),
                    overrides_.end());
   overrides_.push_back(of_key + toml_of(node));
 }

@@ -1,5 +1,6 @@
 """What `cmake --install` and `cpack` give, in an empty folder: arguments are sources, build, names of tests."""
 
+import gzip
 import os
 import pathlib
 import re
@@ -46,7 +47,9 @@ class Tree(unittest.TestCase):
 
     def tells_of_itself(self):
         """Man page, completion, scenes to start from."""
-        for name, words in (("man/man1/gestell.1", ".TH GESTELL 1"), ("zsh/vendor-completions/_gestell", "#compdef gestell"),
+        with gzip.open(self.prefix / "share/man/man1/gestell.1.gz", "rt") as page:
+            self.assertIn(".TH GESTELL 1", page.read())
+        for name, words in (("zsh/vendor-completions/_gestell", "#compdef gestell"),
                             ("bash-completion/completions/gestell", "complete -F")):
             self.assertIn(words, (self.prefix / "share" / name).read_text(encoding="utf-8"))
         self.call(self.prefix / "bin/gestell", "new", "press")
