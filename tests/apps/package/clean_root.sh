@@ -4,20 +4,23 @@
 # ROOT.tar is kept for the next time.
 set -euo pipefail
 
+# In a space of mounts of its own, which ends with it.
+[[ ${GESTELL_ROOT_MOUNTS:-} == own ]] || GESTELL_ROOT_MOUNTS=own exec unshare --mount --propagation private "$0" "$@"
+
 package=$(realpath "$1")
 sources=(/etc/apt/sources.list.d/debian.sources)
 [[ -s /etc/apt/sources.list ]] && sources=(/etc/apt/sources.list)
 work=$(mktemp -d)
 tar=${2:-$work/root.tar}
 root=$work/root
-unmount() { for place in proc dev; do mountpoint -q "$root/$place" && umount --recursive "$root/$place"; done; true; }
+unmount() { for place in proc dev; do mountpoint -q "$root/$place" && umount --lazy "$root/$place"; done; true; }
 trap 'unmount; rm -rf --one-file-system "$work"' EXIT
 
 [[ -e $tar ]] || mmdebstrap --quiet --variant=minbase bookworm "$tar" "${sources[@]}"
 mkdir "$root"
 tar -xf "$tar" -C "$root" --exclude=./dev
 mkdir -p "$root/dev"
-mount --rbind /dev "$root/dev" && mount --make-rslave "$root/dev"
+mount --rbind /dev "$root/dev"
 mount -t proc proc "$root/proc"
 for file in /etc/resolv.conf /etc/hosts; do cat "$file" >"$root$file"; done
 cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true

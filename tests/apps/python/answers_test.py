@@ -133,6 +133,13 @@ class Answers(unittest.TestCase):
         self.assertTrue(size.met)
         self.assertLess(abs(size.scene.run(peaks="x").peaks["x"].min - exact), 0.01 * 5e-3)
 
+    def test_derivatives_of_a_scene_without_a_file(self):
+        scene = oscillator(stiffness="c").parameters(c="40 kN/m").watch(x="mass.displacement").add("run", tolerance=1e-10, end="60 ms")
+        key, c, step = "parameters.c", 4e4, 40.
+        derivative = scene.run(sensitivities=key).sensitivities["x.min"][key]
+        below, above = (scene.copy().set(key, c + d).run(peaks="x").peaks["x"].min for d in (-step, step))
+        self.assertAlmostEqual(derivative / ((above - below) / (2 * step)), 1, delta=1e-4)
+
     def test_sparse_matrices_show_the_memory_of_the_frame(self):
         full = gestell.example("press_minimal").full_frame()
         values, rows, begins, n = full.csc("M")
