@@ -174,7 +174,7 @@ class Scene:
         speed: whose multiples up to `orders` excite, "30 1/min"; by default that of the start.
         """
         return ModesAlong(self._core.modes_along(coordinate, _text(from_), _text(to), positions, configuration, _names(hold),
-                                                 _text(speed), orders, _progress(progress))._along)
+                                                 _text(speed), orders, _progress(progress)))
 
     def periodic(self, method="", period="", ratio=1, harmonics=0, along="", from_="", to="", points=0, check="",
                  progress=None) -> "Periodic":
@@ -185,7 +185,7 @@ class Scene:
         """
         found = self._core.periodic(method, _text(period), ratio, harmonics, along, _text(from_), _text(to), points, check,
                                     _progress(progress))
-        return Periodic(found._periodic)
+        return Periodic(found)
 
     def stability(self, step=0.) -> "Stability":
         """Modes of the scene under its integrator and under all others at `step` [s], by default that of [run]."""
@@ -299,7 +299,8 @@ class Motion:
 class Periodic(collections.abc.Sequence):
     """Motions that repeat, a sequence of Motion; arrays over all of them."""
 
-    def __init__(self, values: dict):
+    def __init__(self, result: Result):
+        self._result, values = result, result._periodic
         self.motions = [Motion(each) for each in values["motions"]]  #: Motion, by branches
         self.backbone = [Motion(each) for each in values["backbone"]]  #: of free vibration
         self.method, self.reason, self.notes = values["method"], values["reason"], values["notes"]
@@ -307,6 +308,10 @@ class Periodic(collections.abc.Sequence):
         self.coordinates = values["coordinates"]  #: names of q
         self.special_points = values["special_points"]  #: [{kind, parameter, period [s], motion}]: folds, doublings, ...
         self.checks = values["checks"]  #: {method: {distances, failure}} of a second method
+
+    def save(self, folder) -> list:
+        """Writes what `gestell periodic` does, report.html and solutions.csv among it; returns the names of the files."""
+        return self._result.save(folder)
 
     def __len__(self) -> int:
         return len(self.motions)
@@ -341,7 +346,8 @@ class Periodic(collections.abc.Sequence):
 class ModesAlong:
     """Natural frequencies along a coordinate: rows are positions, columns lines that keep to one mode."""
 
-    def __init__(self, values: dict):
+    def __init__(self, result: Result):
+        self._result, values = result, result._along
         self.coordinate, self.unit = values["coordinate"], values["unit"]
         self.x = values["x"]  #: positions, in `unit`
         self.frequencies_hz = values["frequencies_hz"]  #: [positions x lines] Hz; nan in gaps
@@ -352,6 +358,10 @@ class ModesAlong:
         self.gaps = values["gaps"]  #: {position: why there are no modes}
         self.speed = values["speed"]  #: [rad/s] of the excitation; 0: unknown
         self.meetings = values["meetings"]  #: [{order, line, begin, end, x, frequency_hz, distance}]: near a multiple of the speed
+
+    def save(self, folder) -> list:
+        """Writes what `gestell modes --along` does, report.html and modes_along.csv among it; returns the names of the files."""
+        return self._result.save(folder)
 
     def __repr__(self) -> str:
         return f"<gestell.ModesAlong {self.coordinate}: {len(self.x)} positions, {len(self.moves_most)} lines>"

@@ -58,7 +58,11 @@ class Tree(unittest.TestCase):
     def lies_anywhere(self):
         """No run path leads into the build."""
         for path in self.prefix.rglob("*"):
-            if path.is_file() and path.open("rb").read(4) == b"\x7fELF":
+            if not path.is_file():
+                continue
+            with path.open("rb") as file:
+                begin = file.read(4)
+            if begin == b"\x7fELF":
                 self.assertNotIn(str(BUILD), self.call("readelf", "-d", path))
 
 

@@ -5,6 +5,7 @@ import inspect
 import os
 import pathlib
 import signal
+import tempfile
 import threading
 import time
 import unittest
@@ -119,6 +120,8 @@ class Answers(unittest.TestCase):
         here = np.sort(gestell.example("press_minimal").modes().frequencies_hz)
         np.testing.assert_allclose(np.sort(along.frequencies_hz[0])[1:], here[1:], rtol=2e-3)  # at rest there, not in motion
         self.assertEqual(along.frequencies_hz.shape, (3, 5))
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertIn("modes_along.csv", along.save(folder))
 
     def test_stability_knows_that_central_differences_grow_beyond_their_limit(self):
         study = oscillator(damping=0).add("run", method="bdf", step=2.1 / (20 * np.pi), end="100 s").stability()
