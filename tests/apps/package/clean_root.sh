@@ -24,18 +24,18 @@ mount --rbind /dev "$root/dev"
 mount -t proc proc "$root/proc"
 for file in /etc/resolv.conf /etc/hosts; do cat "$file" >"$root$file"; done
 cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
-cp "$package" "$root/tmp/"
+cp "$package" "$root/"
 name=$(basename "$package")
 in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
-files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./var/cache -o -path ./var/lib -o -path ./var/log -o -path ./tmp \) -prune -o -print | sort); }
+files() { (cd "$root" && find . -xdev \( -path ./proc -o -path ./dev -o -path ./var/cache -o -path ./var/lib -o -path ./var/log -o -path "./*.deb" \) -prune -o -print | sort); }
 
 in_root apt-get -q update >/dev/null
-in_root apt-get -qq -y --download-only install "/tmp/$name" >/dev/null
+in_root apt-get -qq -y --download-only install "/$name" >/dev/null
 in_root useradd -m anna
-echo "depends on $(in_root apt-get -s install "/tmp/$name" | grep -c '^Inst') packages of a minimal system"
+echo "depends on $(in_root apt-get -s install "/$name" | grep -c '^Inst') packages of a minimal system"
 
 begin=$(date +%s)
-in_root apt-get -qq -y install "/tmp/$name" >"$work/apt.log" 2>&1 || { cat "$work/apt.log"; exit 1; }
+in_root apt-get -qq -y install "/$name" >"$work/apt.log" 2>&1 || { cat "$work/apt.log"; exit 1; }
 installed=$(date +%s)
 as_user() { in_root su - anna -c "$1"; }
 as_user 'gestell new press >/dev/null && gestell run press.toml --quiet >/dev/null 2>&1 && test -s results/press/report.html'
