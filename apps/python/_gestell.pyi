@@ -147,6 +147,13 @@ class Result:
 
     def __getitem__(self, name: str) -> _Array: ...
 
+    @property
+    def summary(self) -> dict[str, Any]:
+        """All that summary.json holds, as a dict; numbers in SI."""
+
+    def plot(self, *names: str, axes: Any = None) -> Any:
+        """Draws signals over time [s] with matplotlib, by default all; returns the axes."""
+
     def __contains__(self, name: str) -> bool: ...
 
 

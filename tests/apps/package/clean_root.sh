@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # clean_root.sh PACKAGE.deb [ROOT.tar]: installs the package in a clean root of Debian 12, as apt does, uses it as a plain user,
-# removes and purges it.  As root; downloads some 700 MB of what the package depends on from the system's own sources.
+# removes and purges it.  As root; downloads some 260 MB of what the package depends on from the system's own sources.
 # ROOT.tar is kept for the next time.
 set -euo pipefail
 
