@@ -58,7 +58,7 @@ def _shipped(kind: str, name: str, ending: str):
     for folder in folders:
         if (folder / (name + ending)).is_file():
             return folder / (name + ending)
-    names = sorted(path.name.removesuffix(ending) for folder in folders for path in folder.glob("*" + (ending or ".*")))
+    names = sorted(path.name.removesuffix(ending) for folder in folders for path in folder.glob("*" + (ending or ".*")) if path.suffix != ".md")
     raise InputError(f"there is no '{name}' among the {kind} shipped; valid: {', '.join(names)}")
 
 
@@ -183,6 +183,8 @@ class Scene:
         method: "shooting", "harmonic-balance", ...; by default the one that suits.  period: [s] by default that of the loads.
         ratio: periods of the excitation in one of the motion.  check: a second method, which is compared.
         """
+        if along and "" in (from_, to):
+            raise InputError(f"periodic: along {along} needs its ends, from_ and to")
         found = self._core.periodic(method, _text(period), ratio, harmonics, along, _text(from_), _text(to), points, check,
                                     _progress(progress))
         return Periodic(found)

@@ -149,7 +149,7 @@ fem::FrameMatrices assembled(const Scene &scene, const coupling::Progress &progr
     return coupling::mesh_service().assemble(scene.frame.geometry, scene.reduction.options, progress).matrices;
   if (scene.frame.source == apps::FrameSource::matrices)
     return scene.frame.matrices;
-  throw std::invalid_argument((scene.frame.place.empty() ? scene.file : scene.frame.place) +
+  throw std::invalid_argument((scene.frame.place.empty() ? "scene" : scene.frame.place) +
                               ": the scene has no frame of one piece from CAD or matrices; parts and reduced frames "
                               "have no unreduced matrices of their own");
 }

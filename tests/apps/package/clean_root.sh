@@ -54,7 +54,7 @@ for core in Prescott Haswell; do # as tests/processors: BLAS and kernels of othe
   echo "runs as $core"
 done
 
-in_root apt-get -qq -y install --no-install-recommends g++ cmake pkg-config >/dev/null 2>&1
+in_root apt-get -qq -y install --no-install-recommends g++ cmake make pkg-config >/dev/null 2>&1
 as_user 'mkdir -p example && cd example && sed -n "/^\`\`\`cmake/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >CMakeLists.txt &&
   sed -n "/^\/\/ duffing.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >duffing.cc &&
   sed -n "/^\/\/ stiffer_rod.cc/,/^\`\`\`/p" /usr/share/doc/gestell/docs/library.md | grep -v "^\`\`\`" >stiffer_rod.cc &&

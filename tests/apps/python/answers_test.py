@@ -171,6 +171,10 @@ class Errors(unittest.TestCase):
         self.assertGreater(caught.exception.line, 100)
 
     def test_speak_of_arguments(self):
+        with self.assertRaisesRegex(gestell.InputError, "needs its ends, from_ and to"):
+            gestell.example("press_minimal").periodic(along="parameters.c_P")
+        with self.assertRaisesRegex(gestell.SceneError, "no frame of one piece"):
+            oscillator().full_frame()
         with self.assertRaisesRegex(gestell.InputError, "^along: there is no coordinate"):
             gestell.example("press_minimal").modes_along("cran")
 
