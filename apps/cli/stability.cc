@@ -1,3 +1,4 @@
+#include "apps/atlas/scene_stability.h"
 #include "apps/cli/atlas.h"
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
@@ -36,80 +37,14 @@ void check_ratios(const std::vector<double> &zetas)
       throw std::invalid_argument("--zeta is " + short_text(zeta) + "; damping ratios lie between 0 and 10");
 }
 
-MethodVerdict verdict(const coupling::LinearSpectrum &spectrum, const MappedMethod &method, double step)
-{
-  coupling::MethodOptions options = method.options;
-  options.step                    = step;
-  const coupling::StabilityGuard guard(spectrum, options);
-  const auto                    &modes = guard.modes();
-  MethodVerdict                  result;
-  result.method = options.method == "exact" ? "exact, " + method.name : method.name;
-  for (const auto &mode : modes)
-    if (mode.unstable)
-    {
-      ++result.growing;
-      if (mode.spectral_radius > result.growth)
-      {
-        result.growth   = mode.spectral_radius;
-        result.worst_hz = mode.mode.omega / (2. * M_PI);
-      }
-    }
-  result.only_closed = result.growing > 0 && options.method == "exact";
-  if (result.growing > 0)
-    result.step_that_works = guard.largest_stable_step();
-  const auto closed = std::find_if(modes.begin(), modes.end(),
-                                   [](const auto &mode) { return mode.origin == coupling::ModeOrigin::closed; });
-  if (closed != modes.begin())
-  {
-    result.lowest_period_error  = modes.front().period_error;
-    result.highest_period_error = std::prev(closed)->period_error;
-  }
-  return result;
-}
-
 /// The scene's modes, its method and the others at its step.
-void study_scene(const CommonOptions &options, const StabilityCommandOptions &stability, const Scene &scene,
+void study_scene(const CommonOptions &options, double step, const Scene &scene,
                  const std::vector<MethodFamily> &families, StabilityStudy &study)
 {
   ProgressLine    progress(options.quiet);
   PreparedMachine prepared = prepare_machine(scene, progress.callback());
-  RunRequest      run      = scene.run;
-  keep_stable_step(prepared, run);
   progress.show("modes");
-  const bool                   in_modes = prepared.in_modes != nullptr;
-  const coupling::Machine     &machine  = in_modes ? prepared.machine : prepared.small();
-  const coupling::InitialState start =
-      in_modes ? prepare_start(scene, prepared) : initial_state(scene, prepared.small());
-  coupling::MethodOptions method = run.options.method;
-  if (stability.step > 0.)
-    method.step = stability.step;
-  if (!(method.step > 0.))
-    throw std::invalid_argument("stability: the scene names no step; give the one to look at, such as --step 1e-4");
-  if (method.tolerance > 0.)
-    study.notes.push_back("The scene controls its step; its modes are shown at " + short_text(method.step) + " s.");
-  method.tolerance = 0.;
-  if (prepared.companion && !in_modes)
-    study.notes.push_back("The frame is unreduced; modes are those of its reduced companion.");
-
-  std::ostringstream name;
-  name << coupling::method_name(method) << " with a step of " << method.step << " s";
-  study.method                            = name.str();
-  const coupling::LinearSpectrum spectrum = coupling::linear_spectrum(machine, start);
-  const coupling::StabilityGuard guard(spectrum, method);
-  study.modes = guard.modes();
-  for (const MethodFamily &family : families)
-    for (const MappedMethod &other : family.methods)
-      study.verdicts.push_back(verdict(spectrum, other, method.step));
-  try
-  {
-    guard.check();
-  }
-  catch (const std::invalid_argument &unstable)
-  {
-    study.notes.push_back(unstable.what());
-  }
-  for (const std::string &warning : guard.warnings())
-    study.notes.push_back(warning);
+  lay_methods_over(scene, prepared, step, families, study);
 }
 
 std::string ratio_name(double zeta)
@@ -144,7 +79,7 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
   study.version = version;
   study.zetas   = stability.zetas;
   if (with_scene)
-    study_scene(options, stability, *scene, families, study);
+    study_scene(options, stability.step, *scene, families, study);
   const auto maps = stability_maps(families, study.zetas);
   study.intervals = unstable_maps(families, study.zetas);
   for (const double zeta : study.zetas)

@@ -2,7 +2,11 @@
 
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
-#include "apps/python/python_scene.h"
+#include "apps/python/answer_values.h"
+#include "apps/python/bind_scene.h"
+#include "apps/python/errors.h"
+#include "apps/python/python_frame.h"
+#include "apps/python/python_result.h"
 #include "apps/version.h"
 
 #include <pybind11/complex.h>
@@ -16,41 +20,6 @@ namespace
 
 namespace py = pybind11;
 using namespace pybind11::literals;
-
-/// Wrong input and failed methods, with the texts of the program.
-void translate_errors(py::module_ &module)
-{
-  static py::object input  = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
-       "gestell.InputError", "Wrong input: place, value, what is needed, way out.", PyExc_ValueError, nullptr));
-  static py::object failed = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
-      "gestell.ComputationFailed", "The computation failed; result holds what was computed until then.",
-      PyExc_RuntimeError, nullptr));
-  input.inc_ref(); // for as long as the interpreter runs
-  failed.inc_ref();
-  module.attr("InputError")        = input;
-  module.attr("ComputationFailed") = failed;
-  py::register_exception_translator(
-      [](std::exception_ptr error)
-      {
-        try
-        {
-          if (error)
-            std::rethrow_exception(error);
-        }
-        catch (const py::builtin_exception &)
-        {
-          throw;
-        }
-        catch (const std::invalid_argument &wrong)
-        {
-          PyErr_SetString(input.ptr(), wrong.what());
-        }
-        catch (const std::runtime_error &none)
-        {
-          PyErr_SetString(failed.ptr(), none.what());
-        }
-      });
-}
 
 py::dict energy_of(const PythonResult &result)
 {
@@ -125,24 +94,24 @@ Eigen::MatrixXd states_of(const PythonResult &result)
   return all;
 }
 
-std::vector<std::string> save(const PythonResult &result, const py::object &folder)
+std::vector<std::string> save(PythonResult &result, const py::object &folder)
 {
   const std::string path = py::str(folder).cast<std::string>();
   apps::require_writable(path);
   apps::prepare_folder(path);
-  return apps::write_results(path, result.result());
+  return apps::write_results(path, result.whole_result());
 }
 
 void bind_values(py::module_ &module)
 {
   py::class_<coupling::SignalSummary>(module, "Peak", "Extremes of a signal with their times [s].")
-      .def_readonly("name", &coupling::SignalSummary::name)
-      .def_readonly("unit", &coupling::SignalSummary::unit)
-      .def_readonly("min", &coupling::SignalSummary::min)
-      .def_readonly("t_min", &coupling::SignalSummary::t_min)
-      .def_readonly("max", &coupling::SignalSummary::max)
-      .def_readonly("t_max", &coupling::SignalSummary::t_max)
-      .def_readonly("final", &coupling::SignalSummary::final)
+      .def_readonly("name", &coupling::SignalSummary::name, "Name of the signal.")
+      .def_readonly("unit", &coupling::SignalSummary::unit, "Unit of min, max and final, in SI.")
+      .def_readonly("min", &coupling::SignalSummary::min, "Smallest value, in `unit`.")
+      .def_readonly("t_min", &coupling::SignalSummary::t_min, "When it is smallest [s].")
+      .def_readonly("max", &coupling::SignalSummary::max, "Largest value, in `unit`.")
+      .def_readonly("t_max", &coupling::SignalSummary::t_max, "When it is largest [s].")
+      .def_readonly("final", &coupling::SignalSummary::final, "Value at the end of the run, in `unit`.")
       .def("__repr__",
            [](const coupling::SignalSummary &peak)
            {
@@ -150,9 +119,9 @@ void bind_values(py::module_ &module)
                  .format(peak.name, peak.min, peak.t_min, peak.max, peak.t_max, peak.unit);
            });
   py::class_<coupling::Event>(module, "Event", "A law changes its branch: t [s], name of the element, kind.")
-      .def_readonly("t", &coupling::Event::t)
-      .def_readonly("name", &coupling::Event::name)
-      .def_readonly("kind", &coupling::Event::kind)
+      .def_readonly("t", &coupling::Event::t, "When it happens [s].")
+      .def_readonly("name", &coupling::Event::name, "Name of the element, joint or switch.")
+      .def_readonly("kind", &coupling::Event::kind, "What happens, \"contact\", \"sticks\".")
       .def("__repr__", [](const coupling::Event &event)
            { return py::str("Event({:.9g} s: {}, {})").format(event.t, event.name, event.kind); });
 }
@@ -171,61 +140,55 @@ void bind_result(py::module_ &module)
       .def_property_readonly(
           "t", [](const py::object &result) { return column_view(result, "t"); }, "Times [s], a view.")
       .def_property_readonly("history", &history_view, "All columns [rows x columns], a view.")
-      .def_property_readonly("columns", [](const PythonResult &result) { return result.run().columns; })
-      .def_property_readonly("units", &units_of, "Unit of each column.")
-      .def_property_readonly("peaks", &peaks_of, "Extremes of each signal.")
-      .def_property_readonly("events", [](const PythonResult &result) { return result.run().events; })
+      .def_property_readonly(
+          "columns", [](const PythonResult &result) { return result.run().columns; },
+          "Names of the columns of `history`: t, signals, energies.")
+      .def_property_readonly("units", &units_of, "Unit of each column of `history`, a dict.")
+      .def_property_readonly("peaks", &peaks_of, "Extremes of each signal, a dict of Peak.")
+      .def_property_readonly(
+          "events", [](const PythonResult &result) { return result.run().events; }, "Events, in the order of time [s].")
       .def_property_readonly("energy", &energy_of, "Input, stored, dissipated, residual, exchanged [J].")
-      .def_property_readonly("warnings", [](const PythonResult &result) { return apps::all_warnings(result.result()); })
-      .def_property_readonly("scene", [](const PythonResult &result) { return result.result().scene; })
-      .def_property_readonly("coordinates", [](const PythonResult &result) { return result.result().coordinate_names; })
+      .def_property_readonly(
+          "warnings", [](const PythonResult &result) { return apps::all_warnings(result.result()); },
+          "Warnings of scene, frame and run, each once.")
+      .def_property_readonly(
+          "scene", [](const PythonResult &result) { return result.result().scene; }, "Name of the scene.")
+      .def_property_readonly(
+          "coordinates", [](const PythonResult &result) { return result.result().coordinate_names; },
+          "Names of the machine's coordinates, rows of `shapes` and columns of `states`.")
       .def_property_readonly(
           "frequencies_hz",
           [](const PythonResult &result)
           { return py::array(py::cast(numbers_of<&coupling::Mode::frequency_hz>(result))); },
           "Natural frequencies of the coupled machine [Hz].")
-      .def_property_readonly("damping_ratios", [](const PythonResult &result)
-                             { return py::array(py::cast(numbers_of<&coupling::Mode::damping_ratio>(result))); })
+      .def_property_readonly(
+          "damping_ratios",
+          [](const PythonResult &result)
+          { return py::array(py::cast(numbers_of<&coupling::Mode::damping_ratio>(result))); },
+          "Damping ratio of each mode [1]; nan where it does not vibrate.")
       .def_property_readonly(
           "shapes", [](const PythonResult &result) { return shapes_of(result.result().coupled_modes); },
           "Mode shapes in columns [coordinates x modes], mass normalised.")
-      .def_property_readonly("frame_shapes",
-                             [](const PythonResult &result) { return shapes_of(result.result().frame_modes); })
-      .def_property_readonly("picture_times",
-                             [](const PythonResult &result) {
-                               return py::array_t<double>(py::ssize_t(result.run().picture_times.size()),
-                                                          result.run().picture_times.data());
-                             })
-      .def_property_readonly("states", &states_of, "Coordinates at picture_times [times x coordinates].")
+      .def_property_readonly(
+          "frame_shapes", [](const PythonResult &result) { return shapes_of(result.result().frame_modes); },
+          "Mode shapes of the frame alone in columns, mass normalised.")
+      .def_property_readonly(
+          "picture_times",
+          [](const PythonResult &result) {
+            return py::array_t<double>(py::ssize_t(result.run().picture_times.size()),
+                                       result.run().picture_times.data());
+          },
+          "Times of `states` [s].")
+      .def_property_readonly("states", &states_of, "Coordinates at picture_times [times x coordinates], m or rad.")
       .def_property_readonly("sensitivities", &sensitivities_of,
-                             "Derivatives of each output by each key, a dict of dicts; None: not asked for.")
+                             "Derivatives of each output by each key, a dict of dicts in SI; None: not asked for.")
       .def_property_readonly("_responses", &responses_of)
+      .def_property_readonly("_periodic",
+                             [](const PythonResult &result) { return periodic_values(*result.result().periodic); })
+      .def_property_readonly("_along", [](const PythonResult &result) { return along_values(*result.result().along); })
       .def_property_readonly("_summary", [](const PythonResult &result) { return apps::summary_json(result.result()); })
       .def("save", &save, "folder"_a, "Writes report.html, history.csv and all other files; returns their names.")
       .def("_repr_html_", &notebook_text);
-}
-
-void bind_frame(py::module_ &module)
-{
-  const auto matrix = [](Eigen::MatrixXd coupling::ReducedFrame::*which)
-  {
-    return py::cpp_function([which](const PythonFrame &frame) -> const Eigen::MatrixXd &
-                            { return (*frame.frame).*which; },
-                            py::return_value_policy::reference_internal);
-  };
-  py::class_<PythonFrame, std::shared_ptr<PythonFrame>>(module, "Frame", "A reduced frame; its matrices are views.")
-      .def_property_readonly("M", matrix(&coupling::ReducedFrame::M), "Mass matrix [kg].")
-      .def_property_readonly("B", matrix(&coupling::ReducedFrame::B), "Damping matrix [N s/m].")
-      .def_property_readonly("C", matrix(&coupling::ReducedFrame::C), "Stiffness matrix [N/m].")
-      .def_property_readonly("coordinates", &PythonFrame::coordinates, "Names of rows: interfaces first, then modes.")
-      .def_property_readonly("n_interface", [](const PythonFrame &frame) { return frame.frame->n_interface; })
-      .def_property_readonly("n_full", [](const PythonFrame &frame) { return frame.frame->n_full; })
-      .def_property_readonly(
-          "mass", [](const PythonFrame &frame) { return frame.frame->mass; }, "[kg]")
-      .def_property_readonly(
-          "frequencies_hz",
-          [](const PythonFrame &frame) -> const Eigen::VectorXd & { return frame.frame->frequencies_hz; },
-          py::return_value_policy::reference_internal, "Of the frame alone, interface free [Hz].");
 }
 
 template <Eigen::MatrixXd coupling::StateSpace::*Matrix>
@@ -241,66 +204,18 @@ void bind_state_space(py::module_ &module)
   constexpr auto view = py::return_value_policy::reference_internal;
   py::class_<StateSpaceModel, std::shared_ptr<StateSpaceModel>>(
       module, "StateSpace", "x' = A x + B u, y = C x + D u about an operating point; x = (r, r'), q = Z r, all in SI.")
-      .def_property_readonly("A", &matrix_of<&StateSpace::A>, view)
-      .def_property_readonly("B", &matrix_of<&StateSpace::B>, view)
-      .def_property_readonly("C", &matrix_of<&StateSpace::C>, view)
-      .def_property_readonly("D", &matrix_of<&StateSpace::D>, view)
-      .def_property_readonly("Z", &matrix_of<&StateSpace::Z>, view)
-      .def_readonly("states", &StateSpaceModel::states)
-      .def_readonly("coordinates", &StateSpaceModel::coordinates)
-      .def_readonly("inputs", &StateSpaceModel::inputs)
-      .def_readonly("outputs", &StateSpaceModel::outputs)
-      .def_readonly("t", &StateSpaceModel::t, "[s] of the operating point")
+      .def_property_readonly("A", &matrix_of<&StateSpace::A>, view, "[states x states], SI.")
+      .def_property_readonly("B", &matrix_of<&StateSpace::B>, view, "[states x inputs], per N.")
+      .def_property_readonly("C", &matrix_of<&StateSpace::C>, view, "[outputs x states], SI.")
+      .def_property_readonly("D", &matrix_of<&StateSpace::D>, view, "[outputs x inputs], per N.")
+      .def_property_readonly("Z", &matrix_of<&StateSpace::Z>, view, "[coordinates x states/2], q = Z r, m or rad.")
+      .def_readonly("states", &StateSpaceModel::states, "Names of the states x.")
+      .def_readonly("coordinates", &StateSpaceModel::coordinates, "Names of the machine's coordinates, rows of Z.")
+      .def_readonly("inputs", &StateSpaceModel::inputs, "Names of the inputs with their units.")
+      .def_readonly("outputs", &StateSpaceModel::outputs, "Names of the outputs with their units.")
+      .def_readonly("t", &StateSpaceModel::t, "Time of the operating point [s].")
       .def("__iter__", [](const py::object &model)
            { return py::iter(py::make_tuple(model.attr("A"), model.attr("B"), model.attr("C"), model.attr("D"))); });
-}
-
-void bind_scene(py::module_ &module)
-{
-  const auto run = [](const PythonScene &scene, std::optional<std::vector<std::string>> peaks,
-                      std::string sensitivities) {
-    return scene.run({std::move(peaks), std::move(sensitivities)});
-  };
-  const auto frf = [](const PythonScene &scene, std::vector<std::string> from, std::vector<std::string> to,
-                      const std::string &kind, const std::string &at, const std::string &lowest,
-                      const std::string &highest, int points)
-  {
-    apps::FrfOptions options;
-    options.from    = std::move(from);
-    options.to      = std::move(to);
-    options.kind    = kind;
-    options.at      = at;
-    options.lowest  = lowest;
-    options.highest = highest;
-    options.points  = points;
-    return scene.frequency_response(options);
-  };
-  py::class_<PythonScene>(module, "Scene")
-      .def_static("of_file", &PythonScene::of_file)
-      .def_static("of_text", &PythonScene::of_text)
-      .def_static("of_values", &PythonScene::of_values)
-      .def("copy", [](const PythonScene &scene) { return scene; })
-      .def("set", &PythonScene::set)
-      .def("get", &PythonScene::get)
-      .def("values", &PythonScene::values)
-      .def("name", &PythonScene::name)
-      .def("signals", &PythonScene::signals)
-      .def("check", &PythonScene::check)
-      .def("run", run, "peaks"_a, "sensitivities"_a)
-      .def("modes", &PythonScene::modes)
-      .def("frame", &PythonScene::frame)
-      .def("frequency_response", frf)
-      .def("state_space",
-           [](const PythonScene &scene, std::vector<std::string> from, std::vector<std::string> to,
-              const std::string &kind, const std::string &at)
-           {
-             apps::FrfOptions options;
-             options.from = std::move(from);
-             options.to   = std::move(to);
-             options.kind = kind;
-             options.at   = at;
-             return scene.state_space(options);
-           });
 }
 
 } // namespace
@@ -310,10 +225,10 @@ PYBIND11_MODULE(_gestell, module)
 {
   using namespace gestell::python;
   module.attr("version") = gestell::apps::version;
-  translate_errors(module);
+  bind_errors(module);
   bind_values(module);
   bind_result(module);
-  bind_frame(module);
+  bind_frames(module);
   bind_state_space(module);
   bind_scene(module);
 }

@@ -17,7 +17,8 @@ namespace py = pybind11;
 
 constexpr std::size_t most_charts = 2;
 
-/// Numbers of the result's history as an array that keeps the result alive.
+} // namespace
+
 py::array read_only(const py::object &result, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
                     const double *first)
 {
@@ -25,6 +26,9 @@ py::array read_only(const py::object &result, std::vector<py::ssize_t> shape, st
   view.attr("setflags")(py::arg("write") = false);
   return view;
 }
+
+namespace
+{
 
 py::ssize_t n_rows(const coupling::RunResult &run)
 {
@@ -74,18 +78,12 @@ const coupling::RunResult &PythonResult::run() const
   return *result_.run;
 }
 
-std::vector<std::string> PythonFrame::coordinates() const
+const apps::Result &PythonResult::whole_result()
 {
-  const char *const        motions[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
-  std::vector<std::string> names;
-  for (Eigen::Index i = 0; i < frame->M.rows(); ++i)
-    names.push_back((i < frame->n_interface ? "coordinate " : "mode ") +
-                    std::to_string(i < frame->n_interface ? i + 1 : i - frame->n_interface + 1));
-  for (const fem::Interface &interface : frame->interfaces)
-    for (int m = 0; m < 6; ++m)
-      if (interface.coordinate[m] >= 0)
-        names[std::size_t(interface.coordinate[m])] = "frame." + interface.name + "." + motions[m];
-  return names;
+  const bool has_rows = result_.run && result_.run->rows.size() > result_.run->columns.size();
+  if (result_.command == "run" && has_rows && !result_.spectra && !result_.orders)
+    session_->add_spectra(result_);
+  return result_;
 }
 
 py::array history_view(const py::object &result)

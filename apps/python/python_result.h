@@ -22,6 +22,8 @@ public:
   }
 
   const apps::Result &result() const { return result_; }
+  /// With spectra and orders, which only files tell: made at the first call.
+  const apps::Result &whole_result();
   /// @throws std::invalid_argument if nothing was run
   const coupling::RunResult &run() const;
 
@@ -30,15 +32,9 @@ private:
   apps::Result                   result_;
 };
 
-/// A frame that scenes share.
-struct PythonFrame
-{
-  explicit PythonFrame(std::shared_ptr<const coupling::ReducedFrame> made) : frame(std::move(made)) {}
-
-  std::shared_ptr<const coupling::ReducedFrame> frame;
-
-  std::vector<std::string> coordinates() const; ///< "frame.crown.ux", ..., "mode 1"
-};
+/// Numbers of an object as an array that keeps it alive and cannot be written to.
+pybind11::array read_only(const pybind11::object &result, std::vector<pybind11::ssize_t> shape,
+                          std::vector<pybind11::ssize_t> strides, const double *first);
 
 /// The history [rows x columns] of a result, whose memory it shows and keeps alive; it cannot be written to.
 pybind11::array history_view(const pybind11::object &result);

@@ -1,13 +1,18 @@
 #include "apps/python/python_scene.h"
 
+#include "apps/atlas/scene_stability.h"
 #include "apps/python/interruptible.h"
 #include "apps/python/scene_values.h"
+#include "apps/python/told_progress.h"
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/scene_in_words.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
 #include "apps/session/exchange/state_space_answer.h"
+#include "apps/sizing/sized_scene.h"
 #include "apps/study/runs/frame_shelf.h"
+#include "coupling/plugin/mesh_service.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -54,33 +59,35 @@ void require_known_parameter(const SceneNode &root, const std::vector<std::strin
                suggestion(key[1], parameters ? names_of(*parameters) : std::vector<std::string>()));
 }
 
-/// As StudyRunner does.
-void keep_peaks_alone(Scene &scene, const std::vector<std::string> &signals)
+/// Leaves out the other signals, and what the choice does without.
+void keep(Scene &scene, const RunChoice &choice)
 {
-  std::vector<std::string> known;
-  for (const apps::SignalRequest &signal : scene.signals)
-    known.push_back(signal.name);
-  for (const std::string &name : signals)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument("peaks: the scene has no signal '" + name + "'" + suggestion(name, known));
-  auto &all = scene.signals;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const apps::SignalRequest &signal)
-                           { return std::find(signals.begin(), signals.end(), signal.name) == signals.end(); }),
-            all.end());
   coupling::RunOptions &run = scene.run.options;
-  run.picture_step          = 0.;
-  run.output_step           = run.end - run.begin;
-  run.energy                = false;
+  if (choice.signals)
+  {
+    const auto &kept = *choice.signals;
+    auto       &all  = scene.signals;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const apps::SignalRequest &signal)
+                             { return std::find(kept.begin(), kept.end(), signal.name) == kept.end(); }),
+              all.end());
+  }
+  if (choice.lean || !choice.history)
+  {
+    run.picture_step = 0.;
+    run.energy       = false;
+  }
+  if (!choice.history)
+    run.output_step = run.end - run.begin;
 }
 
 /// The reduced frames of all scenes; two threads do not make the same.
-std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene)
+std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, const coupling::Progress &progress)
 {
   static apps::FrameShelf *const shelf = new apps::FrameShelf(true); // outlives what the interpreter ends last
   static std::mutex              alone;
   const std::lock_guard          lock(alone);
-  return shelf->frame(scene, {});
+  return shelf->frame(scene, progress);
 }
 
 [[noreturn]] void raise_with(py::object error, const std::shared_ptr<PythonResult> &result)
@@ -100,44 +107,58 @@ void raise_failure(const std::shared_ptr<PythonResult> &result)
     raise_with(py::module_::import("_gestell").attr("ComputationFailed")(run->failure), result);
 }
 
-/// Computes without the lock of the interpreter.  Ctrl-C is obeyed at the latest when it is done, whatever came of it.
+/// Computes without the lock of the interpreter.  Ctrl-C and what `progress` raises are obeyed at the latest when it is
+/// done, whatever came of it.
 template <typename Compute>
-auto interruptibly(const Compute &compute)
+auto interruptibly(const Compute &compute, py::object progress = py::none())
 {
   const Interruptible interruptible;
+  ToldProgress        told(std::move(progress), interruptible.asked());
   const auto          with_others = [&]
   {
     const py::gil_scoped_release others_may_run;
-    return compute(interruptible.asked());
+    return compute(told.watch());
   };
-  decltype(with_others()) result;
+  std::optional<decltype(with_others())> result;
   try
   {
-    result = with_others();
+    result.emplace(with_others());
   }
   catch (const std::exception &)
   {
+    told.raise();
     if (!interruptible.asked())
       throw;
   }
-  if constexpr (std::is_same_v<decltype(result), std::shared_ptr<PythonResult>>)
+  told.raise();
+  if constexpr (std::is_same_v<decltype(result), std::optional<std::shared_ptr<PythonResult>>>)
     if (result)
-      raise_failure(result);
+      raise_failure(*result);
   if (interruptible.asked())
   {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
   }
-  return result;
+  return std::move(*result);
+}
+
+/// The frame of a scene that can be had unreduced.
+fem::FrameMatrices assembled(const Scene &scene, const coupling::Progress &progress)
+{
+  if (scene.frame.source == apps::FrameSource::geometry)
+    return coupling::mesh_service().assemble(scene.frame.geometry, scene.reduction.options, progress).matrices;
+  if (scene.frame.source == apps::FrameSource::matrices)
+    return scene.frame.matrices;
+  throw std::invalid_argument((scene.frame.place.empty() ? "scene" : scene.frame.place) +
+                              ": the scene has no frame of one piece from CAD or matrices; parts and reduced frames "
+                              "have no unreduced matrices of their own");
 }
 
 } // namespace
 
 PythonScene PythonScene::of_file(const std::string &path)
 {
-  PythonScene scene(apps::read_scene_file(path, {}), path);
-  scene.is_file_ = true;
-  return scene;
+  return {apps::read_scene_file(path, {}), path};
 }
 
 PythonScene PythonScene::of_text(const std::string &text, const std::string &folder)
@@ -158,7 +179,21 @@ void PythonScene::set(const std::string &key, py::handle value)
   const SceneNode node = node_of(value, place, fs::current_path().string());
   require_known_parameter(root_, apps::key_segments(key, place), place);
   apps::apply_override(root_, key, node);
-  overrides_.push_back(key + "=" + toml_of(node));
+  const std::string of_key = key + "=";
+  overrides_.erase(std::remove_if(overrides_.begin(), overrides_.end(),
+                                  [&](const std::string &set) { return set.compare(0, of_key.size(), of_key) == 0; }),
+                   overrides_.end());
+  overrides_.push_back(of_key + toml_of(node));
+}
+
+void PythonScene::add(const std::string &table, const py::dict &entries)
+{
+  const Place     place{"scene", 0};
+  const SceneNode added = node_of(entries, place, folder_of_path(path_), table);
+  SceneNode       root  = root_;
+  for (const auto &[key, value] : added.entries)
+    apps::apply_override(root, table + "." + apps::written_key(key), value);
+  root_ = std::move(root);
 }
 
 py::object PythonScene::get(const std::string &key) const
@@ -200,49 +235,100 @@ std::vector<std::string> PythonScene::check() const
   return warnings;
 }
 
-std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const std::atomic<bool> *stop) const
+std::vector<std::string> PythonScene::words() const
 {
-  const auto frame  = shared_frame(scene);
-  auto       result = std::make_shared<apps::Session>(std::move(scene), overrides_, apps::Watch{{}, stop});
+  const Scene scene = this->scene();
+  apps::check_scene(scene);
+  return apps::scene_in_words(scene);
+}
+
+std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const apps::Watch &watch) const
+{
+  const auto frame  = shared_frame(scene, watch.progress);
+  auto       result = std::make_shared<apps::Session>(std::move(scene), overrides_, watch);
+  result->take_entries(root_);
   if (frame)
     result->use_frame(*frame);
   return result;
 }
 
-std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
+/// With signals of the same name for paths, "slide.displacement", that the scene has none for.
+Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
 {
-  if (!choice.sensitivities.empty() && !is_file_)
-    throw std::invalid_argument("sensitivities: need a scene from a file, which is read again for each entry");
-  return interruptibly(
-      [&](const std::atomic<bool> &stop)
-      {
-        Scene scene = this->scene();
-        apps::require_run(scene);
-        if (choice.peaks)
-          keep_peaks_alone(scene, *choice.peaks);
-        auto session = this->session(std::move(scene), &stop);
-        auto run     = choice.sensitivities.empty() ? session->run() : session->run(choice.sensitivities);
-        return std::make_shared<PythonResult>(std::move(session), std::move(run));
-      });
+  Scene                    scene = this->scene();
+  std::vector<std::string> known;
+  for (const apps::SignalRequest &signal : scene.signals)
+    known.push_back(signal.name);
+  SceneNode root  = root_;
+  bool      added = false;
+  for (const std::string &name : signals)
+  {
+    if (std::find(known.begin(), known.end(), name) != known.end())
+      continue;
+    if (name.find('.') == std::string::npos)
+      throw std::invalid_argument("the scene has no signal '" + name + "'" + suggestion(name, known));
+    SceneNode path;
+    path.type  = SceneNode::Type::text;
+    path.text  = name;
+    path.place = Place{"signals", 0};
+    apps::apply_override(root, "output.signals." + apps::written_key(name), path);
+    added = true;
+  }
+  return added ? apps::read_scene(root, path_, fem::Scripts::harmless) : scene;
 }
 
-std::shared_ptr<PythonResult> PythonScene::modes() const
+std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
 {
   return interruptibly(
-      [&](const std::atomic<bool> &stop)
+      [&](const apps::Watch &watch)
       {
-        auto session = this->session(scene(), &stop);
-        auto modes   = session->modes();
+        Scene scene = choice.signals ? scene_with(*choice.signals) : this->scene();
+        apps::require_run(scene);
+        keep(scene, choice);
+        auto       session = this->session(std::move(scene), watch);
+        const auto keys    = choice.sensitivities.empty() ? std::nullopt : std::optional(choice.sensitivities);
+        auto       run     = session->run(keys, apps::SpectraAre::left_out);
+        return std::make_shared<PythonResult>(std::move(session), std::move(run));
+      },
+      choice.progress);
+}
+
+std::shared_ptr<PythonResult> PythonScene::modes(const apps::ModesOptions &options, py::object progress) const
+{
+  return interruptibly(
+      [&](const apps::Watch &watch)
+      {
+        auto session = this->session(scene(), watch);
+        auto modes   = session->modes(options);
         return std::make_shared<PythonResult>(std::move(session), std::move(modes));
-      });
+      },
+      std::move(progress));
+}
+
+std::shared_ptr<PythonResult> PythonScene::periodic(const apps::PeriodicRequest &request, py::object progress) const
+{
+  const auto result = interruptibly(
+      [&](const apps::Watch &watch)
+      {
+        auto session = this->session(scene(), watch);
+        auto motions = session->periodic(request);
+        return std::make_shared<PythonResult>(std::move(session), std::move(motions));
+      },
+      std::move(progress));
+  const auto &found = *result->result().periodic;
+  if (found.interrupted)
+    raise_with(py::reinterpret_borrow<py::object>(PyExc_KeyboardInterrupt)(), result);
+  if (!found.failure.empty())
+    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(found.failure), result);
+  return result;
 }
 
 std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOptions &options) const
 {
   return interruptibly(
-      [&](const std::atomic<bool> &stop)
+      [&](const apps::Watch &watch)
       {
-        auto session = this->session(scene(), &stop);
+        auto session = this->session(scene(), watch);
         auto answer  = session->frequency_response(options);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       });
@@ -251,21 +337,83 @@ std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOpt
 std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const
 {
   return interruptibly(
-      [&](const std::atomic<bool> &stop)
+      [&](const apps::Watch &watch)
       {
-        const auto session = this->session(scene(), &stop);
+        const auto session = this->session(scene(), watch);
         return std::make_shared<apps::StateSpaceModel>(
             apps::state_space_of(session->scene(), session->machine(), options));
+      });
+}
+
+apps::StabilityStudy PythonScene::stability(double step) const
+{
+  return interruptibly(
+      [&](const apps::Watch &watch)
+      {
+        const auto           session = this->session(scene(), watch);
+        apps::StabilityStudy study;
+        apps::lay_methods_over(session->scene(), session->machine(), step, apps::method_families(), study);
+        return study;
+      });
+}
+
+std::pair<apps::SizeResult, PythonScene> PythonScene::size(const SizeChoice &choice) const
+{
+  return interruptibly(
+      [&](const apps::Watch &watch)
+      {
+        const Scene scene = this->scene();
+        const auto  sized = [&](const apps::ModelVariant &model)
+        {
+          PythonScene other = *this;
+          for (const auto &[key, value] : apps::sized_entries(scene, model))
+          {
+            apps::apply_override(other.root_, key + "=" + value);
+            other.overrides_.push_back(key + "=" + value);
+          }
+          return other;
+        };
+        apps::SizeOptions options;
+        options.tolerance  = choice.tolerance;
+        options.max_cpu    = choice.max_cpu;
+        options.exhaustive = choice.exhaustive;
+        options.stop       = watch.interruption;
+        options.readable   = [&](const apps::ModelVariant &model)
+        {
+          try
+          {
+            sized(model).scene();
+            return true;
+          }
+          catch (const std::exception &)
+          {
+            return false;
+          }
+        };
+        const auto found = apps::size_search(scene, apps::budget_outputs(scene, choice.outputs), options);
+        return std::make_pair(found.result, sized(found.chosen));
+      });
+}
+
+std::shared_ptr<PythonFullFrame> PythonScene::full_frame() const
+{
+  return interruptibly(
+      [&](const apps::Watch &watch)
+      {
+        auto full = std::make_shared<PythonFullFrame>(PythonFullFrame{assembled(scene(), watch.progress)});
+        for (fem::SparseMatrix *A : {&full->frame.M, &full->frame.B, &full->frame.C})
+          A->makeCompressed();
+        return full;
       });
 }
 
 std::shared_ptr<PythonFrame> PythonScene::frame() const
 {
   return interruptibly(
-      [&](const std::atomic<bool> &)
+      [&](const apps::Watch &watch)
       {
         const Scene scene = this->scene();
-        auto        frame = shared_frame(scene);
+        auto        frame = shared_frame(scene, watch.progress);
         if (!frame)
           throw std::invalid_argument(
               scene.frame.place + ": the scene has no frame that is reduced; its matrices are M, B, C of [frame], or "

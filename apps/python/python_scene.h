@@ -1,8 +1,11 @@
 #pragma once
 
+#include "apps/output/report/stability_report.h"
 #include "apps/output/values/state_space_model.h"
+#include "apps/python/python_frame.h"
 #include "apps/python/python_result.h"
 #include "apps/scene/file/scene_node.h"
+#include "apps/sizing/size_search.h"
 
 #include <pybind11/pybind11.h>
 
@@ -14,11 +17,23 @@
 namespace gestell::python
 {
 
-/// What is computed of a run: of all signals their history, pictures and energy, or as in studies the peaks of some.
+/// What is computed of a run.
 struct RunChoice
 {
-  std::optional<std::vector<std::string>> peaks{};         ///< signals; none: all that the scene asks for
+  /// Names of signals, or what they read, "slide.displacement"; none: all that the scene asks for.
+  std::optional<std::vector<std::string>> signals{};
+  bool                                    history = true;  ///< false: their extremes alone
+  bool                                    lean    = false; ///< no energy balance and no pictures, as in studies
   std::string                             sensitivities{}; ///< entries, as at Session::run()
+  pybind11::object                        progress = pybind11::none();
+};
+
+struct SizeChoice
+{
+  double      tolerance = 0.;  ///< relative
+  std::string outputs{};       ///< "F_P.max,F_P.min"
+  double      max_cpu    = 0.; ///< [s]; 0: any
+  bool        exhaustive = false;
 };
 
 /**
@@ -37,30 +52,38 @@ public:
   static PythonScene of_values(const pybind11::dict &values, const std::string &folder);
 
   /// One entry, "parameters.c_P".  @throws std::invalid_argument for a parameter that the scene does not have
-  void                     set(const std::string &key, pybind11::handle value);
+  void set(const std::string &key, pybind11::handle value);
+  /// Several entries of a table, "body.crank", made if it is not there; as if they had been given at the begin.
+  void                     add(const std::string &table, const pybind11::dict &entries);
   pybind11::object         get(const std::string &key) const; ///< @throws pybind11::key_error
   pybind11::object         values() const;                    ///< all, as a dict
   std::string              name() const;
   std::vector<std::string> signals() const;
   std::vector<std::string> check() const; ///< warnings
+  std::vector<std::string> words() const; ///< the scene as it was understood, a line each
 
   /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with what was computed in `result`
-  std::shared_ptr<PythonResult>          run(const RunChoice &choice) const;
-  std::shared_ptr<PythonResult>          modes() const;
-  std::shared_ptr<PythonFrame>           frame() const; ///< reduced
-  std::shared_ptr<PythonResult>          frequency_response(const apps::FrfOptions &options) const;
-  std::shared_ptr<apps::StateSpaceModel> state_space(const apps::FrfOptions &options) const;
+  std::shared_ptr<PythonResult>    run(const RunChoice &choice) const;
+  std::shared_ptr<PythonResult>    modes(const apps::ModesOptions &options, pybind11::object progress) const;
+  std::shared_ptr<PythonResult>    periodic(const apps::PeriodicRequest &request, pybind11::object progress) const;
+  std::shared_ptr<PythonFrame>     frame() const; ///< reduced
+  std::shared_ptr<PythonFullFrame> full_frame() const;
+  apps::StabilityStudy             stability(double step) const;
+  /// The search, and this scene with the sizes that it chose.
+  std::pair<apps::SizeResult, PythonScene> size(const SizeChoice &choice) const;
+  std::shared_ptr<PythonResult>            frequency_response(const apps::FrfOptions &options) const;
+  std::shared_ptr<apps::StateSpaceModel>   state_space(const apps::FrfOptions &options) const;
 
 private:
   PythonScene(apps::SceneNode root, std::string path) : root_(std::move(root)), path_(std::move(path)) {}
 
   apps::Scene                    scene() const { return apps::read_scene(root_, path_, fem::Scripts::harmless); }
-  std::shared_ptr<apps::Session> session(apps::Scene scene, const std::atomic<bool> *stop) const;
+  apps::Scene                    scene_with(const std::vector<std::string> &signals) const;
+  std::shared_ptr<apps::Session> session(apps::Scene scene, const apps::Watch &watch) const;
 
   apps::SceneNode          root_;
-  std::string              path_;            ///< of the file, or where it would be
-  bool                     is_file_ = false; ///< it can be read again
-  std::vector<std::string> overrides_;       ///< "key=value" of what was set
+  std::string              path_;      ///< of the file, or where it would be
+  std::vector<std::string> overrides_; ///< "key=value" of what was set
 };
 
 } // namespace gestell::python

@@ -1,6 +1,5 @@
 #include "apps/session/scene_family.h"
 
-#include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/repeating_machine.h"
 #include "coupling/frame/frame_recipe.h"
@@ -92,14 +91,13 @@ void require_effect(const std::string &key)
 
 } // namespace
 
-void require_parameter(const std::string &path, const std::vector<std::string> &overrides, const std::string &key)
+void require_parameter(const SceneNode &root, const std::string &path, const std::string &key)
 {
   require_effect(key);
   const std::string table = "parameters.";
   if (key.compare(0, table.size(), table) != 0)
     return;
   const std::string name = key.substr(table.size());
-  const SceneNode   root = read_scene_file(path, overrides);
   const SceneNode  *all  = root.find("parameters");
   if (all && all->find(name))
     return;
@@ -110,11 +108,10 @@ void require_parameter(const std::string &path, const std::vector<std::string> &
                               suggestion(name, names));
 }
 
-SceneFamily::SceneFamily(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
-                         PreparedMachine &machine, const PeriodicRequest &request,
+SceneFamily::SceneFamily(SceneFileAt file, PreparedMachine &machine, const PeriodicRequest &request,
                          const coupling::PeriodicProblem &like)
-    : path_(path), key_(request.along), root_(read_scene_file(path, overrides)), scripts_(scripts), request_(request),
-      like_(like)
+    : path_(std::move(file.path)), key_(request.along), root_(std::move(file.root)), scripts_(file.scripts),
+      request_(request), like_(like)
 {
   if (request.from.empty() || request.to.empty())
     throw std::invalid_argument("--along " + key_ + ": give its ends, --from and --to");

@@ -4,6 +4,7 @@
 #include "apps/scene/scene.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/prepared_machine.h"
+#include "apps/session/sensitivity/scene_twins.h"
 #include "coupling/periodic/followed_equations.h"
 
 #include <memory>
@@ -24,7 +25,7 @@ struct MachineMember
 /// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads;
 /// and entries that do not change the equations of motion, such as those of [run] and [output].
 /// @throws std::invalid_argument: which entry, what it is, and which serve
-void require_parameter(const std::string &path, const std::vector<std::string> &overrides, const std::string &key);
+void require_parameter(const SceneNode &root, const std::string &path, const std::string &key);
 
 /// A scene over the values of one entry, on the frame that was reduced once.
 class SceneFamily
@@ -32,8 +33,8 @@ class SceneFamily
 public:
   /// @throws std::invalid_argument where the ends are no numbers of one unit, the key is unknown, or the entry changes
   /// the frame itself, with what that would cost
-  SceneFamily(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
-              PreparedMachine &machine, const PeriodicRequest &request, const coupling::PeriodicProblem &like);
+  SceneFamily(SceneFileAt file, PreparedMachine &machine, const PeriodicRequest &request,
+              const coupling::PeriodicProblem &like);
 
   double             from() const { return from_; }
   double             to() const { return to_; }

@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/file/scene_file.h"
+#include "apps/scene/file/scene_override.h"
 #include "apps/scene/scene.h"
 #include "apps/session/backbone.h"
 #include "apps/session/basin_answer.h"
@@ -265,11 +266,22 @@ Result Session::frequency_response(const FrfOptions &options)
   return finished(std::move(result));
 }
 
-Result Session::run(const std::optional<std::string> &sensitivities)
+SceneNode Session::entries() const
+{
+  return entries_ ? *entries_ : read_scene_file(path_, overrides_);
+}
+
+void Session::add_spectra(Result &result) const
+{
+  result.orders  = order_tracking(scene_, *result.run);
+  result.spectra = spectra(*result.run);
+}
+
+Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre spectra)
 {
   check_run();
   const bool               differentiated = sensitivities.has_value();
-  const SceneNode          root           = differentiated ? read_scene_file(path_, overrides_) : SceneNode();
+  const SceneNode          root           = differentiated ? entries() : SceneNode();
   std::vector<std::string> left_out;
   std::vector<VariedKey>   keys =
       differentiated ? varied_keys(root, *sensitivities, &left_out) : std::vector<VariedKey>();
@@ -304,9 +316,9 @@ Result Session::run(const std::optional<std::string> &sensitivities)
     result.sensitivities->cpu_s     = seconds(at_run - at_twins + std::clock() - behind_run);
   }
   progress()("results", -1.);
-  result.orders  = order_tracking(scene_, *result.run);
-  result.spectra = spectra(*result.run);
-  result.stages  = stage_answer(scene_, prepared, result.run->end_state, *result.run);
+  if (spectra == SpectraAre::told)
+    add_spectra(result);
+  result.stages = stage_answer(scene_, prepared, result.run->end_state, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));
   result.peak = taken_peak(signals, *result.run);
@@ -328,11 +340,15 @@ Result Session::periodic(const PeriodicRequest &request)
     throw std::invalid_argument(
         "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
         "; take reduction.method = \"craig-bampton\"");
-  require_parameter(path_, overrides_, request.along);
+  SceneNode root = entries();
+  require_parameter(root, path_, request.along);
   // Branches begin where the parameter does.
+  const std::string        at_begin  = request.along + '=' + request.from;
   std::vector<std::string> overrides = overrides_;
-  overrides.push_back(request.along + '=' + request.from);
-  begin_ = std::make_unique<Session>(path_, overrides, scripts_, watch_);
+  overrides.push_back(at_begin);
+  apply_override(root, at_begin);
+  begin_ = std::make_unique<Session>(read_scene(root, path_, scripts_), overrides, watch_);
+  begin_->take_entries(std::move(root));
   return begin_->periodic_here(request);
 }
 
@@ -367,7 +383,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
     found.coordinates.push_back(machine.coordinate_name(i));
   std::optional<SceneFamily> family;
   if (!request.along.empty())
-    family.emplace(path_, overrides_, scripts_, *machine_, request, repeating.problem);
+    family.emplace(SceneFileAt{entries(), path_, scripts_}, *machine_, request, repeating.problem);
   progress()("periodic motions", -1.);
   const coupling::PeriodicGuess &guess     = repeating.guess;
   auto                           solutions = searched(chosen, repeating.problem, guess, options, found);

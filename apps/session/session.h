@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/file/scene_node.h"
 #include "apps/session/frf_options.h"
 #include "apps/session/modes_options.h"
 #include "apps/session/partition.h"
@@ -31,6 +32,13 @@ struct FrameAnswer
   ModelFacts             facts;
 };
 
+/// Spectra and orders of a run's history: a tenth of the cost of a short run.
+enum class SpectraAre
+{
+  told,
+  left_out ///< until Session::add_spectra()
+};
+
 /**
  * A scene that has been read, and what can be computed with it, as values: no terminal, no files of results.
  *
@@ -48,6 +56,10 @@ public:
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
   /// A scene that was read before, from the file with these overrides.
   Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch);
+
+  /// All its entries, with overrides, of a scene that stands in no file; otherwise the file is read again where they
+  /// are varied.
+  void take_entries(SceneNode entries) { entries_ = std::move(entries); }
 
   const Scene &scene() const { return scene_; }
 
@@ -72,7 +84,9 @@ public:
   void keep_swings() { swings_ = true; }
   /// The scene simulated in time, with modes, stresses and warnings.
   /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
-  Result run(const std::optional<std::string> &sensitivities = {});
+  Result run(const std::optional<std::string> &sensitivities = {}, SpectraAre spectra = SpectraAre::told);
+  /// Of a run that left them out.
+  void add_spectra(Result &result) const;
 
   /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
   Result periodic(const PeriodicRequest &request = {});
@@ -84,6 +98,7 @@ public:
   coupling::Progress progress();
 
 private:
+  SceneNode           entries() const;
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
                                 coupling::Trajectory *trajectory);
   Result              periodic_here(const PeriodicRequest &request);
@@ -94,6 +109,7 @@ private:
   std::vector<std::string>       overrides_;
   fem::Scripts                   scripts_;
   Scene                          scene_;
+  std::optional<SceneNode>       entries_;
   Watch                          watch_;
   PhaseTimes                     times_;
   std::optional<PreparedMachine> machine_;

@@ -29,8 +29,7 @@ std::string toml_value(const std::string &value)
 
 } // namespace
 
-std::string sized_scene(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
-                        const std::filesystem::path &folder)
+std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scene, const ModelVariant &model)
 {
   std::vector<std::pair<std::string, std::string>> sizes;
   const Scene                                      sized = varied(scene, model);
@@ -67,7 +66,13 @@ std::string sized_scene(const Scene &scene, const std::vector<std::string> &over
     sizes.emplace_back("run.tolerance", number(method.tolerance));
   if (method.method == "exact" && scene.run.options.method.method != "exact")
     sizes.emplace_back("run.order", std::to_string(method.order));
+  return sizes;
+}
 
+std::string sized_scene(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
+                        const std::filesystem::path &folder)
+{
+  const auto         sizes = sized_entries(scene, model);
   std::ostringstream text;
   const auto         base =
       std::filesystem::proximate(std::filesystem::absolute(scene.file), std::filesystem::absolute(folder));

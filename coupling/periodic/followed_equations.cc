@@ -111,7 +111,8 @@ public:
       balance_->linearise(z, residual_, jacobian_);
     else
       balance_->residual(z, residual_);
-    closing_ = residual_.cwiseQuotient(balance_->scales(z)).cwiseAbs().maxCoeff();
+    closing_ =
+        z.size() == 0 ? 0. : residual_.cwiseQuotient(balance_->scales(z)).cwiseAbs().maxCoeff(); // 0: linear machine
   }
 
   const VectorXd  &residual() const override { return residual_; }

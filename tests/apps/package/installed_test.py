@@ -1,5 +1,6 @@
 """What `cmake --install` and `cpack` give, in an empty folder: arguments are sources, build, names of tests."""
 
+import gzip
 import os
 import pathlib
 import re
@@ -46,7 +47,9 @@ class Tree(unittest.TestCase):
 
     def tells_of_itself(self):
         """Man page, completion, scenes to start from."""
-        for name, words in (("man/man1/gestell.1", ".TH GESTELL 1"), ("zsh/vendor-completions/_gestell", "#compdef gestell"),
+        with gzip.open(self.prefix / "share/man/man1/gestell.1.gz", "rt") as page:
+            self.assertIn(".TH GESTELL 1", page.read())
+        for name, words in (("zsh/vendor-completions/_gestell", "#compdef gestell"),
                             ("bash-completion/completions/gestell", "complete -F")):
             self.assertIn(words, (self.prefix / "share" / name).read_text(encoding="utf-8"))
         self.call(self.prefix / "bin/gestell", "new", "press")
@@ -59,7 +62,11 @@ class Tree(unittest.TestCase):
     def lies_anywhere(self):
         """No run path leads into the build."""
         for path in self.prefix.rglob("*"):
-            if path.is_file() and path.open("rb").read(4) == b"\x7fELF":
+            if not path.is_file():
+                continue
+            with path.open("rb") as file:
+                begin = file.read(4)
+            if begin == b"\x7fELF":
                 self.assertNotIn(str(BUILD), self.call("readelf", "-d", path))
 
 
@@ -82,6 +89,16 @@ class Prefix(Tree):
         (project / "CMakeLists.txt").write_text(re.search(r"^```cmake\n(.*?)^```", page, re.S | re.M)[1])
         for block in re.findall(r"^```cpp\n(.*?)^```", page, re.S | re.M):
             (project / re.match(r"// (\w+\.cc)", block)[1]).write_text(block)
+        for header in sorted((self.prefix / "include/gestell").iterdir()):
+            with self.subTest("compiles alone", header=header.name):
+                alone = project / "alone.cc"
+                alone.write_text(f"#include <gestell/{header.name}>\n#include <gestell/{header.name}>\n")
+                self.call("g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsyntax-only",
+                          f"-I{self.prefix / 'include'}", alone)
+        flags = called("pkg-config", "--cflags", "--libs", "gestell", folder=self.folder,
+                       PKG_CONFIG_PATH=str(self.prefix / "lib/pkgconfig")).split()
+        self.call("g++", "-std=c++17", project / "duffing.cc", *flags, f"-Wl,-rpath,{self.prefix / 'lib'}", "-o", "plain")
+        self.assertIn("energy 0.75", self.call("./plain"))
         self.call("cmake", "-S", project, "-B", "out", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.call("cmake", "--build", "out")
         self.assertIn("energy 0.75", self.call("out/duffing"))

@@ -168,7 +168,7 @@ class Mistakes(unittest.TestCase):
         self.refused(["no signal 'F_Q'"], lambda: short_press().run(peaks=["F_Q"]))
         self.refused(["no signal 'F_Q'"], lambda: short_press().run()["F_Q"])
         self.refused(["no frame that is reduced"], lambda: short_press().frame())
-        self.refused(["from a file"], lambda: gestell.Scene(OSCILLATOR).run(sensitivities="all"))
+        self.refused(["no [parameters]"], lambda: gestell.Scene(OSCILLATOR).run(sensitivities="all"))
         with self.assertRaises(KeyError):
             short_press()["parameters.c_PP"]
 

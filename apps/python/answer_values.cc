@@ -1,0 +1,172 @@
+#include "apps/python/answer_values.h"
+
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+
+namespace gestell::python
+{
+namespace
+{
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+py::array_t<double> numbers(const std::vector<double> &values)
+{
+  return py::array_t<double>(py::ssize_t(values.size()), values.data());
+}
+
+/// [rows x columns] of what lies row by row.
+py::array_t<double> table(const std::vector<double> &values, std::size_t columns)
+{
+  const std::size_t rows = columns == 0 ? 0 : values.size() / columns;
+  return py::array_t<double>({py::ssize_t(rows), py::ssize_t(columns)}, values.data());
+}
+
+py::dict motion_values(const apps::PeriodicEntry &entry)
+{
+  const coupling::PeriodicSolution &s = entry.solution;
+  py::dict                          signals;
+  for (const apps::SignalOrbit &signal : entry.signals)
+    signals[py::str(signal.name)] =
+        py::dict("unit"_a = signal.unit, "max"_a = signal.max, "min"_a = signal.min, "mean"_a = signal.mean,
+                 "amplitude"_a = numbers(signal.amplitude), "phase"_a = numbers(signal.phase));
+  py::object stable = py::none();
+  if (s.stability_is_known())
+    stable = py::bool_(s.stable());
+  py::list names;
+  names.append("t");
+  for (const apps::SignalOrbit &signal : entry.signals)
+    names.append(signal.name);
+  return py::dict("period"_a = s.period, "begin"_a = s.begin, "ratio"_a = s.ratio, "kind"_a = apps::kind_of(s),
+                  "residual"_a = s.residual, "stable"_a = stable, "multipliers"_a = s.multipliers, "q"_a = s.q,
+                  "v"_a = s.v, "method"_a = s.method, "notes"_a = s.notes, "branch"_a = entry.branch,
+                  "parameter"_a = entry.parameter, "signals"_a = signals, "columns"_a = names,
+                  "orbit"_a = table(entry.rows, entry.signals.size() + 1));
+}
+
+py::object number_or_none(const std::optional<double> &value)
+{
+  return value ? py::object(py::float_(*value)) : py::object(py::none());
+}
+
+py::dict errors_of(const std::vector<apps::BudgetEntry> &entries)
+{
+  py::dict all;
+  for (const apps::BudgetEntry &entry : entries)
+    all[py::str(entry.output)] =
+        py::dict("value"_a = entry.value, "unit"_a = entry.unit, "mesh"_a = number_or_none(entry.mesh.error),
+                 "reduction"_a = number_or_none(entry.reduction.error), "time"_a = number_or_none(entry.time.error),
+                 "total"_a = number_or_none(entry.total));
+  return all;
+}
+
+py::dict rung_values(const apps::SizeRung &rung)
+{
+  return py::dict("mesh_size"_a = rung.mesh_size, "coordinates"_a = rung.coordinates, "interface"_a = rung.interface,
+                  "modes"_a = rung.modes, "reduction"_a = rung.reduction, "method"_a = rung.method,
+                  "step"_a = rung.step, "tolerance"_a = rung.tolerance, "cpu_s"_a = rung.cpu_s, "share"_a = rung.share,
+                  "worst"_a = rung.worst, "errors"_a = errors_of(rung.entries));
+}
+
+} // namespace
+
+py::dict periodic_values(const apps::PeriodicResult &found)
+{
+  py::list motions, points, backbone;
+  for (const apps::PeriodicEntry &entry : found.entries)
+    motions.append(motion_values(entry));
+  for (const apps::PeriodicEntry &entry : found.backbone)
+    backbone.append(motion_values(entry));
+  for (const apps::SpecialPoint &point : found.special_points)
+    points.append(py::dict("kind"_a = point.kind, "parameter"_a = point.parameter, "period"_a = point.period,
+                           "motion"_a = point.solution - 1));
+  py::dict checks;
+  for (const apps::PeriodicCheck &check : found.checks)
+    checks[py::str(check.method)] =
+        py::dict("distances"_a = py::dict(py::cast(check.distances)), "failure"_a = check.failure);
+  return py::dict("method"_a = found.method, "reason"_a = found.reason, "parameter"_a = found.parameter,
+                  "unit"_a = found.parameter_unit, "coordinates"_a = found.coordinates, "motions"_a = motions,
+                  "special_points"_a = points, "backbone"_a = backbone, "checks"_a = checks, "notes"_a = found.notes);
+}
+
+py::dict along_values(const apps::AlongResult &along)
+{
+  const auto     &positions = along.modes.positions;
+  const auto      rows = Eigen::Index(positions.size()), lines = Eigen::Index(along.modes.moves_most.size());
+  Eigen::VectorXd x(rows);
+  Eigen::MatrixXd frequencies = Eigen::MatrixXd::Constant(rows, lines, nan), damping = frequencies,
+                  assurance = frequencies;
+  std::vector<Eigen::MatrixXd> shapes;
+  py::dict                     gaps;
+  for (Eigen::Index i = 0; i < rows; ++i)
+  {
+    const coupling::ModesAt &at = positions[std::size_t(i)];
+    x[i]                        = at.x;
+    if (!at.gap.empty())
+      gaps[py::int_(i)] = at.gap;
+    Eigen::MatrixXd here;
+    for (Eigen::Index j = 0; j < std::min(lines, Eigen::Index(at.modes.size())); ++j)
+    {
+      const coupling::Mode &mode = at.modes[std::size_t(j)];
+      frequencies(i, j)          = mode.frequency_hz;
+      damping(i, j)              = mode.damping_ratio;
+      if (std::size_t(j) < at.assurance.size())
+        assurance(i, j) = at.assurance[std::size_t(j)];
+      if (here.size() == 0)
+        here = Eigen::MatrixXd::Constant(mode.shape.size(), lines, nan);
+      here.col(j) = mode.shape;
+    }
+    shapes.push_back(here);
+  }
+  py::list meetings;
+  for (const coupling::OrderMeeting &m : along.meetings)
+    meetings.append(py::dict("order"_a = m.order, "line"_a = m.line, "begin"_a = m.begin, "end"_a = m.end, "x"_a = m.x,
+                             "frequency_hz"_a = m.frequency_hz, "distance"_a = m.distance));
+  return py::dict("coordinate"_a = along.modes.coordinate.name, "unit"_a = along.modes.coordinate.unit, "x"_a = x,
+                  "frequencies_hz"_a = frequencies, "damping_ratios"_a = damping, "assurance"_a = assurance,
+                  "shapes"_a = shapes, "moves_most"_a = along.modes.moves_most, "gaps"_a = gaps,
+                  "speed"_a = along.speed, "meetings"_a = meetings);
+}
+
+py::dict size_values(const apps::SizeResult &found)
+{
+  py::list ladder, all, proof;
+  for (const apps::SizeRung &rung : found.ladder)
+    ladder.append(rung_values(rung));
+  for (const apps::SizeRung &rung : found.all)
+    all.append(rung_values(rung));
+  for (const apps::SizeProof &output : found.proof)
+    proof.append(py::dict("output"_a = output.output, "unit"_a = output.unit, "value"_a = output.value,
+                          "finer"_a = output.finer));
+  return py::dict("met"_a = found.met, "tolerance"_a = found.tolerance, "ladder"_a = ladder, "chosen"_a = found.chosen,
+                  "stopped"_a = found.stopped, "proof"_a = proof, "finer"_a = found.finer,
+                  "left_out"_a = found.left_out, "missing"_a = found.missing, "all"_a = all);
+}
+
+py::dict stability_values(const apps::StabilityStudy &study)
+{
+  const auto      n = Eigen::Index(study.modes.size());
+  Eigen::MatrixXd modes(n, 6);
+  for (Eigen::Index i = 0; i < n; ++i)
+  {
+    const coupling::ModeAccuracy &mode = study.modes[std::size_t(i)];
+    modes.row(i) << mode.mode.omega / (2. * M_PI), mode.mode.zeta, mode.omega_h, mode.spectral_radius,
+        mode.numerical_damping, mode.period_error;
+  }
+  py::list methods;
+  for (const apps::MethodVerdict &verdict : study.verdicts)
+    methods.append(py::dict("method"_a = verdict.method, "growing"_a = verdict.growing, "growth"_a = verdict.growth,
+                            "worst_hz"_a = verdict.worst_hz, "step_that_works"_a = verdict.step_that_works,
+                            "lowest_period_error"_a  = verdict.lowest_period_error,
+                            "highest_period_error"_a = verdict.highest_period_error));
+  return py::dict("method"_a = study.method, "modes"_a = modes, "methods"_a = methods, "notes"_a = study.notes);
+}
+
+} // namespace gestell::python

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "apps/output/report/stability_report.h"
+#include "apps/output/values/result.h"
+
+#include <pybind11/pybind11.h>
+
+namespace gestell::python
+{
+
+/// What is computed beside runs, as dicts of arrays, texts and numbers in SI; gestell.py gives them their names.
+pybind11::dict periodic_values(const apps::PeriodicResult &found);
+pybind11::dict along_values(const apps::AlongResult &along);
+pybind11::dict size_values(const apps::SizeResult &found);
+pybind11::dict stability_values(const apps::StabilityStudy &study);
+
+} // namespace gestell::python

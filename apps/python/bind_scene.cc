@@ -1,0 +1,114 @@
+#include "apps/python/bind_scene.h"
+#include "apps/python/answer_values.h"
+#include "apps/python/python_scene.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+namespace gestell::python
+{
+namespace
+{
+
+namespace py = pybind11;
+using namespace pybind11::literals;
+using Names = std::vector<std::string>;
+
+std::shared_ptr<PythonResult> run(const PythonScene &scene, std::optional<Names> signals, bool history, bool lean,
+                                  std::string sensitivities, py::object progress)
+{
+  return scene.run({std::move(signals), history, lean, std::move(sensitivities), std::move(progress)});
+}
+
+std::shared_ptr<PythonResult> modes_along(const PythonScene &scene, const std::string &along, const std::string &from,
+                                          const std::string &to, int positions, const std::string &configuration,
+                                          Names hold, const std::string &speed, int orders, py::object progress)
+{
+  apps::ModesOptions options;
+  options.along         = along;
+  options.from          = from;
+  options.to            = to;
+  options.positions     = positions;
+  options.configuration = configuration;
+  options.hold          = std::move(hold);
+  options.speed         = speed;
+  options.orders        = orders;
+  return scene.modes(options, std::move(progress));
+}
+
+std::shared_ptr<PythonResult> periodic(const PythonScene &scene, const std::string &method, const std::string &period,
+                                       int ratio, int harmonics, const std::string &along, const std::string &from,
+                                       const std::string &to, int points, const std::string &check, py::object progress)
+{
+  apps::PeriodicRequest request;
+  request.method    = method;
+  request.period    = period;
+  request.ratio     = ratio;
+  request.harmonics = harmonics;
+  request.along     = along;
+  request.from      = from;
+  request.to        = to;
+  request.points    = points;
+  request.check     = check;
+  return scene.periodic(request, std::move(progress));
+}
+
+apps::FrfOptions response_options(Names from, Names to, const std::string &kind, const std::string &at)
+{
+  apps::FrfOptions options;
+  options.from = std::move(from);
+  options.to   = std::move(to);
+  options.kind = kind;
+  options.at   = at;
+  return options;
+}
+
+std::shared_ptr<PythonResult> frequency_response(const PythonScene &scene, Names from, Names to,
+                                                 const std::string &kind, const std::string &at,
+                                                 const std::string &lowest, const std::string &highest, int points)
+{
+  apps::FrfOptions options = response_options(std::move(from), std::move(to), kind, at);
+  options.lowest           = lowest;
+  options.highest          = highest;
+  options.points           = points;
+  return scene.frequency_response(options);
+}
+
+py::tuple size(const PythonScene &scene, double tolerance, const std::string &outputs, double max_cpu, bool exhaustive)
+{
+  auto [found, sized] = scene.size({tolerance, outputs, max_cpu, exhaustive});
+  return py::make_tuple(size_values(found), std::move(sized));
+}
+
+} // namespace
+
+void bind_scene(py::module_ &module)
+{
+  py::class_<PythonScene>(module, "Scene", "A scene as gestell.Scene holds it.")
+      .def_static("of_file", &PythonScene::of_file)
+      .def_static("of_text", &PythonScene::of_text)
+      .def_static("of_values", &PythonScene::of_values)
+      .def("copy", [](const PythonScene &scene) { return scene; })
+      .def("set", &PythonScene::set)
+      .def("add", &PythonScene::add)
+      .def("get", &PythonScene::get)
+      .def("values", &PythonScene::values)
+      .def("name", &PythonScene::name)
+      .def("signals", &PythonScene::signals)
+      .def("check", &PythonScene::check)
+      .def("words", &PythonScene::words)
+      .def("run", &run)
+      .def("modes", [](const PythonScene &scene) { return scene.modes({}, py::none()); })
+      .def("modes_along", &modes_along)
+      .def("periodic", &periodic)
+      .def("frame", &PythonScene::frame)
+      .def("full_frame", &PythonScene::full_frame)
+      .def("frequency_response", &frequency_response)
+      .def("state_space",
+           [](const PythonScene &scene, Names from, Names to, const std::string &kind, const std::string &at)
+           { return scene.state_space(response_options(std::move(from), std::move(to), kind, at)); })
+      .def("stability", [](const PythonScene &scene, double step) { return stability_values(scene.stability(step)); })
+      .def("size", &size);
+}
+
+} // namespace gestell::python

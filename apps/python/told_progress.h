@@ -1,0 +1,39 @@
+#pragma once
+
+#include "apps/session/session.h"
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+
+namespace gestell::python
+{
+
+/**
+ * Tells a callable of Python the phase and the share of it that is done (negative: unknown), ten times a second at
+ * most.  What it raises ends the computation, which then raises it.
+ */
+class ToldProgress
+{
+public:
+  /// @param call  None: nobody is told
+  /// @param asked  of Ctrl-C
+  ToldProgress(pybind11::object call, const std::atomic<bool> &asked) : call_(std::move(call)), asked_(asked) {}
+
+  apps::Watch watch();
+  void        raise(); ///< what the callable raised, if it did; needs the lock of the interpreter
+
+private:
+  void tell(const std::string &phase, double share);
+
+  pybind11::object                      call_;
+  const std::atomic<bool>              &asked_;
+  std::atomic<bool>                     stop_{false}; ///< asked for by Ctrl-C or by the callable
+  pybind11::object                      raised_;
+  std::string                           phase_;
+  std::chrono::steady_clock::time_point told_{};
+};
+
+} // namespace gestell::python
