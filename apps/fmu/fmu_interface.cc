@@ -131,15 +131,18 @@ std::vector<FmuVariable> parameter_variables(const SceneNode &root, const std::s
   return variables;
 }
 
-void require_own_names(const Scene &scene, const FmuInterface &interface)
+/// A parameter that a signal is named like goes by its place in the scene.
+void tell_names_apart(const Scene &scene, FmuInterface &interface)
 {
   std::set<std::string> names;
-  for (const auto *group : {&interface.parameters, &interface.inputs, &interface.outputs})
+  for (const auto *group : {&interface.inputs, &interface.outputs})
     for (const FmuVariable &variable : *group)
       if (!names.insert(variable.name).second)
         throw std::invalid_argument(scene.file + ": '" + variable.name +
-                                    "' is a parameter, an input or a signal at once; in an FMU each needs a name of "
-                                    "its own");
+                                    "' is an input and a signal; in an FMU each needs a name of its own");
+  for (FmuVariable &parameter : interface.parameters)
+    if (names.count(parameter.name) > 0)
+      parameter.name = "parameters." + parameter.name;
 }
 
 } // namespace
@@ -197,7 +200,7 @@ FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coup
     }
   for (const coupling::Signal &signal : scene_signals(scene, machine))
     interface.outputs.push_back(measured(signal.name, signal.unit));
-  require_own_names(scene, interface);
+  tell_names_apart(scene, interface);
   return interface;
 }
 
