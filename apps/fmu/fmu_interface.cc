@@ -1,6 +1,7 @@
 #include "apps/fmu/fmu_interface.h"
 
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/build_measures.h"
 #include "apps/scene/file/parameters.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "mechanism/elements/profile_force.h"
@@ -180,6 +181,21 @@ std::vector<std::pair<std::string, InputHandles>> scene_inputs(const Scene &scen
   return inputs;
 }
 
+namespace
+{
+
+/// Where the frame has no such motion a force would do nothing.
+void require_coordinate(const Scene &scene, const ElementRequest &element, const coupling::Machine &machine)
+{
+  for (const MotionMeasure &motion : element.measures)
+    if (measure_of(motion, machine.model()).empty())
+      throw std::invalid_argument(
+          scene.element_places.at(element.name) + ": element." + element.name +
+          ": the input acts on a motion that the machine has not; take a coordinate that it has");
+}
+
+} // namespace
+
 FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coupling::Machine &machine,
                            const std::set<std::string> &frozen)
 {
@@ -188,6 +204,7 @@ FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coup
   for (const ElementRequest &element : scene.elements)
     if (const auto input = input_of(element))
     {
+      require_coordinate(scene, element, machine);
       const std::string unit  = machine.signal(input->name, path_of_input(element)).unit;
       const auto        known = std::find_if(interface.inputs.begin(), interface.inputs.end(),
                                              [&](const FmuVariable &other) { return other.name == input->name; });

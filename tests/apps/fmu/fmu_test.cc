@@ -360,6 +360,8 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
   refused(scene("press_minimal.toml") + " --inputs F_P=slide", {"scene.toml: 'F_P' is an input and a signal"});
   refused(scene("press_minimal.toml") + " --set start.rule='periodic'", {"an FMU does not look for periodic motions"});
   refused(scene("press_minimal.toml") + " --set 'element.rod.length=60 mm'", {"element.rod"});
+  refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a motion that the machine has not"});
+  refused(scene("press_minimal.toml") + " --inputs F=slide,F=crank", {"there is an input 'F' already"});
   refused(scene("press_minimal.toml") + " -o somewhere", {"give one of both"});
   const std::string file = folder.file("file", "");
   expect_answer(
