@@ -228,7 +228,7 @@ TEST(Inputs, StayAtTheInitialLevelOfARun)
   const std::string stop  = "[switch.stop]\nwhen = \"shaft.speed\"\nabove = 1\ntell = \"push\"\norder = \"hold\"\n";
   const std::string scene = rotor(2., "4 s");
   expect_complaint(scene + push("{ input = 'M' }") + stop, "hold");
-  expect_complaint(scene + push("{ input = '' }"), "an input needs a name");
+  expect_complaint(scene + push("{ input = 'a<b' }"), "an input needs a name");
   expect_complaint(scene + push("{ input = 'M', period = '1 s' }"), "leave out 'period' or 'input'");
   expect_complaint(scene + push("{ input = 'M' }") + "waits = true\n", "is of no meaning for an input");
 }
