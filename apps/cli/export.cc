@@ -1,5 +1,6 @@
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
 #include "apps/output/exchange/model_description.h"
 #include "apps/output/exchange/zip_file.h"
 #include "apps/output/result_folder.h"
@@ -74,22 +75,30 @@ void print_variables(const std::string &kind, const std::vector<FmuVariable> &va
   std::cout << (variables.size() > most ? " ...\n" : "\n");
 }
 
+/// Where the FMU is to be written.
+std::filesystem::path place_of_fmu(const CommonOptions &options, const ExportOptions &asked, const Scene &scene)
+{
+  if (!asked.fmu.empty() && !options.folder.empty())
+    throw std::invalid_argument("gestell export: --fmu names the file, -o the folder of one that is named after the "
+                                "scene; give one of both");
+  return asked.fmu.empty() ? results_path(options, scene) / (scene.name + ".fmu") : std::filesystem::path(asked.fmu);
+}
+
 int export_scene(const CommonOptions &options, const ExportOptions &asked)
 {
-  if (asked.fmu.empty())
-    throw std::invalid_argument("gestell export: names no file to write; give --fmu FILE.fmu");
   library_of_fmus();
-  const auto folder = std::filesystem::absolute(asked.fmu).parent_path();
-  require_writable(folder);
   ProgressLine progress(options.quiet);
-  SceneNode    root = read_scene_file(options.input, options.overrides);
-  add_scene_inputs(asked.inputs, read_scene(root, options.input, options.scripts), root);
+  SceneNode    root  = read_scene_file(options.input, options.overrides);
+  const Scene  plain = read_scene(root, options.input, options.scripts);
+  const auto   file  = place_of_fmu(options, asked, plain);
+  require_writable(std::filesystem::absolute(file).parent_path());
+  add_scene_inputs(asked.inputs, plain, root);
   Session         session(read_scene(root, options.input, options.scripts), options.overrides, {progress.callback()});
   const FmuAnswer answer = fmu_of(root, session);
   progress.done();
-  std::filesystem::create_directories(folder);
-  write_fmu(asked.fmu, answer);
-  std::cout << "FMU 2.0 for co-simulation: " << asked.fmu << '\n';
+  std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
+  write_fmu(file.string(), answer);
+  std::cout << "FMU 2.0 for co-simulation: " << file.string() << '\n';
   print_variables("inputs", answer.fmu.variables.inputs);
   print_variables("outputs", answer.fmu.variables.outputs);
   print_variables("parameters", answer.fmu.variables.parameters);
@@ -107,7 +116,8 @@ Command export_command()
           "the machine for other programs that step it together with their own: an FMU 2.0 for co-simulation",
           {"gestell export apps/scenes/press_minimal.toml --fmu press.fmu --inputs F=slide,frame.crown.uz"},
           CommandInput::scene,
-          {{"--fmu", &own->fmu, "file to write, such as press.fmu"},
+          {{"--fmu", &own->fmu,
+            "file to write, such as press.fmu (default: in the folder for results, named after the scene)"},
            {"--inputs", &own->inputs,
             "forces and speeds set from outside, beside those that the scene names: slide, crank, frame.crown.uz, "
             "drive.speed, or by a name of their own F=slide"}},

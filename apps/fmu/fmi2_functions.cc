@@ -36,7 +36,7 @@ using Phase = FmuComponent::Phase;
 
 constexpr const char *log_categories[] = {"logStatusWarning", "logStatusDiscard", "logStatusError", "logEvents"};
 
-/// The folder of "file:///tmp/fmu/resources".
+/// The folder that a URI "file:///..." names.
 std::filesystem::path folder_of(const std::string &uri)
 {
   std::string path = uri;

@@ -1,6 +1,7 @@
 #include "apps/fmu/fmu_interface.h"
 
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/build_measures.h"
 #include "apps/scene/file/parameters.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "mechanism/elements/profile_force.h"
@@ -131,15 +132,18 @@ std::vector<FmuVariable> parameter_variables(const SceneNode &root, const std::s
   return variables;
 }
 
-void require_own_names(const Scene &scene, const FmuInterface &interface)
+/// A parameter that a signal is named like goes by its place in the scene.
+void tell_names_apart(const Scene &scene, FmuInterface &interface)
 {
   std::set<std::string> names;
-  for (const auto *group : {&interface.parameters, &interface.inputs, &interface.outputs})
+  for (const auto *group : {&interface.inputs, &interface.outputs})
     for (const FmuVariable &variable : *group)
       if (!names.insert(variable.name).second)
         throw std::invalid_argument(scene.file + ": '" + variable.name +
-                                    "' is a parameter, an input or a signal at once; in an FMU each needs a name of "
-                                    "its own");
+                                    "' is an input and a signal; in an FMU each needs a name of its own");
+  for (FmuVariable &parameter : interface.parameters)
+    if (names.count(parameter.name) > 0)
+      parameter.name = "parameters." + parameter.name;
 }
 
 } // namespace
@@ -177,6 +181,21 @@ std::vector<std::pair<std::string, InputHandles>> scene_inputs(const Scene &scen
   return inputs;
 }
 
+namespace
+{
+
+/// Where the frame has no such motion a force would do nothing.
+void require_coordinate(const Scene &scene, const ElementRequest &element, const coupling::Machine &machine)
+{
+  for (const MotionMeasure &motion : element.measures)
+    if (measure_of(motion, machine.model()).empty())
+      throw std::invalid_argument(
+          scene.element_places.at(element.name) + ": element." + element.name +
+          ": the input acts on a motion that the machine has not; take a coordinate that it has");
+}
+
+} // namespace
+
 FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coupling::Machine &machine,
                            const std::set<std::string> &frozen)
 {
@@ -185,6 +204,7 @@ FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coup
   for (const ElementRequest &element : scene.elements)
     if (const auto input = input_of(element))
     {
+      require_coordinate(scene, element, machine);
       const std::string unit  = machine.signal(input->name, path_of_input(element)).unit;
       const auto        known = std::find_if(interface.inputs.begin(), interface.inputs.end(),
                                              [&](const FmuVariable &other) { return other.name == input->name; });
@@ -197,7 +217,7 @@ FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coup
     }
   for (const coupling::Signal &signal : scene_signals(scene, machine))
     interface.outputs.push_back(measured(signal.name, signal.unit));
-  require_own_names(scene, interface);
+  tell_names_apart(scene, interface);
   return interface;
 }
 

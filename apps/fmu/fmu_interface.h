@@ -25,7 +25,7 @@ std::vector<std::pair<std::string, InputHandles>> scene_inputs(const Scene &scen
  *
  * @param root    of the file that the scene was read from
  * @param frozen  parameters that are left out: a frame that was reduced before depends on them
- * @throws std::invalid_argument if a name means two things
+ * @throws std::invalid_argument if an input has the name of a signal
  */
 FmuInterface fmu_interface(const SceneNode &root, const Scene &scene, const coupling::Machine &machine,
                            const std::set<std::string> &frozen);

@@ -41,6 +41,12 @@ std::string with_point(double value)
   return text;
 }
 
+/// In the scene; names of parameters have no dots.
+std::string key_of(const FmuVariable &parameter)
+{
+  return (parameter.name.find('.') == std::string::npos ? "parameters." : "") + parameter.name;
+}
+
 void require_finite(double value, const std::string &name)
 {
   if (!std::isfinite(value))
@@ -83,7 +89,7 @@ void FmuModel::build()
   SceneNode root = root_;
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (const FmuVariable &variable = interface_.parameters[i]; parameters_[i] != variable.start)
-      apply_override(root, "parameters." + variable.name + "=" + with_point(parameters_[i]));
+      apply_override(root, key_of(variable) + "=" + with_point(parameters_[i]));
   scene_ = read_scene(root, (folder_ / "scene.toml").string(), fem::Scripts::harmless);
   require_run(scene_);
   handles_ = scene_inputs(scene_);

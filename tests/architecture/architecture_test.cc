@@ -81,6 +81,7 @@ TEST(Includes, OfScenesGoDownFromTheMachineToTheLanguage)
     for (std::size_t j = i + 1; j < folders.size(); ++j)
       EXPECT_TRUE(none(includes_matching(tree(), {"apps/scene/" + folders[i]}, {}, "apps/scene/" + folders[j])));
   EXPECT_TRUE(none(includes_matching(tree(), {"apps/scene/"}, {}, "apps/(?!scene/)")));
+  EXPECT_TRUE(none(includes_matching(tree(), {"apps/fmu/"}, {}, "apps/(?!fmu/|scene/|output/values/)")));
 }
 
 TEST(Includes, OfOutputGoDownFromTheFolderToTheText)

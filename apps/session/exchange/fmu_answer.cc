@@ -172,6 +172,13 @@ std::string guid_of(const std::map<std::string, std::string> &files)
   return "{" + coupling::content_key(recipe) + "}";
 }
 
+std::string without(std::string text, const std::string &part)
+{
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part))
+    text.erase(at, part.size());
+  return text;
+}
+
 FmuDescription described(const FmuModel &model)
 {
   constexpr double steps  = 100.; ///< of a run between which it communicates, about
@@ -208,9 +215,16 @@ FmuAnswer fmu_of(const SceneNode &root, Session &session)
   const PassingFolder folder;
   for (const auto &[name, bytes] : files)
     write_bytes(folder.path() / name, bytes);
-  FmuModel model(folder.path());
-  model.start();
-  answer.fmu = described(model);
+  try
+  {
+    FmuModel model(folder.path());
+    model.start();
+    answer.fmu = described(model);
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument("the scene as an FMU: " + without(error.what(), folder.path().string() + "/"));
+  }
   for (const auto &[name, bytes] : files)
     answer.files["resources/" + name] = bytes;
   return answer;

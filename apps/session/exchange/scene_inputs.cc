@@ -139,6 +139,8 @@ void add_input(const std::string &asked, const Scene &scene, SceneNode &root)
     if (!root.find("element"))
       set_entry(root, "element", parsed_keys("{}", place, root.folder));
     SceneNode &elements = *root.find("element");
+    if (elements.find(element_of_input(name)))
+      place.fail("there is an input '" + name + "' already; give each a name of its own, such as F2=" + where);
     set_entry(
         elements, element_of_input(name),
         parsed_keys("{ type = \"force profile\", " + motion.keys + ", profile = " + input + " }", place, root.folder));

@@ -43,11 +43,15 @@ inline double range_of(const CsvTable &table, const std::string &column)
 
 /// The largest difference between an FMU that communicates at the rows of a history and that history, by the range of
 /// each signal.
-inline double difference_from_run(const Fmu &fmu, const std::filesystem::path &history)
+/// @param values  of parameters and inputs at the start
+/// @param jumps   of the input F, by the number of the row where it takes another value
+inline double difference_from_run(const Fmu &fmu, const std::filesystem::path &history,
+                                  const std::map<std::string, double> &values = {},
+                                  const std::map<int, double>         &jumps  = {})
 {
   const CsvTable table(history.string());
   FmuInstance    instance(fmu);
-  EXPECT_EQ(instance.start({}, table.number(0, "t [s]")), fmi2OK) << instance.last_message();
+  EXPECT_EQ(instance.start(values, table.number(0, "t [s]")), fmi2OK) << instance.last_message();
   std::map<std::string, std::string> columns;
   std::map<std::string, double>      ranges;
   for (const FmuScalar &scalar : fmu.scalars())
@@ -65,6 +69,10 @@ inline double difference_from_run(const Fmu &fmu, const std::filesystem::path &h
         ADD_FAILURE() << t << ": " << instance.last_message();
     for (const auto &[name, column] : columns)
       worst = std::max(worst, std::abs(instance.get(name) - table.number(row, column)) / ranges[name]);
+    if (const auto jump = jumps.find(row); jump != jumps.end())
+    {
+      EXPECT_EQ(instance.set("F", jump->second), fmi2OK);
+    }
   }
   return worst;
 }

@@ -140,6 +140,22 @@ TEST(Fmu, MovesAsARunOfTheSameScene)
   EXPECT_LT(difference_from_run(*press.fmu, folder.results() / "history.csv"), 1e-9);
 }
 
+TEST(Fmu, AnInputThatJumpsIsACornerOfAProfile)
+{
+  const Folder      folder("fmu_profile");
+  const std::string pushed = "extends = \"" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml\"\n"
+                             "[output]\nstep = \"1 ms\"\npicture_step = 0\n"
+                             "[element.push]\ntype = \"force profile\"\nfrom = \"slide\"\ninitial = \"2 kN\"\n"
+                             "profile = [{ at = \"0.1 s\", to = \"-30 kN\" }, { at = \"0.15 s\", to = \"10 kN\" }]\n";
+  ASSERT_EQ(gestell("run " + folder.file("pushed.toml", pushed) + folder.option()).exit_code, 0);
+  const Exported press(folder, "press", scene("press_minimal.toml"), "--inputs F=slide");
+  // Both restart there, the run by a cut of its step, the FMU from its dense output: the error of a few steps of 1e4.
+  EXPECT_LT(
+      difference_from_run(*press.fmu, folder.results() / "history.csv", {{"F", 2e3}}, {{100, -30e3}, {150, 10e3}}),
+      1e-4);
+  EXPECT_GT(difference_from_run(*press.fmu, folder.results() / "history.csv"), 1e-3); // the force does something
+}
+
 TEST(Fmu, TakesTheSameStepsWhereverItCommunicates)
 {
   const Folder   folder("fmu_inside");
@@ -150,8 +166,10 @@ TEST(Fmu, TakesTheSameStepsWhereverItCommunicates)
   EXPECT_EQ(whole.step(0., 0.4), fmi2OK);
   for (int i = 0; i < 6000; ++i) // of six steps and two thirds
     ASSERT_EQ(parts.step(i * 0.4 / 6000, 0.4 / 6000), fmi2OK) << parts.last_message();
+  // Velocities inside a step are differences of positions, which leaves epsilon q / h of rounding: 1e-10 rad/s of the
+  // flywheel, on whose slip the motor depends.
   for (const std::string &signal : press.fmu->named("output"))
-    EXPECT_NEAR(parts.get(signal), whole.get(signal), 1e-12 * std::abs(whole.get(signal))) << signal;
+    EXPECT_NEAR(parts.get(signal), whole.get(signal), 1e-8 * std::abs(whole.get(signal))) << signal;
 }
 
 TEST(Fmu, ErrorOfACouplingFallsWithTheStepOfCommunicationAndItsSquare)
@@ -167,7 +185,7 @@ TEST(Fmu, ErrorOfACouplingFallsWithTheStepOfCommunicationAndItsSquare)
     const double coarse = coupling_error(*first.fmu, *second.fmu, 2e-3, how, x1, x2);
     const double fine   = coupling_error(*first.fmu, *second.fmu, 1e-3, how, x1, x2);
     EXPECT_NEAR(std::log2(coarse / fine), order, 0.15) << coarse << " " << fine;
-    EXPECT_LT(fine, how == Between::held ? 3e-4 : 1e-6);
+    EXPECT_LT(fine, how == Between::held ? 3e-4 : 1e-5);
   }
 }
 
@@ -233,11 +251,38 @@ TEST(Fmu, TakesParametersAndInputsOfItsOwnPerInstance)
   EXPECT_EQ(hard.get("x"), soft.get("x"));
 }
 
+TEST(Fmu, ASpeedDriveFollowsTheSpeedThatIsSet)
+{
+  const Folder      folder("fmu_drive");
+  const std::string text = "[body.shaft]\ntype = \"rotor\"\naxis = [0, 1, 0]\ninertia = \"2 kg m^2\"\n"
+                           "[element.drive]\ntype = \"speed drive\"\non = \"shaft\"\n"
+                           "proportional_gain = \"100 N m s/rad\"\nspeed = \"3 rad/s\"\n"
+                           "[start]\nrule = \"given\"\nv = { shaft = \"3 rad/s\" }\n"
+                           "[run]\nmethod = \"bdf\"\nstep = \"0.1 ms\"\nend = \"1 s\"\n"
+                           "[output.signals]\nw = \"shaft.speed\"\nwanted = \"drive.wanted_speed\"\n";
+  const Exported    drive(folder, "drive", folder.file("drive.toml", text), "--inputs drive.speed");
+  FmuInstance       one(*drive.fmu);
+  ASSERT_EQ(one.start(), fmi2OK) << one.last_message();
+  EXPECT_EQ(one.get("drive.speed"), 3.); // what the scene says
+  EXPECT_EQ(one.step(0., 0.05), fmi2OK);
+  EXPECT_NEAR(one.get("w"), 3., 1e-9);
+  EXPECT_EQ(one.set("drive.speed", 5.), fmi2OK);
+  EXPECT_EQ(one.step(0.05, 0.04), fmi2OK);
+  // J w' = k (w_r - w): two time constants J/k = 20 ms; h k/J = 5e-3, second order.
+  EXPECT_NEAR(one.get("w"), 5. - 2. * std::exp(-2.), 1e-5);
+  EXPECT_EQ(one.get("wanted"), 5.);
+  EXPECT_EQ(one.set_rate("drive.speed", 10.), fmi2OK);
+  EXPECT_EQ(one.step(0.09, 0.2), fmi2OK);
+  EXPECT_NEAR(one.get("wanted"), 7., 1e-12);
+  // Behind a ramp of 10 rad/s^2 it lags by 10 J/k once the start has faded, exp(-10) of a half.
+  EXPECT_NEAR(one.get("w"), 7. - 10. * 0.02, 1e-4);
+}
+
 TEST(Fmu, EndsWhereASwitchEndsTheRun)
 {
   const Folder folder("fmu_end");
   std::string  text = oscillator("one", 2., 800., 0.);
-  text += "[switch.far]\nwhen = \"mass.displacement\"\nabove = \"5 mm\"\norder = \"end\"\n";
+  text += "[switch.far]\nwhen = \"mass.displacement\"\nabove = \"5 mm\"\nends = \"it is far\"\n";
   const Exported slider(folder, "slider", folder.file("one.toml", text));
   FmuInstance    one(*slider.fmu);
   ASSERT_EQ(one.start({{"F", 8.}}), fmi2OK);
@@ -312,8 +357,12 @@ TEST(FmuExport, RefusesOddInputWithTheWayOut)
   };
   refused(scene("press_minimal.toml") + " --inputs slid", {"--inputs slid", "there is no place 'slid'", "'slide'"});
   refused(scene("press_minimal.toml") + " --inputs frame.crwn.uz", {"frame.crwn", "crown"});
-  refused(scene("press_minimal.toml") + " --inputs c_P=slide", {"'c_P' is a parameter, an input or a signal at once"});
-  expect_answer(gestell("export " + scene("press_minimal.toml")), 2, {"give --fmu FILE.fmu"});
+  refused(scene("press_minimal.toml") + " --inputs F_P=slide", {"scene.toml: 'F_P' is an input and a signal"});
+  refused(scene("press_minimal.toml") + " --set start.rule='periodic'", {"an FMU does not look for periodic motions"});
+  refused(scene("press_minimal.toml") + " --set 'element.rod.length=60 mm'", {"element.rod"});
+  refused(scene("press_minimal.toml") + " --inputs frame.crown.rx", {"acts on a motion that the machine has not"});
+  refused(scene("press_minimal.toml") + " --inputs F=slide,F=crank", {"there is an input 'F' already"});
+  refused(scene("press_minimal.toml") + " -o somewhere", {"give one of both"});
   const std::string file = folder.file("file", "");
   expect_answer(
       gestell("export " + scene("press_minimal.toml") + " --fmu " + file.substr(0, file.size() - 1) + "/x.fmu'"), 2,

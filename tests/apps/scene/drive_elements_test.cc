@@ -218,6 +218,21 @@ TEST(Profiles, RefuseWhatMakesNoSense)
   expect_complaint(scene("[{ at = \"1 s\", to = 5, slope = 1 }]"), "slope");
 }
 
+TEST(Inputs, StayAtTheInitialLevelOfARun)
+{
+  const auto push = [](const std::string &profile) {
+    return element("push", "force profile", {{"from", "shaft"}, {"initial", "10 N m"}, {"profile", profile}});
+  };
+  const SceneRun motion = run(rotor(2., "4 s") + push("{ input = 'M' }"));
+  EXPECT_NEAR(motion.signal("w").final, 10. / 2. * 4., 1e-6);
+  const std::string stop  = "[switch.stop]\nwhen = \"shaft.speed\"\nabove = 1\ntell = \"push\"\norder = \"hold\"\n";
+  const std::string scene = rotor(2., "4 s");
+  expect_complaint(scene + push("{ input = 'M' }") + stop, "hold");
+  expect_complaint(scene + push("{ input = 'a<b' }"), "an input needs a name");
+  expect_complaint(scene + push("{ input = 'M', period = '1 s' }"), "leave out 'period' or 'input'");
+  expect_complaint(scene + push("{ input = 'M' }") + "waits = true\n", "is of no meaning for an input");
+}
+
 // --- brake and clutch
 
 const std::string brake =
