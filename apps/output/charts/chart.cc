@@ -16,6 +16,7 @@ constexpr double left_margin = 68., right_margin = 18., bottom_margin = 44.;
 constexpr double title_height = 28., note_height = 18., panel_title_height = 20., legend_row = 17.;
 constexpr double letter_width = 6.5; ///< of the 12 px letters, on average
 
+constexpr double      close      = 8.;   ///< px between lines of events
 constexpr std::size_t long_curve = 2000; ///< points, beyond which it is thinned
 
 /// The drawing area of a panel with its axes.
@@ -109,11 +110,12 @@ std::string shades(const Chart &chart, const Area &area)
   return svg;
 }
 
-/// Numbers only where they do not collide.
+/// Numbers only where they do not collide; a line nearer than `close` to the one before is a tick at the top, so that
+/// many events do not hide the curves.
 std::string marks(const Chart &chart, const Area &area)
 {
   std::string svg;
-  double      free_from = area.left;
+  double      free_from = area.left, last_line = -std::numeric_limits<double>::infinity();
   for (const Mark &mark : chart.marks)
   {
     if (!chart.x.shows(mark.x))
@@ -122,8 +124,10 @@ std::string marks(const Chart &chart, const Area &area)
     const std::string number = std::to_string(mark.number);
     const double      half   = 3.2 * static_cast<double>(number.size());
     std::string       line   = mark.number > 0
-                                   ? svg_line("event", x, area.top, x, area.bottom)
+                                   ? svg_line("event", x, area.top, x, x < last_line + close ? area.top + 7. : area.bottom)
                                    : svg_line("line s" + colour_class(mark.colour), x, area.bottom - 14., x, area.bottom);
+    if (mark.number > 0 && x >= last_line + close)
+      last_line = x;
     if (mark.number > 0 && x - half >= free_from)
     {
       line += svg_text(x, area.top - 4., number, "small", "middle");

@@ -85,7 +85,7 @@ ChartAxis fitted(ChartAxis axis, double low, double high, double room)
   else
   {
     const double span = high - low, least = 1e-9 * std::max({std::abs(low), std::abs(high), 1e-30});
-    const double wider = span > least ? room * span : std::max(0.05 * std::abs(high), 1e-12);
+    const double wider = span > least ? room * span : high == 0. ? 1. : std::max(0.05 * std::abs(high), 1e-12);
     low -= wider;
     high += wider;
   }

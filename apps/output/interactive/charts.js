@@ -103,14 +103,15 @@
       canvas.font = "10.5px system-ui, sans-serif";
       canvas.textAlign = "center";
       canvas.setLineDash([2, 3]);
-      let free = area.x;
+      let free = area.x, last_line = -Infinity; // lines closer than 8 are ticks, so that many events hide no curve
       for (const [at, , number] of this.data.marks) {
         const x = graph.toDomXCoord(at), half = 3.2 * String(number).length;
         if (x < area.x || x > area.x + area.w) continue;
         canvas.beginPath();
         canvas.moveTo(x, number > 0 ? area.y : area.y + area.h - 14);
-        canvas.lineTo(x, area.y + area.h);
+        canvas.lineTo(x, number > 0 && x < last_line + 8 ? area.y + 7 : area.y + area.h);
         canvas.stroke();
+        if (number > 0 && x >= last_line + 8) last_line = x;
         if (number > 0 && x - half >= free) {
           canvas.fillText(number, x, area.y + 10);
           free = x + half + 2;

@@ -6,6 +6,7 @@
 #include "apps/output/interactive/live_chart.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/noise.h"
+#include "apps/output/text/change_text.h"
 #include "apps/output/text/html.h"
 #include "fem/values/number_text.h"
 
@@ -71,7 +72,7 @@ std::string mac_html(const ComparedShapes &shapes)
 
 std::string extremes_html(const coupling::RunResult &run, const ComparedRun &other)
 {
-  HtmlTable   table({"signal", "unit", "#largest", "#there", "#change", "#smallest", "#there", "#change"});
+  HtmlTable table({"signal", "unit", "#largest", "#there", "#its magnitude", "#smallest", "#there", "#its magnitude"});
   const Noise noise = noise_of(run.signals);
   for (const SharedSignal shared : shared_signals(run, other.run))
   {
@@ -79,7 +80,8 @@ std::string extremes_html(const coupling::RunResult &run, const ComparedRun &oth
     const double      size   = std::max({std::abs(a.min), std::abs(a.max), std::abs(b.min), std::abs(b.max)});
     const DisplayUnit unit   = display_unit(a.unit, size);
     const auto        text   = [&](double x) { return short_text(noise.without(a.unit, x) * unit.factor, 5); };
-    const auto        change = [](double x, double y) { return x != 0. ? deviation(y / x) : std::string(); };
+    const auto        clean  = [&](double x) { return noise.without(a.unit, x); };
+    const auto        change = [&](double x, double y) { return change_text(clean(x), clean(y)); };
     table.add({a.name, unit.unit, text(a.max), text(b.max), peak(change(a.max, b.max)), text(a.min), text(b.min),
                peak(change(a.min, b.min))});
   }

@@ -12,7 +12,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int    n_windows = 30, n_frequencies = 240, window_samples = 1024;
+constexpr int    n_windows = 30, n_frequencies = 240, fewest_samples = 1024, most_samples = 1 << 16;
+constexpr double below_nyquist = 0.8; ///< of half the rate of rows or samples
 constexpr double least_change = 0.2, window_share = 1. / 12., fewest_turns = 6.;
 
 double linear(const std::vector<double> &x, const std::vector<double> &y, double at)
@@ -41,11 +42,17 @@ std::vector<double> instants(const TurningHistory &history, double low, double h
   return found;
 }
 
+/// As many in a window as it has rows, so that nothing that they tell is folded down.
+int samples_of_window(double row_step, double length)
+{
+  return int(std::clamp(std::ceil(length / row_step), double(fewest_samples), double(most_samples)));
+}
+
 /// Amplitudes [n_frequencies] at multiples of `step` [Hz] about an instant.
 std::vector<double> spectrum(const TurningHistory &history, const std::vector<double> &y, double middle, double length,
-                             double step)
+                             double step, int window_samples)
 {
-  std::vector<double> samples(window_samples), weights(window_samples);
+  std::vector<double> samples(static_cast<std::size_t>(window_samples)), weights(samples);
   double              sum = 0., mean = 0.;
   for (int i = 0; i < window_samples; ++i)
   {
@@ -79,14 +86,17 @@ Waterfall waterfall(const std::string &name, const std::string &unit, const Turn
   const auto [low, high] = std::minmax_element(history.speed_rpm.begin(), history.speed_rpm.end());
   if (!(*high > 0.) || *high - *low < least_change * *high)
     return result;
-  const double length = std::max(window_share * (history.t.back() - history.t.front()), fewest_turns * 60. / *high);
-  const double step   = std::min(highest, 0.4 * window_samples / length) / n_frequencies;
+  const double length   = std::max(window_share * (history.t.back() - history.t.front()), fewest_turns * 60. / *high);
+  const double row_step = (history.t.back() - history.t.front()) / double(history.t.size() - 1);
+  const int    n        = samples_of_window(row_step, length);
+  const double rate     = std::min(1. / row_step, n / length); ///< [Hz] what tells the signal: rows or samples
+  const double step     = std::min(highest, 0.5 * below_nyquist * rate) / n_frequencies;
   for (int k = 1; k <= n_frequencies; ++k)
     result.frequencies_hz.push_back(k * step);
   for (const double t : instants(history, *low, *high, length))
   {
     result.speed_rpm.push_back(linear(history.t, history.speed_rpm, t));
-    result.amplitudes.push_back(spectrum(history, y, t, length, step));
+    result.amplitudes.push_back(spectrum(history, y, t, length, step, n));
   }
   return result;
 }

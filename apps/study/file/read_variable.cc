@@ -110,6 +110,7 @@ VariableRequest read_variable(const SceneNode &node, const SceneTable &given)
   variable.name             = given.name();
   request.keys  = table.has("key") ? table.texts("key") : std::vector<std::string>{"parameters." + variable.name};
   variable.key  = request.keys.front();
+  variable.more_keys.assign(request.keys.begin() + 1, request.keys.end());
   variable.unit = table.text("unit", "");
   request.place = table.has("key") ? table.place("key") : table.place();
   if (table.has("choices"))

@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr double kept_to = 1e-9; ///< of the size of a limit
+constexpr double tied_to = 1e-9; ///< of the objective
 
 bool keeps(const StudyTable &table, const RowChoiceTask &task, int row)
 {
@@ -49,6 +50,17 @@ int best_of(const StudyTable &table, const RowChoice &choice, const std::vector<
         best  = row;
       }
   return best;
+}
+
+/// Rows as good as the best one.
+std::vector<int> ties_of(const StudyTable &table, const RowChoice &choice)
+{
+  std::vector<int> ties;
+  const auto objective = [&](int row) { return objective_of(choice.task.goals, table.values.row(row).transpose()); };
+  for (const int row : choice.kept)
+    if (row != choice.best && objective(row) - objective(choice.best) <= tied_to * std::abs(objective(choice.best)))
+      ties.push_back(row);
+  return ties;
 }
 
 /// A word as it names a family: a truth by its variable.
@@ -105,6 +117,8 @@ RowChoice choose_row(const StudyTable &table, const RowChoiceTask &task)
     if (keeps(table, task, row))
       choice.kept.push_back(row);
   choice.best = best_of(table, choice, choice.kept);
+  if (choice.best >= 0)
+    choice.ties = ties_of(table, choice);
   for (const std::vector<int> &rows : families_of(table, task))
   {
     FamilyChoice family{rows, best_of(table, choice, rows)};

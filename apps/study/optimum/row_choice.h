@@ -28,6 +28,7 @@ struct RowChoice
 {
   RowChoiceTask             task{};
   int                       best = -1;  ///< row; -1: no run keeps all limits
+  std::vector<int>          ties{};     ///< other rows that keep them with the same objective, to rounding
   std::vector<int>          kept{};     ///< rows that keep them
   std::vector<int>          window{};   ///< rows of the best one's family next to it that keep them, too, by `over`
   std::vector<FamilyChoice> families{}; ///< in the order of their first rows

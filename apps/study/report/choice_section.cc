@@ -45,7 +45,8 @@ int word_at(const StudyTable &table, const RowChoiceTask &task, int row, std::si
   return by < task.by.size() ? int(std::lround(table.levels(row, task.by[by]))) : 0;
 }
 
-/// Colour and marker by the first word, the line by the second.  Filled markers keep all limits.
+/// Colour by the first word, marker and line by the last, so that of two kinds no curve looks like another.  Filled
+/// markers keep all limits.
 Curve curve_of(const StudyTable &table, const RowChoice &choice, const std::vector<int> &family, int output)
 {
   static constexpr Marker    markers[] = {Marker::disc, Marker::square, Marker::triangle, Marker::diamond};
@@ -57,7 +58,7 @@ Curve curve_of(const StudyTable &table, const RowChoice &choice, const std::vect
   Curve curve;
   curve.name   = family_of(table, choice.task, family.front());
   curve.colour = first;
-  curve.marker = markers[first % 4];
+  curve.marker = markers[(choice.task.by.size() > 1 ? second : first) % 4];
   curve.line   = lines[second % 4];
   for (const int row : family)
     if (table.runs[std::size_t(row)].status == RunStatus::done)
@@ -138,6 +139,15 @@ std::string chart_of(const StudyTable &table, const RowChoice &choice, int outpu
   return chart_svg(chart);
 }
 
+/// "run 94 is", "runs 94, 96 are"
+std::string ties_text(const std::vector<int> &rows)
+{
+  std::string numbers;
+  for (const int row : rows)
+    numbers += (numbers.empty() ? "" : ", ") + std::to_string(row + 1);
+  return rows.size() == 1 ? "run " + numbers + " is" : "runs " + numbers + " are";
+}
+
 /// "0.5 to 2.04"
 std::string window_text(const StudyTable &table, const RowChoiceTask &task, const FamilyChoice &family)
 {
@@ -188,6 +198,8 @@ std::string choice_text(const StudyFindings &findings)
   for (const int output : outputs_of(choice.task))
     text += "; " + table.outputs[std::size_t(output)].name + " " +
             axis_of(table, output).text_with_unit(table.values(choice.best, output));
+  if (!choice.ties.empty())
+    text += "; " + ties_text(choice.ties) + " as good";
   if (choice.window.size() < 2)
     return text;
   const ShownAxis x = axis_of(table, choice.task.over);

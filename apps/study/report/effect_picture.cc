@@ -99,7 +99,7 @@ std::string legend_svg(bool has_interactions)
 
 } // namespace
 
-std::string effect_picture(const ResponseSurface &surface)
+std::string effect_picture(const ResponseSurface &surface, double computed)
 {
   const std::vector<EffectBar> all = bars_of(surface), bars = widest(all);
   const auto                   k      = static_cast<Eigen::Index>(surface.variables.size());
@@ -114,8 +114,10 @@ std::string effect_picture(const ResponseSurface &surface)
   const ChartAxis   range = fitted(ChartAxis(), axis.shown(low), axis.shown(high), 0.02);
   const AxisMap     map(range, name_width + 6., tornado_width - numbers_width);
   const double      bottom = tornado_top + tornado_row * static_cast<double>(bars.size());
-  const std::string title  = "Change of " + axis.head() + " from " +
-                            shown_axis(surface.output, std::abs(middle)).text_with_unit(middle) + " in the middle";
+  const std::string title =
+      "Change of " + axis.head() + " from " + shown_axis(surface.output, std::abs(middle)).text_with_unit(middle) +
+      " in the middle" +
+      (std::isfinite(computed) ? " (run: " + shown_axis(surface.output, std::abs(middle)).text(computed) + ")" : "");
 
   std::string svg =
       svg_head(tornado_width, bottom + (bars.size() < all.size() ? 46. : 30.), title) +

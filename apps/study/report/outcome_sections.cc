@@ -1,5 +1,6 @@
 #include "apps/study/report/outcome_sections.h"
 
+#include "apps/output/text/change_text.h"
 #include "apps/output/text/html.h"
 #include "apps/study/report/shown_axis.h"
 #include "apps/study/report/study_charts.h"
@@ -78,8 +79,8 @@ std::string outputs_table(const StudyFindings &findings)
 {
   const StudyOptimum &optimum = *findings.optimum;
   const bool          surface = optimum.source == "surface";
-  HtmlTable           table(
-                {"output", "#in the middle", surface ? "#surface" : "#optimum", "#run", "#surface less run", "#change"});
+  HtmlTable           table({"output", "#in the middle", surface ? "#surface" : "#optimum", "#run", "#surface off by",
+                             "#magnitude from middle"});
   for (std::size_t i = 0; i < findings.table.outputs.size(); ++i)
   {
     const auto   at    = static_cast<Eigen::Index>(i);
@@ -89,7 +90,7 @@ std::string outputs_table(const StudyFindings &findings)
     const ShownAxis axis = shown_axis(findings.table.outputs[i], std::abs(found));
     const auto      text = [&](double x) { return std::isfinite(x) ? axis.text(x, 5) : std::string("–"); };
     table.add({axis.head(), text(before), text(found), peak(text(run)), signed_percent((found - run) / std::abs(run)),
-               signed_percent((after - before) / std::abs(before))});
+               change_text(before, after)});
   }
   return table.html();
 }

@@ -40,11 +40,13 @@ std::string overview(const StudyFindings &findings)
   for (const StudyVariable &variable : table.variables)
   {
     const ShownAxis axis = shown_axis(variable);
+    std::string     keys = variable.key;
+    for (const std::string &key : variable.more_keys)
+      keys += ", " + key;
     if (variable.words.empty())
-      variables.add(
-          {variable.name, variable.key, axis.text_with_unit(variable.from), axis.text_with_unit(variable.to)});
+      variables.add({variable.name, keys, axis.text_with_unit(variable.from), axis.text_with_unit(variable.to)});
     else
-      variables.add({variable.name, variable.key, variable.words.front(), variable.words.back()});
+      variables.add({variable.name, keys, variable.words.front(), variable.words.back()});
   }
   return "<p>" +
          escape_xml(count_text(table.n_runs(), "run") + " of " + findings.scene + " (" + design_text(findings.design) +

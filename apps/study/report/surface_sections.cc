@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace gestell::apps
@@ -40,13 +41,6 @@ std::string folded(const std::string &title, const std::string &html, bool open 
 {
   return std::string("<details") + (open ? " open" : "") + "><summary>" + escape_xml(title) + "</summary>\n" + html +
          "</details>\n";
-}
-
-/// Whether the runs differ by more than rounding.
-bool changes(const ResponseSurface &surface)
-{
-  const Eigen::VectorXd &y = surface.computed;
-  return y.maxCoeff() - y.minCoeff() > 1e-9 * y.cwiseAbs().maxCoeff();
 }
 
 std::string unchanged_note(const ResponseSurface &surface)
@@ -98,6 +92,11 @@ std::string quality_table(const StudyFindings &findings)
                    "#lack of fit, F", "#p"});
   for (const ResponseSurface &surface : findings.surfaces)
   {
+    if (!surface.changes())
+    {
+      table.add_note(surface.output.name + " does not change over the runs");
+      continue;
+    }
     const FitQuality &q    = surface.quality;
     const ShownAxis   axis = shown_axis(surface.output, q.standard_error);
     table.add({surface.output.name, std::to_string(q.n_runs), std::to_string(q.n_coefficients), number_or_dash(q.r2, 5),
@@ -210,7 +209,7 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
 
 std::string of_output(const StudyFindings &findings, const ResponseSurface &surface, Pictures &pictures)
 {
-  if (!changes(surface))
+  if (!surface.changes())
     return unchanged_note(surface);
   const std::vector<int> &runs = surface.runs;
   const std::string      &name = surface.output.name;
@@ -218,6 +217,16 @@ std::string of_output(const StudyFindings &findings, const ResponseSurface &surf
          drawn("slices_" + name, slices_chart(surface, findings.table.variables, optimum_point(findings)), pictures) +
          drawn("foretold_" + name, predicted_chart(surface, runs), pictures) +
          folded("Coefficients", coefficients_table(surface)) + folded("Run by run", residuals_table(surface, runs));
+}
+
+/// What the run in the middle of all ranges computed; nan: none was made.
+double middle_of(const StudyFindings &findings, const ResponseSurface &surface)
+{
+  const Eigen::MatrixXd coded = findings.table.coded();
+  for (std::size_t i = 0; i < surface.runs.size(); ++i)
+    if (coded.row(surface.runs[i]).cwiseAbs().maxCoeff() < 1e-9)
+      return surface.computed[Eigen::Index(i)];
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace
@@ -228,10 +237,14 @@ std::string effects_section(const StudyFindings &findings, Pictures &pictures)
     return "";
   std::string html;
   for (std::size_t i = 0; i < n_pictured(findings); ++i)
-    html += changes(findings.surfaces[i])
-                ? drawn("effects_" + findings.surfaces[i].output.name, effect_picture(findings.surfaces[i]), pictures)
+    html += findings.surfaces[i].changes()
+                ? drawn("effects_" + findings.surfaces[i].output.name,
+                        effect_picture(findings.surfaces[i], middle_of(findings, findings.surfaces[i])), pictures)
                 : unchanged_note(findings.surfaces[i]);
-  return section("effects", "Effects", html + left_out_note(findings) + shares_table(findings));
+  return section("effects", "Effects",
+                 "<p>By the surfaces: each variable goes over its range, the others stay in the middle. The value in "
+                 "the middle is that of the surface, beside it that of the run there, if one was made.</p>\n" +
+                     html + left_out_note(findings) + shares_table(findings));
 }
 
 std::string surfaces_section(const StudyFindings &findings, Pictures &pictures)

@@ -24,6 +24,11 @@ void tell_surfaces(const StudyFindings &findings, std::ostream &text)
   for (const ResponseSurface &surface : findings.surfaces)
   {
     const FitQuality &fit = surface.quality;
+    if (!surface.changes())
+    {
+      text << "surface of " << surface.output.name << ": it does not change over the runs\n";
+      continue;
+    }
     text << "surface of " << surface.output.name << ": R2 " << short_text(fit.r2, 5) << ", adjusted "
          << short_text(fit.adjusted_r2, 5) << ", predicted " << short_text(fit.predicted_r2, 5) << ", standard error "
          << with_unit(fit.standard_error, surface.output.unit) << '\n';

@@ -44,7 +44,7 @@ void warn_of_poor_fits(StudyFindings &findings)
 {
   constexpr double least_told = 0.5; ///< of the variance of runs that are left out of the fit
   for (const ResponseSurface &surface : findings.surfaces)
-    if (surface.quality.predicted_r2 < least_told)
+    if (surface.changes() && surface.quality.predicted_r2 < least_told)
       findings.warnings.push_back(
           "the surface of " + surface.output.name + " foretells runs that it was not fitted to " +
           (surface.quality.predicted_r2 > 0. ? "badly" : "no better than their mean") + " (predicted R2 " +

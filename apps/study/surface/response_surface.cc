@@ -18,6 +18,7 @@ namespace
 
 constexpr double not_a_number    = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_level      = 1e-9;  ///< coded levels nearer than this are the same
+constexpr double rounding        = 1e-9;  ///< of the largest value
 constexpr double full_leverage   = 1e-10; ///< 1 - h_ii below it is rounding
 constexpr double exact_repeating = 1e-24; ///< of the sum of squares: repeated runs that differ by rounding alone
 
@@ -178,6 +179,11 @@ std::string missing_text(const StudyTable &table, std::size_t n_with)
 }
 
 } // namespace
+
+bool ResponseSurface::changes() const
+{
+  return computed.size() > 0 && computed.maxCoeff() - computed.minCoeff() > rounding * computed.cwiseAbs().maxCoeff();
+}
 
 double ResponseSurface::value(const Eigen::VectorXd &xi) const
 {

@@ -50,6 +50,7 @@ struct ResponseSurface
   Eigen::VectorXd  left_out{}; ///< what the surface of all other runs says; nan where h_ii = 1
 
   bool            is_fitted() const { return coefficients.size() > 0; } ///< else it has no values
+  bool            changes() const;                                      ///< whether runs differ by more than rounding
   double          value(const Eigen::VectorXd &xi) const;
   Eigen::VectorXd gradient(const Eigen::VectorXd &xi) const;
   /// Standard error of the fitted mean: sigma sqrt(t^T (X^T X)^-1 t).

@@ -23,8 +23,9 @@ enum class Scatter
 struct StudyVariable
 {
   std::string              name{};
-  std::string              key{};  ///< of the scene, such as parameters.c_P
-  std::string              unit{}; ///< of all values below; empty: none
+  std::string              key{};       ///< of the scene, such as parameters.c_P
+  std::vector<std::string> more_keys{}; ///< that take its value, too
+  std::string              unit{};      ///< of all values below; empty: none
   double                   from = -1., to = 1.;
   std::vector<double>      levels{}; ///< of a full factorial design, ascending; empty: as many as it asks for, evenly
   Scatter                  scatter = Scatter::none;

@@ -114,6 +114,36 @@ TEST(Waterfall, KeepsAVibrationOfItsOwnInPlaceWhileOrdersMove)
   }
 }
 
+/// A run-up from 10 to 40 turns a second in 4 s, and a vibration of amplitude 1 beside it.
+apps::Waterfall of_vibration(double hz, double row_step, double highest)
+{
+  apps::TurningHistory history;
+  std::vector<double>  y;
+  for (double t = 0.; t <= 4.; t += row_step)
+  {
+    history.t.push_back(t);
+    history.speed_rpm.push_back(60. * (10. + 7.5 * t));
+    y.push_back(std::sin(two_pi * hz * t));
+  }
+  return apps::waterfall("y", "m", history, y, highest);
+}
+
+// Of 1024 samples in a window of 1/3 s, 3000 Hz would appear at 72 Hz.
+TEST(Waterfall, DoesNotFoldDownWhatTheRowsTell)
+{
+  const apps::Waterfall spectra = of_vibration(3000., 1e-4, 120.);
+  ASSERT_GT(spectra.amplitudes.size(), 20u);
+  for (const auto &row : spectra.amplitudes)
+    EXPECT_LT(*std::max_element(row.begin(), row.end()), 1e-3);
+}
+
+TEST(Waterfall, EndsBelowHalfTheRateOfRows)
+{
+  const apps::Waterfall spectra = of_vibration(30., 5e-3, 1000.);
+  ASSERT_FALSE(spectra.frequencies_hz.empty());
+  EXPECT_LT(spectra.frequencies_hz.back(), 100.);
+}
+
 TEST(OrderTracking, NeedsARotorThatTurns)
 {
   EXPECT_FALSE(apps::order_tracking(scene_with("block.uz"), run_up(true, 1e-3)));

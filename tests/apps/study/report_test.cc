@@ -126,7 +126,7 @@ TEST(StudyReport, OfAnOutputThatDoesNotChangeSaysSo)
 TEST(EffectPicture, HasABarForEachVariableAndWhatTwoAdd)
 {
   const StudyFindings findings = complete_findings();
-  const std::string   svg      = effect_picture(findings.surfaces[0]);
+  const std::string   svg      = effect_picture(findings.surfaces[0], std::nan(""));
 
   EXPECT_THAT(svg, HasSubstr("Change of F [kN] from 200 kN in the middle"));
   EXPECT_THAT(svg, HasSubstr("-10 / +10")) << "c_P";

@@ -1,0 +1,31 @@
+#include "apps/output/text/change_text.h"
+
+#include "fem/values/number_text.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+constexpr double the_same = 1e-9; ///< rounding
+}
+
+std::string change_text(double here, double there)
+{
+  if (!std::isfinite(here) || !std::isfinite(there))
+    return "";
+  if (here == there)
+    return "the same";
+  if (here == 0.)
+    return "";
+  if (here * there < 0.)
+    return "of the other sign";
+  const double more = there / here - 1.;
+  if (std::abs(more) < the_same)
+    return "the same";
+  return short_text(100. * std::abs(more), 3) + (more > 0. ? " % larger" : " % smaller");
+}
+
+} // namespace gestell::apps
