@@ -79,6 +79,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   if (!asked.compare.empty())
     require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));
+  session.keep_swings();
   Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
   add_story(session, result);
   if (other && !result.run->interrupted)

@@ -6,6 +6,7 @@
 #include "apps/scene/build/superposed_machine.h"
 #include "apps/scene/read/frame/matrix_units.h"
 #include "apps/session/commit.h"
+#include "apps/session/forces/acting_forces.h"
 #include "apps/version.h"
 #include "coupling/equilibrium/static_expansion.h"
 #include "coupling/frame/frame_cache.h"
@@ -338,7 +339,8 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
   add_poles(scene, small, q, how, result);
-  result.scenery = scenery_of(small);
+  result.scenery        = scenery_of(small);
+  result.scenery.forces = forces_in_space(scene, small);
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
     {

@@ -9,14 +9,16 @@
 #include "apps/session/joint_opening.h"
 #include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
-#include "apps/session/spectra/order_tracking.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
+#include "apps/session/spectra/order_tracking.h"
 #include "apps/session/spectra/spectra.h"
 #include "apps/session/stages/main_peak.h"
 #include "apps/session/stages/stage_answer.h"
+#include "apps/session/story/dense_pictures.h"
+#include "apps/session/story/swing_shares.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
 #include "coupling/simulation/simulation.h"
@@ -308,6 +310,8 @@ Result Session::run(const std::optional<std::string> &sensitivities)
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));
   result.peak = taken_peak(signals, *result.run);
+  if (result.peak)
+    add_dense_pictures(*result.run, *result.peak);
   states_for_pictures(prepared, *result.run);
   if (result.peak && prepared.companion)
     result.peak->q = prepared.project(result.peak->q);
@@ -411,6 +415,8 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
 {
   coupling::RunOptions run = scene_.run.options;
   ask_for_peak(signals, run.states);
+  if (swings_ && run.picture_step > 0.)
+    run.states.around = swing_extremes(signals, machine_->machine.size());
   const auto now = progress();
   now("integration", 0.);
   const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };

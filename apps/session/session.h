@@ -67,6 +67,9 @@ public:
   Result modes(const ModesOptions &options = {});
   /// Frequency responses of the machine linearised at an operating point.
   Result frequency_response(const FrfOptions &options);
+  /// From here on runs keep the states around the peaks of forces: pictures become dense around the main one, and
+  /// add_story() tells which modes make them.  Takes some of their time.
+  void keep_swings() { swings_ = true; }
   /// The scene simulated in time, with modes, stresses and warnings.
   /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
   Result run(const std::optional<std::string> &sensitivities = {});
@@ -94,7 +97,7 @@ private:
   Watch                          watch_;
   PhaseTimes                     times_;
   std::optional<PreparedMachine> machine_;
-  bool                           checked_ = false;
+  bool                           checked_ = false, swings_ = false;
   std::unique_ptr<Session>       begin_; ///< of a branch: results draw its machine
 };
 

@@ -1,16 +1,20 @@
 #include "coupling/simulation/extreme_states.h"
 
 #include "coupling/simulation/run_result.h"
+#include "coupling/simulation/states_around.h"
 
 #include <algorithm>
 
 namespace gestell::coupling
 {
 
-ExtremeStates::ExtremeStates(const TimeIntegrator &integrator, const StateRequest &request, double begin,
-                             const std::vector<SignalSummary> &signals, KeptStates &kept)
-    : integrator_(integrator), request_(request), signals_(signals), kept_(kept), idle_(request.empty()), begin_(begin)
+ExtremeStates::ExtremeStates(const Machine &machine, const TimeIntegrator &integrator, const StateRequest &request,
+                             double begin, const std::vector<SignalSummary> &signals, KeptStates &kept)
+    : machine_(machine), integrator_(integrator), request_(request), signals_(signals), kept_(kept),
+      idle_(request.empty()), begin_(begin)
 {
+  if (!idle_)
+    local_.resize(machine);
   kept_.at.resize(request.at.size());
   kept_.extremes.resize(request.extremes.size());
   for (std::size_t i = 0; i < request.at.size(); ++i)
@@ -22,11 +26,15 @@ Eigen::VectorXd ExtremeStates::state(double t)
   if (t >= integrator_.time())
   {
     v_ = integrator_.instant().v;
+    forces_on_measures(machine_, integrator_.local(), p_);
     return integrator_.instant().q;
   }
   q_.resize(integrator_.instant().q.size());
   v_.resize(q_.size());
-  integrator_.interpolate(std::max(t, integrator_.step_begin()), q_, v_);
+  const double inside = std::max(t, integrator_.step_begin());
+  integrator_.interpolate(inside, q_, v_);
+  integrator_.interpolate(inside, local_);
+  forces_on_measures(machine_, local_, p_);
   return q_;
 }
 
@@ -50,6 +58,7 @@ void ExtremeStates::follow()
       continue;
     kept   = {t, state(t)};
     kept.v = v_;
+    kept.p = p_;
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/system/time_integrator.h"
+#include "coupling/machine/machine.h"
 #include "coupling/simulation/run_result.h"
 
 #include <Eigen/Core>
@@ -15,7 +16,7 @@ namespace gestell::coupling
 class ExtremeStates
 {
 public:
-  ExtremeStates(const TimeIntegrator &integrator, const StateRequest &request, double begin,
+  ExtremeStates(const Machine &machine, const TimeIntegrator &integrator, const StateRequest &request, double begin,
                 const std::vector<SignalSummary> &signals, KeptStates &kept);
 
   /// At the start, after a step and after an event, when the extremes of the signals are known.
@@ -24,6 +25,7 @@ public:
 private:
   Eigen::VectorXd state(double t);
 
+  const Machine                    &machine_;
   const TimeIntegrator             &integrator_;
   const StateRequest               &request_;
   const std::vector<SignalSummary> &signals_;
@@ -31,7 +33,8 @@ private:
   bool                              idle_;
   double                            begin_;
   std::size_t                       next_at_ = 0;
-  Eigen::VectorXd                   q_, v_;
+  Eigen::VectorXd                   q_, v_, p_;
+  LocalState                        local_;
 };
 
 } // namespace gestell::coupling

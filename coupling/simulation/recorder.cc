@@ -69,7 +69,8 @@ std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signal
 Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                    const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result)
     : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),
-      keeper_(integrator, options.states, options.begin, result.signals, result.states), energy_(machine),
+      keeper_(machine, integrator, options.states, options.begin, result.signals, result.states),
+      around_(machine, integrator, options, result.signals, result.states), energy_(machine),
       power_rule_(power_rule(options.method, sampling)), coordinates_(coordinates_of(signals)),
       accelerations_(accelerations_for(signals, machine)), extremes_(*this, sampling, signals, result.signals),
       row_step_(output_step(options)), picture_step_(options.picture_step)
@@ -133,6 +134,7 @@ void Recorder::begin()
   pending_ = true;
   pictures();
   keeper_.follow();
+  around_.follow();
 }
 
 /// The motion behind the last event, at which the last step began or where there is none yet.
@@ -168,6 +170,7 @@ void Recorder::step()
   rows();
   pictures();
   keeper_.follow();
+  around_.follow();
 }
 
 /// A step between two events at one instant.
@@ -267,10 +270,17 @@ void Recorder::picture(double t)
   {
     between_.q = integrator_.instant().q;
     between_.v = integrator_.instant().v;
+    forces_on_measures(machine_, integrator_.local(), p_);
   }
   else
-    integrator_.interpolate(std::max(t, integrator_.step_begin()), between_.q, between_.v);
+  {
+    const double inside = std::max(t, integrator_.step_begin());
+    integrator_.interpolate(inside, between_.q, between_.v);
+    integrator_.interpolate(inside, between_.local);
+    forces_on_measures(machine_, between_.local, p_);
+  }
   result_.picture_times.push_back(t);
+  result_.picture_forces.push_back(p_);
   result_.picture_states.push_back(between_.q);
   result_.picture_velocities.push_back(between_.v);
 }
@@ -302,6 +312,7 @@ void Recorder::finish()
 {
   if (pending_)
     settle();
+  around_.finish();
   const SignalSample &last = extremes_.last();
   if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
     row(integrator_.time(), last, result_.energy);

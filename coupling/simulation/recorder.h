@@ -6,6 +6,7 @@
 #include "coupling/simulation/extreme_states.h"
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/signal_extremes.h"
+#include "coupling/simulation/states_around.h"
 
 #include <optional>
 #include <vector>
@@ -63,12 +64,13 @@ private:
   const std::vector<Signal>   &signals_;
   RunResult                   &result_;
   ExtremeStates                keeper_;
+  StatesAround                 around_;
   EnergyBalance                energy_;
   PowerRule                    power_rule_;
   EnergyGuard                  guard_;
   std::vector<int>             coordinates_; ///< that signals read
   Instant                      between_;
-  Eigen::VectorXd              a_;
+  Eigen::VectorXd              a_, p_;
   std::optional<Accelerations> accelerations_; ///< if a signal reads any
   SignalExtremes               extremes_;
   SignalSample                 probe_;            ///< scratch

@@ -26,7 +26,9 @@ struct StateRequest
   double                     step = 0.; ///< [s] of a grid from the begin of the run; 0: none
   std::vector<double>        at;        ///< [s] instants, ascending
   std::vector<SignalExtreme> extremes;
+  std::vector<SignalExtreme> around; ///< whose surroundings are kept, see StatesAround
 
+  /// What is asked for besides `around`.
   bool empty() const { return !(step > 0.) && at.empty() && extremes.empty(); }
 };
 
@@ -34,12 +36,14 @@ struct KeptState
 {
   double          t = 0.;
   Eigen::VectorXd q;   ///< empty: the run did not come so far
-  Eigen::VectorXd v{}; ///< of extremes alone
+  Eigen::VectorXd v{}; ///< of extremes and what is around them alone
+  Eigen::VectorXd p{}; ///< likewise: forces on the measures, see RunResult::picture_forces
 };
 
 struct KeptStates
 {
-  std::vector<KeptState> grid, at, extremes; ///< the last two as in the request
+  std::vector<KeptState>              grid, at, extremes; ///< the last two as in the request
+  std::vector<std::vector<KeptState>> around;             ///< as in the request, each ascending in time
 };
 
 struct RunOptions
@@ -99,6 +103,7 @@ struct RunResult
   std::vector<double>          picture_times;
   std::vector<Eigen::VectorXd> picture_states;     ///< q
   std::vector<Eigen::VectorXd> picture_velocities; ///< q' at the same times; empty where they are not known
+  std::vector<Eigen::VectorXd> picture_forces;     ///< p [n_u] on the measures of all elements; empty where not known
   KeptStates                   states;             ///< those asked for
   Eigen::VectorXd              end_state;          ///< q at the end
   std::vector<std::string>     warnings;

@@ -136,7 +136,32 @@ std::string mode_name(const char *of, std::size_t j, const coupling::Mode &mode)
   return std::string(of) + " mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz";
 }
 
-Json stress_json(const SeenMachine &machine, const StressAt &at, double top)
+/// Where the bodies are at an instant, between the pictures beside it; empty: no picture is near.
+Eigen::VectorXd state_at(const Result &result, double t)
+{
+  if (!result.run || result.run->picture_states.empty())
+    return {};
+  const auto &times  = result.run->picture_times;
+  const auto &states = result.run->picture_states;
+  const auto  behind = std::size_t(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+  if (behind == 0 || behind == times.size())
+    return states[std::min(behind, times.size() - 1)];
+  const double share = (t - times[behind - 1]) / (times[behind] - times[behind - 1]);
+  return states[behind - 1] + share * (states[behind] - states[behind - 1]);
+}
+
+/// Puts the bodies where they are at the instant of a stress, beside the frame.
+void put_bodies(Json &show, const SeenMachine &machine, const Eigen::VectorXd &q)
+{
+  if (q.size() == 0)
+    return;
+  const std::vector<PartMotion> motions = machine.motion({q});
+  for (std::size_t i = 1; i < motions.size(); ++i)
+    show["parts"][i] = {{"ideal", field_json(motions[i].ideal, exactness * machine.size())},
+                        {"moved", field_json(motions[i].displacement, exactness * machine.size())}};
+}
+
+Json stress_json(const SeenMachine &machine, const StressAt &at, double top, const Eigen::VectorXd &q)
 {
   std::vector<Eigen::VectorXd> displacements = machine.at_rest();
   std::vector<std::uint8_t>    colours;
@@ -150,6 +175,7 @@ Json stress_json(const SeenMachine &machine, const StressAt &at, double top)
   Json              show =
       still_json("stress", "stress" + (at.label.empty() ? "" : ", " + at.label) + ", t = " + short_text(at.t, 5) + " s",
                  displacements, motion_size * machine.size());
+  put_bodies(show, machine, q);
   show["colours"] = base64(colours);
   show["t"]       = at.t;
   show["scale"]   = "equivalent stress 0 to " + short_text(top * unit.factor, 3) + " " + unit.unit;
@@ -165,7 +191,7 @@ void add_stresses(Json &shows, const SeenMachine &machine, const Result &result)
     top = std::max(top, at.peak ? at.peak->von_mises : 0.);
   for (const StressAt &at : result.stress->instants)
     if (top > 0. && at.field.von_mises.size() == at.displacement.cols())
-      shows.push_back(stress_json(machine, at, top));
+      shows.push_back(stress_json(machine, at, top, state_at(result, at.t)));
 }
 
 Json shows_json(const SeenMachine &machine, const Result &result)

@@ -1,6 +1,7 @@
 #include "apps/output/interactive/seen_machine.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::apps
 {
@@ -8,6 +9,7 @@ namespace
 {
 
 constexpr std::size_t most_frame_triangles = 6500, most_body_triangles = 3000;
+constexpr double      swings_seen  = 3.;  ///< half swings on either side of the main peak whose pictures all stay
 constexpr int         most_columns = 400; ///< coordinates of a reduced frame
 
 CoarseMesh coarse(const Skin &skin, std::size_t most)
@@ -66,17 +68,27 @@ void add_instant(SeenInstants &seen, double t, const Eigen::VectorXd &q)
 
 SeenInstants seen_instants(const Result &result, std::size_t most)
 {
-  const auto       &times  = result.run->picture_times;
-  const auto       &states = result.run->picture_states;
-  const std::size_t every  = (states.size() + most - 1) / most;
+  const auto &times  = result.run->picture_times;
+  const auto &states = result.run->picture_states;
+  const auto &peak   = result.peak;
+  const auto  dense  = [&](double t)
+  { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= swings_seen * peak->half_swing; };
+  const std::size_t around = std::min(std::size_t(std::count_if(times.begin(), times.end(), dense)), most / 2);
+  const std::size_t every  = (states.size() - around + most - around - 1) / (most - around);
   SeenInstants      seen;
+  std::size_t       left = around, sparse = 0;
   for (std::size_t k = 0; k < states.size(); ++k)
-    if (k % every == 0 || k + 1 == states.size())
+  {
+    const bool by_peak = left > 0 && dense(times[k]);
+    if (by_peak)
+      --left;
+    if (by_peak || sparse++ % every == 0 || k + 1 == states.size())
     {
       seen.times.push_back(times[k]);
       seen.states.push_back(states[k]);
     }
-  if (const auto &peak = result.peak; peak && !states.empty() && peak->q.size() == states.front().size())
+  }
+  if (peak && !states.empty() && peak->q.size() == states.front().size())
     add_instant(seen, peak->t, peak->q);
   return seen;
 }

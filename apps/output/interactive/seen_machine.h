@@ -25,7 +25,8 @@ struct SeenInstants
   std::vector<Eigen::VectorXd> states;
 };
 
-/// Every k-th picture of the run, so that they are at most `most`; beside them the last one and the main peak stay.
+/// Every k-th picture of the run, so that they are at most `most`, but all of those within three half swings of the main
+/// peak, as far as these are no more than half of them; beside them the last one and the main peak stay.
 SeenInstants seen_instants(const Result &result, std::size_t most);
 
 /// Frame and bodies as the view draws them, on few triangles.

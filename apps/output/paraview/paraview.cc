@@ -1,27 +1,21 @@
 #include "apps/output/paraview/paraview.h"
 
+#include "apps/output/paraview/force_files.h"
+#include "apps/output/paraview/surface_file.h"
 #include "apps/output/paraview/view_macro.h"
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/text/write_file.h"
-#include "fem/values/number_text.h"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -31,81 +25,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr double shown_size = 0.05; ///< largest displacement of a mode shape as part of the frame's size
-
-/// Points and cells that stay, and the displacement that changes from instant to instant.
-struct Surface
-{
-  vtkNew<vtkPolyData>   poly;
-  vtkNew<vtkFloatArray> displacement;
-
-  Surface()
-  {
-    displacement->SetName("displacement [m]");
-    displacement->SetNumberOfComponents(3);
-    poly->GetPointData()->SetVectors(displacement);
-  }
-
-  template <typename Points>
-  void set_points(const Points &points)
-  {
-    vtkNew<vtkPoints> vtk_points;
-    vtk_points->SetNumberOfPoints(static_cast<vtkIdType>(points.size()));
-    vtkIdType i = 0;
-    for (const auto &x : points)
-      vtk_points->SetPoint(i++, x[0], x[1], x[2]);
-    poly->SetPoints(vtk_points);
-    displacement->SetNumberOfTuples(i);
-  }
-
-  void set_triangles(const std::vector<std::array<int, 3>> &triangles)
-  {
-    vtkNew<vtkCellArray> cells;
-    cells->Use32BitStorage();
-    for (const auto &triangle : triangles)
-    {
-      const vtkIdType corners[3] = {triangle[0], triangle[1], triangle[2]};
-      cells->InsertNextCell(3, corners);
-    }
-    poly->SetPolys(cells);
-  }
-
-  /// A value of several components at every point.
-  template <typename Columns>
-  void add_field(const char *name, const Columns &values)
-  {
-    vtkNew<vtkFloatArray> field;
-    field->SetName(name);
-    field->SetNumberOfComponents(static_cast<int>(values.rows()));
-    field->SetNumberOfTuples(values.cols());
-    for (Eigen::Index i = 0; i < values.size(); ++i)
-      field->SetValue(i, static_cast<float>(values(i % values.rows(), i / values.rows())));
-    poly->GetPointData()->AddArray(field);
-  }
-
-  void set_vertices()
-  {
-    vtkNew<vtkCellArray> cells;
-    cells->Use32BitStorage();
-    for (vtkIdType i = 0; i < poly->GetNumberOfPoints(); ++i)
-      cells->InsertNextCell(1, &i);
-    poly->SetVerts(cells);
-  }
-
-  void write(const fs::path &path)
-  {
-    displacement->Modified();
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->WriteToOutputStringOn(); // VTK leaves half a file where the disk is full, and does not always say so
-    writer->SetInputData(poly);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    // Half the size of plain numbers at no cost in time; zlib would halve it again and take ten times as long.
-    writer->SetCompressorTypeToLZ4();
-    if (writer->Write() == 0)
-      throw std::runtime_error(path.string() + ": VTK cannot make this file");
-    write_file(path, writer->GetOutputString());
-  }
-};
 
 /// The frame: its skin, or where it has none its interfaces as points.
 class FrameSurface
@@ -221,33 +140,6 @@ std::vector<Eigen::Vector3d> body_velocities(const Scenery &scenery, const Eigen
   return velocities;
 }
 
-/// The collection a .pvd file is: data sets with their time and part.
-class Collection
-{
-public:
-  void add(double time, int part, const std::string &file)
-  {
-    entries_ += "    <DataSet timestep=\"" + exact_text(time) + "\" part=\"" + std::to_string(part) + "\" file=\"" +
-                file + "\"/>\n";
-  }
-  std::string document() const
-  {
-    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-           "  <Collection>\n" +
-           entries_ + "  </Collection>\n</VTKFile>\n";
-  }
-
-private:
-  std::string entries_;
-};
-
-std::string numbered(const std::string &stem, std::size_t n)
-{
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "%05zu", n);
-  return stem + digits + ".vtp";
-}
-
 void write_frame_modes(const fs::path &folder, const Result &result, std::vector<std::string> &names)
 {
   FrameSurface frame(result.scenery);
@@ -324,6 +216,8 @@ ViewMacro macro_of(const Result &result)
   if (k < run.picture_velocities.size())
     for (const Eigen::Vector3d &v : body_velocities(result.scenery, run.picture_states[k], run.picture_velocities[k]))
       view.speed = std::max(view.speed, v.norm());
+  for (const ActingForce &force : forces_at(result, k))
+    view.force = std::max(view.force, force.force.norm());
   return view;
 }
 
@@ -354,6 +248,7 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
   }
   write_file(folder / "motion.pvd", collection.document());
   names.push_back("motion.pvd");
+  write_force_files(folder, result, names);
   write_file(folder / "view.py", view_macro(macro_of(result)));
   names.push_back("view.py");
 }

@@ -8,7 +8,8 @@ namespace
 {
 
 const char *const head =
-    R"py(# Opens this result in ParaView as one would want it: displacements enlarged, colours, arrows of velocities.
+    R"py(# Opens this result in ParaView as one would want it: displacements enlarged, colours, arrows of velocities
+# and, thicker, of the forces that elements exert on bodies.
 #   paraview --script=view.py           or in ParaView: View > Python Shell > Run Script
 #   pvbatch view.py picture.png         draws without a window
 import inspect, os, sys
@@ -54,6 +55,20 @@ if speed > 0.:
     ColorBy(drawn, None)
     drawn.AmbientColor = drawn.DiffuseColor = [0.8, 0.2, 0.1]
 
+if force > 0.:
+    acting = PVDReader(registrationName="forces", FileName=os.path.join(here, "forces.pvd"))
+    places = WarpByVector(registrationName="places of forces", Input=acting)
+    places.Vectors = ["POINTS", "displacement [m]"]
+    places.ScaleFactor = times
+    pushes = Glyph(registrationName="forces on bodies", Input=places, GlyphType="Arrow")
+    pushes.OrientationArray = ["POINTS", "force [N]"]
+    pushes.ScaleArray = ["POINTS", "force [N]"]
+    pushes.ScaleFactor = size / 6. / force
+    pushes.GlyphMode = "All Points"
+    shafts = Show(pushes, view)
+    shafts.ColorArrayName = [None, ""]
+    shafts.AmbientColor = shafts.DiffuseColor = [0.1, 0.5, 0.2]
+
 words = AnnotateTimeFilter(registrationName="time", Input=motion)
 words.Format = "t = {time:f} s, displacements " + "%g" % times + " times"
 written = Show(words, view)
@@ -81,7 +96,9 @@ std::string view_macro(const ViewMacro &view)
 {
   return head + ("times = " + exact_text(view.enlargement) + "  # enlargement of displacements\nbegin = ") +
          exact_text(view.time) + "  # [s], the main peak\nsize = " + exact_text(view.size) +
-         "  # [m], of the machine\nspeed = " + exact_text(view.speed) + "  # [m/s], the largest at that time\n" + body;
+         "  # [m], of the machine\nspeed = " + exact_text(view.speed) +
+         "  # [m/s], the largest at that time\nforce = " + exact_text(view.force) +
+         "  # [N], the largest at that time\n" + body;
 }
 
 } // namespace gestell::apps

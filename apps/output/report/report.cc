@@ -154,7 +154,9 @@ std::string events_section(const Result &result)
   for (const coupling::Event &event : result.run->events)
     table.add({std::to_string(++number), short_text(event.t, 7), event.name, event.kind});
   return section("events", "Events",
-                 "<p class=\"soft\">The numbers are those above the charts.</p>" + table.scrolled_html());
+                 "<p class=\"soft\">The numbers are those above the charts, where events that follow closely are short "
+                 "ticks.</p><div class=\"long\">" +
+                     table.scrolled_html() + "</div>\n");
 }
 
 /// What the residual of the balance says, and what it does not.
@@ -290,6 +292,12 @@ std::string modes_section(const Result &result, Report &report)
   return section("modes", "Natural frequencies and modes", html);
 }
 
+/// Relative errors of modes that are slow beside the step.
+double without_rounding(double error)
+{
+  return std::abs(error) < 1e-9 ? 0. : error;
+}
+
 /// What the method makes of each mode, the lowest first; modes above them follow the motion of the drives only.
 std::string accuracy_table(const coupling::RunResult &run)
 {
@@ -302,7 +310,8 @@ std::string accuracy_table(const coupling::RunResult &run)
     if (++shown <= most_accuracy_rows || mode.unstable)
       table.add({mode.origin == coupling::ModeOrigin::base ? "base system" : "closed elements",
                  short_text(mode.mode.omega / (2. * M_PI)), short_text(mode.mode.zeta), short_text(mode.omega_h),
-                 short_text(mode.numerical_damping, 3), short_text(100. * mode.period_error, 3) + " %",
+                 short_text(without_rounding(mode.numerical_damping), 3),
+                 short_text(100. * without_rounding(mode.period_error), 3) + " %",
                  peak(mode.unstable ? short_text(mode.spectral_radius, 6) : "stable", mode.unstable)});
   return "<h3>Modes as " + escape_xml(run.method) + " carries them</h3>" + table.scrolled_html();
 }

@@ -6,6 +6,9 @@
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gestell::apps
 {
 
@@ -27,11 +30,15 @@ std::string load_html(const LoadDuration &load, const Result &result)
                short_text(on.duration, 3), short_text(on.rise, 3), peak(short_text(on.fall, 3), on.fall < 0.25),
                short_text(on.fall_factor, 3), short_text(on.energy, 3), excitation_words(on),
                result.energy_shares ? strain_text(*result.energy_shares, std::size_t(on.mode)) : ""});
-  return "<p><strong>" + escape_xml(load.signal) + "</strong> (" + escape_xml(load.element) + ") acts for " +
-         milliseconds(load.t_fall - load.begin) + " from " + short_text(load.begin, 6) + " s on, rises within " +
-         milliseconds(load.rise) + ", is largest with " + short_text(unit.factor * load.peak, 5) + " " + unit.unit +
-         " at " + short_text(load.t_peak, 6) + " s and falls within " + milliseconds(load.fall) +
-         ". A fall within a quarter of a period acts on that mode like a step. The energy is what the fall leaves in "
+  return "<p><strong>" + escape_xml(load.signal) + "</strong> (" + escape_xml(load.element) + ") acts from " +
+         short_text(load.begin, 6) + " s on, where it comes above 1 % of its peak, and begins to fall, below 90 %, " +
+         milliseconds(load.t_fall - load.begin) +
+         " later: that is the duration beside the periods. Above 1 % it stays for " +
+         milliseconds(load.end - load.begin) + ". It rises within " + milliseconds(load.rise) + ", is largest with " +
+         short_text(unit.factor * load.peak, 5) + " " + unit.unit + " at " + short_text(load.t_peak, 6) +
+         " s and falls within " + milliseconds(load.fall) + "." +
+         (load.is_coarse() ? " " + coarse_rows_words(load) + "." : "") +
+         " A fall within a quarter of a period acts on that mode like a step. The energy is what the fall leaves in "
          "the mode, undamped and linear, where the modes are found.</p>\n" +
          table.html();
 }
@@ -40,14 +47,23 @@ std::string plays_html(const std::vector<PlayEstimate> &plays)
 {
   if (plays.empty())
     return "";
-  HtmlTable table({"element", "#from t [s]", "#to t [s]", "#amplitude", "#mean", "#equivalent stiffness",
+  HtmlTable table({"element", "#from t [s]", "#to t [s]", "#amplitude", "#mean", "unit", "#equivalent stiffness",
                    "#f estimated [Hz]", "#f seen [Hz]", "#f closed [Hz]", "limits"});
+  double    largest = 0.;
   for (const PlayEstimate &play : plays)
-    table.add({play.element, short_text(play.begin, 5), short_text(play.end, 5), short_text(play.amplitude, 3),
-               short_text(play.mean, 3), gestell::percent(play.stiffness_share, 3), short_text(play.frequency_hz, 4),
-               short_text(play.seen_hz, 4), short_text(play.closed_hz, 4), play.limits});
-  return "<h3>Play by its describing function</h3><p>Cycles between two events of one kind: frequency seen, and "
-         "that of the closed machine with the stiffness of the first harmonic at the amplitude of the cycle.</p>\n" +
+    largest = std::max({largest, play.amplitude, std::abs(play.mean)});
+  for (const PlayEstimate &play : plays)
+  {
+    const DisplayUnit unit = display_unit(play.unit, largest);
+    table.add({play.element, short_text(play.begin, 5), short_text(play.end, 5),
+               short_text(unit.factor * play.amplitude, 3), short_text(unit.factor * play.mean, 3), unit.unit,
+               gestell::percent(play.stiffness_share, 3), short_text(play.frequency_hz, 4), short_text(play.seen_hz, 4),
+               short_text(play.closed_hz, 4), play.limits});
+  }
+  return "<h3>Play by its describing function</h3><p>Cycles between two events of one kind in which the deflection "
+         "crosses "
+         "the whole play: frequency seen, and that of the closed machine with the stiffness of the first harmonic at "
+         "the amplitude of the cycle.</p>\n" +
          table.html();
 }
 

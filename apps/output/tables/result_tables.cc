@@ -358,14 +358,17 @@ std::string summary_json(const Result &result)
   {
     json["stages"]   = stages_json(*result.stages);
     json["lift_off"] = lift_off_json(*result.stages);
-    json["ringing"]  = ringing_json(result.stages->ringing);
+    json["ringing"]  = ringing_json(*result.stages);
   }
   if (result.story)
     json["story"] = story_json(*result.story);
   if (result.stress)
     json["stress"] = stress_json(*result.stress);
   if (result.peak)
-    json["main_peak"] = {{"signal", result.peak->signal}, {"value", result.peak->value}, {"t", result.peak->t}};
+    json["main_peak"] = {{"signal", result.peak->signal},
+                         {"value", result.peak->value},
+                         {"t", result.peak->t},
+                         {"half_swing", result.peak->half_swing > 0. ? Json(result.peak->half_swing) : Json()}};
   json["signals"]  = signals_json(run.signals);
   json["events"]   = array_of(run.events, event_json);
   json["method"]   = run.method;

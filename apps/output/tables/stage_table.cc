@@ -71,13 +71,14 @@ Json lift_off_json(const StageResult &result)
   return json;
 }
 
-Json ringing_json(const Ringing &ringing)
+Json ringing_json(const StageResult &result)
 {
-  Json modes = Json::array();
+  const Ringing &ringing = result.ringing;
+  Json           modes   = Json::array();
   for (const RingingMode &mode : ringing.modes)
     modes.push_back(mode_json(ringing, mode));
-  return {{"begin", ringing.begin},     {"end", ringing.end},           {"step", ringing.step},
-          {"signals", ringing.signals}, {"residual", ringing.residual}, {"modes", modes}};
+  return {{"begin", ringing.begin},       {"end", ringing.end}, {"step", ringing.step}, {"signals", ringing.signals},
+          {"residual", ringing.residual}, {"modes", modes},     {"note", result.reason}};
 }
 
 std::string stages_text(const StageResult &result)
@@ -89,6 +90,8 @@ std::string stages_text(const StageResult &result)
   add_lift_offs(result.lift_offs, text);
   if (!result.ringing.modes.empty())
     add_ringing(result.ringing, text);
+  if (!result.reason.empty() && !result.ringing.signals.empty())
+    text << "ringing: " << result.reason << '\n';
   return text.str();
 }
 

@@ -14,9 +14,18 @@ namespace
 
 Json load_json(const LoadDuration &load)
 {
-  Json json = {{"signal", load.signal}, {"element", load.element}, {"begin", load.begin}, {"end", load.end},
-               {"peak", load.peak},     {"t_peak", load.t_peak},   {"rise", load.rise},   {"t_fall", load.t_fall},
-               {"fall", load.fall},     {"modes", Json::array()}};
+  Json json = {{"signal", load.signal},
+               {"element", load.element},
+               {"begin", load.begin},
+               {"end", load.end},
+               {"peak", load.peak},
+               {"t_peak", load.t_peak},
+               {"rise", load.rise},
+               {"t_fall", load.t_fall},
+               {"fall", load.fall},
+               {"row_step", load.row_step},
+               {"is_coarse", load.is_coarse()},
+               {"modes", Json::array()}};
   for (const LoadOnMode &on : load.modes)
     json["modes"].push_back({{"mode", on.mode + 1},
                              {"frequency_hz", on.frequency_hz},
@@ -30,24 +39,21 @@ Json load_json(const LoadDuration &load)
 
 Json play_json(const PlayEstimate &play)
 {
-  return {{"element", play.element},
-          {"signal", play.signal},
-          {"begin", play.begin},
-          {"end", play.end},
-          {"amplitude", play.amplitude},
-          {"mean", play.mean},
-          {"stiffness_share", play.stiffness_share},
-          {"mode", play.mode + 1},
-          {"frequency_hz", play.frequency_hz},
-          {"seen_hz", play.seen_hz},
-          {"closed_hz", play.closed_hz},
+  return {{"element", play.element}, {"signal", play.signal},
+          {"unit", play.unit},       {"begin", play.begin},
+          {"end", play.end},         {"amplitude", play.amplitude},
+          {"mean", play.mean},       {"stiffness_share", play.stiffness_share},
+          {"mode", play.mode + 1},   {"frequency_hz", play.frequency_hz},
+          {"seen_hz", play.seen_hz}, {"closed_hz", play.closed_hz},
           {"limits", play.limits}};
 }
 
 void add_load(const LoadDuration &load, std::ostream &text)
 {
   text << load.signal << " acts from " << short_text(load.begin, 6) << " to " << short_text(load.end, 6)
-       << " s and falls within " << short_text(1e3 * load.fall, 4) << " ms\n"
+       << " s (above 1 % of its peak), " << short_text(1e3 * (load.t_fall - load.begin), 4)
+       << " ms until it begins to fall (below 90 %), and falls within " << short_text(1e3 * load.fall, 4) << " ms\n"
+       << (load.is_coarse() ? "  " + coarse_rows_words(load) + "\n" : "")
        << "  mode   f [Hz]   duration/T   rise/T   fall/T   left of a step   energy [J]\n";
   for (const LoadOnMode &on : load.modes)
     text << std::setw(6) << on.mode + 1 << std::setw(9) << short_text(on.frequency_hz, 4) << std::setw(13)
@@ -68,6 +74,12 @@ Json story_json(const RunStory &story)
   for (const PlayEstimate &play : story.plays)
     json["plays"].push_back(play_json(play));
   return json;
+}
+
+std::string coarse_rows_words(const LoadDuration &load)
+{
+  return "these times are coarse, as rows of the history are " + short_text(1e3 * load.row_step, 3) +
+         " ms apart: give output.step a smaller value";
 }
 
 std::string excitation_words(const LoadOnMode &on)

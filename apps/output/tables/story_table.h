@@ -14,6 +14,9 @@ Json story_json(const RunStory &story);
 /// What a load does to a mode, in words: "acts like a step", "excites it by 60 %", "hardly excites it".
 std::string excitation_words(const LoadOnMode &on);
 
+/// That times of a load are read from rows too far apart, and the way out.
+std::string coarse_rows_words(const LoadDuration &load);
+
 /// For a terminal: the loads against the periods, and the plays.
 std::string story_text(const RunStory &story);
 

@@ -79,6 +79,7 @@ struct PeakState
   std::string     signal, unit;
   double          value = 0., t = 0.; ///< in SI, [s]
   Eigen::VectorXd q;
+  double          half_swing = 0.; ///< [s] half a period of the vibration it belongs to; 0: unknown
 };
 
 /// All that is written about one computation: plain values, gathered by whoever computed them.

@@ -20,11 +20,15 @@ struct LoadOnMode
 /// A technological force from its first contact to its fall.
 struct LoadDuration
 {
-  std::string             signal, element, unit;
-  double                  begin = 0., end = 0.;              ///< [s] between them it is above a hundredth of its peak
-  double                  peak = 0., t_peak = 0.;            ///< with its sign
-  double                  rise = 0., t_fall = 0., fall = 0.; ///< [s] to 0.9 of the peak; from there down, see load_duration()
+  std::string signal, element, unit;
+  double      begin = 0., end = 0.;              ///< [s] between them it is above a hundredth of its peak
+  double      peak = 0., t_peak = 0.;            ///< with its sign
+  double      rise = 0., t_fall = 0., fall = 0.; ///< [s] to 0.9 of the peak; from there down, see load_duration()
+  double      row_step = 0.;                     ///< [s] largest distance of the rows these are read from
   std::vector<LoadOnMode> modes;
+
+  /// Whether rows are too far apart: fewer than ten over the time it acts, or fewer than four over its fall.
+  bool is_coarse() const { return 10. * row_step > t_fall - begin || 4. * row_step > fall; }
 };
 
 /// What happened at an instant.
@@ -38,7 +42,7 @@ struct StorySentence
 /// An element with play by its describing function, beside what the run shows.
 struct PlayEstimate
 {
-  std::string element, signal;
+  std::string element, signal, unit;     ///< of amplitude and mean: "m" or "rad"
   double      begin = 0., end = 0.;      ///< [s] of the oscillation that is looked at
   double      amplitude = 0., mean = 0.; ///< [m] or [rad] of the element's measure
   double      stiffness_share = 0.;      ///< equivalent over engaged stiffness

@@ -21,6 +21,17 @@ struct DrawnPart
   std::vector<std::array<int, 3>>    triangles; ///< into points, outside counter-clockwise
 };
 
+/// What an element, joint, spring or load does to one body at an instant.
+struct ActingForce
+{
+  std::string     name;         ///< of the element
+  std::string     body;         ///< on which it acts: "slide", "frame.crown", "ground"
+  Eigen::Vector3d at;           ///< [m] where, by the motion of bodies alone
+  Eigen::Vector3d displacement; ///< [m] with that of the frame, as of Shape
+  Eigen::Vector3d force;        ///< [N] on the body
+  Eigen::Vector3d torque;       ///< [N m] on the body, about that place
+};
+
 /// What can be seen of a machine: the skin of its frame, its interfaces and the bodies of its mechanism.
 struct Scenery
 {
@@ -38,6 +49,12 @@ struct Scenery
   std::vector<coupling::DrawnBar>                            bars;
   std::vector<coupling::DrawnPin>                            pins;
   std::vector<DrawnPart>                                     parts; ///< bodies without one are drawn by their sizes
+
+  /// Forces at t [s], q, q' [n] with the forces p [n_u] on the measures of all elements, always the same ones in one
+  /// order; empty: nobody tells them.
+  std::function<std::vector<ActingForce>(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
+                                         const Eigen::VectorXd &p)>
+      forces;
 
   bool has_skin() const { return !points.empty(); }
 

@@ -20,6 +20,8 @@ void add_picture(const coupling::KeptState &kept, coupling::RunResult &run)
   times.insert(place, kept.t);
   run.picture_states.insert(run.picture_states.begin() + n, kept.q);
   run.picture_velocities.insert(run.picture_velocities.begin() + n, kept.v);
+  if (run.picture_forces.size() + 1 == times.size())
+    run.picture_forces.insert(run.picture_forces.begin() + n, kept.p);
 }
 
 } // namespace

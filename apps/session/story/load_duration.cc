@@ -58,18 +58,6 @@ bool changes_sign(const std::vector<double> &F, double peak)
   return peak * other < 0. && std::abs(other) > acts * std::abs(peak);
 }
 
-/// Whether it has no stiffness where the modes are found: tools and loads, not springs and contacts that hold.
-bool is_tool(const mechanism::Element &element)
-{
-  if (!element.force_law() || element.work() == mechanism::Work::input)
-    return false;
-  const auto          k = std::size_t(element.n_measures());
-  std::vector<double> u(k, 0.), K(k * k, 0.), D(k * k, 0.);
-  mechanism::engaged(element, u.data(), K.data(), D.data());
-  const auto zero = [](double x) { return x == 0.; };
-  return std::all_of(K.begin(), K.end(), zero) && std::all_of(D.begin(), D.end(), zero);
-}
-
 /// w . v of the single measure of an element; nan of several.
 double moved(const coupling::ElementPlacement &placement, const coupling::Mode &mode)
 {
@@ -100,7 +88,62 @@ void add_modes(const coupling::ElementPlacement &placement, const Result &result
       load.modes.push_back(on_mode(load, placement, result, j));
 }
 
+/// Samples of a signal: rows, and between them the values on both sides of located events, where a tool breaks through.
+struct Samples
+{
+  std::vector<double> t, F;
+
+  void add(double at, double value)
+  {
+    t.push_back(at);
+    F.push_back(value);
+  }
+};
+
+Samples samples_of(const coupling::RunResult &run, std::size_t s)
+{
+  const HistoryRows rows(run);
+  Samples           samples;
+  std::size_t       e          = 0;
+  const auto        add_events = [&](double until)
+  {
+    for (; e < run.event_values.size() && run.event_values[e].t < until; ++e)
+      if (const coupling::EventValues &at = run.event_values[e];
+          !at.before.empty() && !at.behind.empty() && !samples.t.empty() && at.t > samples.t.back())
+      {
+        samples.add(at.t, at.before[s]);
+        samples.add(at.t, at.behind[s]);
+      }
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    add_events(rows.t(i));
+    samples.add(rows.t(i), rows.at(i, s + 1));
+  }
+  return samples;
+}
+
+double largest_gap(const std::vector<double> &t, double begin, double end)
+{
+  double gap = 0.;
+  for (std::size_t i = 1; i < t.size(); ++i)
+    if (t[i] > begin && t[i - 1] < end)
+      gap = std::max(gap, t[i] - t[i - 1]);
+  return gap;
+}
+
 } // namespace
+
+bool is_tool(const mechanism::Element &element)
+{
+  if (!element.force_law() || element.work() == mechanism::Work::input)
+    return false;
+  const auto          k = std::size_t(element.n_measures());
+  std::vector<double> u(k, 0.), K(k * k, 0.), D(k * k, 0.);
+  mechanism::engaged(element, u.data(), K.data(), D.data());
+  const auto zero = [](double x) { return x == 0.; };
+  return std::all_of(K.begin(), K.end(), zero) && std::all_of(D.begin(), D.end(), zero);
+}
 
 double fall_factor(double fall_over_period)
 {
@@ -130,13 +173,14 @@ std::optional<LoadDuration> load_duration(const std::vector<double> &t, const st
   while (!above(risen, high))
     ++risen;
   LoadDuration load;
-  load.begin  = t[begin];
-  load.end    = t[end];
-  load.peak   = *largest;
-  load.t_peak = t[peak];
-  load.rise   = t[risen] - t[begin];
-  load.t_fall = t[fall];
-  load.fall   = (t[down] - t[fall]) / (high - low);
+  load.begin    = t[begin];
+  load.end      = t[end];
+  load.peak     = *largest;
+  load.t_peak   = t[peak];
+  load.rise     = t[risen] - t[begin];
+  load.t_fall   = t[fall];
+  load.fall     = (t[down] - t[fall]) / (high - low);
+  load.row_step = largest_gap(t, load.begin, load.end);
   return load;
 }
 
@@ -144,11 +188,7 @@ std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &si
                                          const Result &result)
 {
   std::vector<LoadDuration> loads;
-  const HistoryRows         rows(*result.run);
-  std::vector<double>       t;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    t.push_back(rows.t(i));
-  for (std::size_t s = 0; s < signals.size() && !t.empty(); ++s)
+  for (std::size_t s = 0; s < signals.size(); ++s)
   {
     const coupling::Signal &signal = signals[s];
     if (signal.element < 0 || (signal.unit != "N" && signal.unit != "N m"))
@@ -156,10 +196,8 @@ std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &si
     const coupling::ElementPlacement &placement = machine.model().elements()[std::size_t(signal.element)];
     if (!is_tool(*placement.element))
       continue;
-    std::vector<double> F;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      F.push_back(rows.at(i, s + 1));
-    if (auto load = load_duration(t, F))
+    const Samples samples = samples_of(*result.run, s);
+    if (auto load = load_duration(samples.t, samples.F))
     {
       load->signal  = signal.name;
       load->element = placement.name;

@@ -14,9 +14,15 @@ namespace gestell::apps
  * that are parted from it by less than a tenth of its duration (the tool bounces); how long it rises to 0.9 of
  * the peak; and how long a fall from there to 0.1 would last as a whole, were it even.
  *
+ * Of events, which the rows may lie far from, the force on both sides is a sample, too; `row_step` tells how far apart
+ * they lie.
+ *
  * @return none of a force that acts at the begin or at the end, or changes its sign
  */
 std::optional<LoadDuration> load_duration(const std::vector<double> &t, const std::vector<double> &F);
+
+/// Whether it has no stiffness where the modes are found: tools and loads, not springs and contacts that hold.
+bool is_tool(const mechanism::Element &element);
 
 /**
  * Free vibration behind a force that falls evenly by dF within tau, beside that of a sudden fall; a mode v of frequency

@@ -17,12 +17,13 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_cycles = 8;
-constexpr double      mostly_open = 0.3;  ///< kappa below which the motion is far from harmonic
-constexpr double      decays      = 0.3;  ///< share of the amplitude lost until the next cycle
-constexpr double      same_place  = 0.1;  ///< of the range of a cycle
-constexpr double      bent        = 0.05; ///< of its way, that a deflection may deviate from a straight one
-constexpr double      step        = 1e-7; ///< [m, rad] of a difference quotient
+constexpr std::size_t most_cycles    = 8;
+constexpr double      mostly_open    = 0.3;  ///< kappa below which the motion is far from harmonic
+constexpr double      decays         = 0.3;  ///< share of the amplitude lost until the next cycle
+constexpr double      same_place     = 0.1;  ///< of the range of a cycle
+constexpr double      coarsest_cycle = 0.05; ///< distance of rows, of a cycle
+constexpr double      bent           = 0.05; ///< of its way, that a deflection may deviate from a straight one
+constexpr double      step           = 1e-7; ///< [m, rad] of a difference quotient
 
 /// An element with play, where the modes are found.
 struct PlayedElement
@@ -119,6 +120,35 @@ double softened_hz(const Result &result, const Eigen::MatrixXd &K_modes, double 
   return std::sqrt(std::max(0., solver.eigenvalues()[nearest])) / two_pi;
 }
 
+/// Whether the force of the element turns its sign between the two ends of a cycle's deflection: one that is loaded on
+/// one side only does not swing through its play.
+bool crosses(const PlayedElement &played, const coupling::Signal &signal, const Eigen::VectorXd &u,
+             const Eigen::VectorXd &d, const PlayEstimate &cycle)
+{
+  const Eigen::VectorXd own = u.segment(played.first, d.size()), zero = Eigen::VectorXd::Zero(d.size());
+  const double at = deflection(played, signal, own), rate = deflection_rate(played, signal, own, d, cycle.amplitude);
+  const auto   force_at = [&](double s)
+  {
+    const Eigen::VectorXd        moved = own + (s - at) / rate * d;
+    const mechanism::LocalMotion motion{0., moved.data(), zero.data(), zero.data()};
+    const auto                   history = mechanism::started(*played.placement->element, motion);
+    Eigen::VectorXd              p(d.size());
+    played.placement->element->force_law()->force(motion, history.data(), p.data());
+    return p.dot(d);
+  };
+  return force_at(cycle.mean - cycle.amplitude) * force_at(cycle.mean + cycle.amplitude) < 0.;
+}
+
+/// Whether rows are close enough to tell the amplitude of a cycle.
+bool fine_rows(const HistoryRows &rows, double begin, double end)
+{
+  double widest = 0.;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (rows.t(i) > begin && rows.t(i - 1) < end)
+      widest = std::max(widest, rows.t(i) - rows.t(i - 1));
+  return widest <= coarsest_cycle * (end - begin);
+}
+
 double range_between(const HistoryRows &rows, std::size_t signal, double begin, double end, double *middle = nullptr)
 {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -172,7 +202,7 @@ std::vector<PlayEstimate> cycles_of(const coupling::RunResult &run, const Played
       continue;
     if (before < event.t && !same_side(rows, played.signal, before, event.t))
       continue;
-    if (before < event.t)
+    if (before < event.t && fine_rows(rows, before, event.t))
     {
       PlayEstimate cycle;
       cycle.element   = played.placement->name;
@@ -224,9 +254,12 @@ void estimate(const coupling::Machine &machine, const PlayedElement &played, con
               const Eigen::VectorXd &u, const ClosedMode &closed, const Result &result, PlayEstimate &cycle)
 {
   cycle.signal          = signal.name;
+  cycle.unit            = signal.unit;
   cycle.mode            = closed.mode;
   cycle.closed_hz       = result.coupled_modes[std::size_t(closed.mode)].frequency_hz;
   cycle.stiffness_share = stiffness_share(machine, played, signal, u, closed.d, cycle);
+  if (std::isfinite(cycle.stiffness_share) && !crosses(played, signal, u, closed.d, cycle))
+    cycle.stiffness_share = std::numeric_limits<double>::quiet_NaN();
   if (std::isfinite(cycle.stiffness_share))
     cycle.frequency_hz = softened_hz(result, closed.K_modes, cycle.stiffness_share, closed.mode);
 }

@@ -18,6 +18,9 @@ namespace gestell::apps
  *
  * in the modes V of the closed machine gives the frequency beside that of the cycle, 1/duration.
  *
+ * Cycles over rows farther apart than a twentieth of them are left out, and those in which the element is loaded on one
+ * side of its play only.
+ *
  * Source: describing functions, docs/theory/periodic.md; Dresig, Vul'fson, 5.5.5.
  * @param q  where the modes are found
  */

@@ -4,6 +4,7 @@
 #include "apps/session/stages/history_rows.h"
 #include "apps/session/story/load_duration.h"
 #include "apps/session/story/play_estimate.h"
+#include "apps/session/story/swing_shares.h"
 #include "apps/session/story/turning_points.h"
 #include "fem/values/number_text.h"
 
@@ -25,7 +26,8 @@ constexpr double      coarsest    = 0.1;  ///< distance of rows, of the time ove
 constexpr double      of_swing    = 0.05; ///< distance of rows, of half a swing: its ends are rows
 constexpr double      nothing     = 1e-6; ///< of the largest rate at events, or force
 constexpr double      jumps       = 1e-3; ///< of the largest force
-constexpr double      near_mode   = 0.25; ///< relative difference of frequencies up to which a mode carries
+constexpr double      near_mode   = 0.25; ///< relative difference of frequencies up to which a swing is a mode's own
+constexpr double      carries     = 0.5;  ///< share of a swing that a mode makes to carry it
 constexpr double      no_momentum = 1e-3; ///< of the largest force times the time it acts
 
 /// In the unit in which a signal reads well at its largest.
@@ -87,7 +89,8 @@ private:
   std::size_t next_of(std::size_t e) const; ///< the next event of its object; the number of events: none
   void        add_extremes();
   void        add_extreme(std::size_t s, bool largest);
-  std::string carried_by(std::size_t s, double t) const;
+  std::string carried_by(std::size_t s, double t, bool largest) const;
+  std::string makers_of(std::size_t s, const Swing &swing, bool largest) const;
   std::size_t row_before(double t) const;
   bool        belongs_to(std::size_t s, const std::string &object) const;
 
@@ -255,33 +258,58 @@ void Story::add_events()
   }
 }
 
-/// The vibration about an instant, and the mode next to it.
-std::string Story::carried_by(std::size_t s, double t) const
+/// The vibration about an extreme, and what makes it.
+std::string Story::carried_by(std::size_t s, double t, bool largest) const
 {
+  if (signals_[s].element >= 0 && is_tool(*machine_.model().elements()[std::size_t(signals_[s].element)].element))
+    return ", a force of its law, no vibration";
   std::vector<double> time, y;
   for (std::size_t i = 0; i < rows_.size(); ++i)
   {
     time.push_back(rows_.t(i));
     y.push_back(rows_.at(i, s + 1));
   }
-  const double half = half_period_at(time, y, t);
-  if (!(half > 0.) || !fine_between(t - 0.5 * half, t + 0.5 * half, of_swing))
+  const Swing swing = swing_at(time, y, t);
+  if (!(swing.half > 0.))
+    return ", on which it does not turn back";
+  if (!fine_between(t - 0.5 * swing.half, t + 0.5 * swing.half, of_swing))
+    return ", the rows too far apart to tell a swing";
+  return ", half a swing of " + milliseconds(swing.half) + " (" + short_text(0.5 / swing.half, 3) + " Hz)" +
+         makers_of(s, swing, largest);
+}
+
+/// Which modes make half a swing, and whether it is free vibration of one.
+std::string Story::makers_of(std::size_t s, const Swing &swing, bool largest) const
+{
+  const auto &around = result_.run->states.around;
+  const auto  wanted = swing_extremes(signals_, 1); // all of them; those kept are the first ones
+  const auto  own =
+      std::find_if(wanted.begin(), wanted.end(),
+                   [&](const coupling::SignalExtreme &one) { return one.signal == int(s) && one.largest == largest; });
+  if (result_.coupled_modes.empty() || own == wanted.end() || std::size_t(own - wanted.begin()) >= around.size())
     return "";
-  const double f     = 0.5 / half;
-  std::string  text  = ", half a swing of " + milliseconds(half);
-  const auto  &modes = result_.coupled_modes;
-  const auto   off   = [&](const coupling::Mode &mode)
-  { return mode.frequency_hz > 0. ? std::abs(std::log(mode.frequency_hz / f)) : 1e9; };
-  const auto nearest =
-      std::min_element(modes.begin(), modes.end(), [&](const auto &a, const auto &b) { return off(a) < off(b); });
-  if (nearest == modes.end() || off(*nearest) > 1e8)
-    return text;
-  const auto        j      = std::size_t(nearest - modes.begin());
-  const std::string strain = strains_most(result_, j);
-  return text + " (" + short_text(f, 3) + " Hz)" +
-         (off(*nearest) < near_mode ? ", carried by mode " : ", not a period of a mode; nearest is mode ") +
-         std::to_string(j + 1) + " at " + short_text(nearest->frequency_hz, 4) + " Hz" +
-         (strain.empty() ? "" : ", which strains the " + strain);
+  const auto &states = around[std::size_t(own - wanted.begin())];
+  const auto *from   = state_near(states, swing.beside, of_swing * swing.half),
+             *to     = state_near(states, swing.turn, of_swing * swing.half);
+  if (!from || !to || from->q.size() != machine_.size())
+    return ", longer than states were kept for";
+  bool                  of_force = false;
+  const Eigen::VectorXd shares   = swing_shares(signals_[s], machine_, result_, *from, *to, of_force);
+  Eigen::Index          most     = 0;
+  const double          share    = shares.maxCoeff(&most);
+  if (!(share > 0.))
+    return ", which no mode makes";
+  const coupling::Mode &mode   = result_.coupled_modes[std::size_t(most)];
+  const std::string     strain = strains_most(result_, std::size_t(most));
+  const std::string     name   = "mode " + std::to_string(most + 1) + " at " + short_text(mode.frequency_hz, 4) + " Hz";
+  const std::string     makes  = percent(share) + " of " + (of_force ? "it" : "its energy");
+  if (share < carries)
+    return ", which no mode makes alone: " + name + " " + makes;
+  const bool vibrates = std::abs(std::log(mode.frequency_hz * 2. * swing.half)) < near_mode;
+  return (vibrates ? ", carried by " + name + ", which makes " + makes
+                   : ", not its own vibration: " + name + ", half a period of " +
+                         milliseconds(0.5 / mode.frequency_hz) + ", makes " + makes) +
+         (strain.empty() ? "" : " and strains the " + strain);
 }
 
 void Story::add_extreme(std::size_t s, bool largest)
@@ -291,9 +319,10 @@ void Story::add_extreme(std::size_t s, bool largest)
   const bool                     inside = rows_.size() > 2 && t > rows_.t(0) && t < rows_.t(rows_.size() - 1);
   const double                   size   = std::max(std::abs(own.min), std::abs(own.max));
   if (inside && std::abs(x) > rounding * size)
-    sentences_.push_back(
-        {t, own.name + " is " + (largest ? "largest" : "smallest") + " of the run: " + shown(x, own) + carried_by(s, t),
-         true});
+    sentences_.push_back({t,
+                          own.name + " is " + (largest ? "largest" : "smallest") + " of the run: " + shown(x, own) +
+                              carried_by(s, t, largest),
+                          true});
 }
 
 void Story::add_extremes()
@@ -322,11 +351,20 @@ void add_story(Session &session, Result &result)
       with_normal_forces(scene, session.machine().machine, scene_signals(scene, session.machine().machine));
   if (!result.run || result.run->events.empty() || result.run->signals.size() != signals.size())
     return;
+  for (auto &states : result.run->states.around)
+    for (coupling::KeptState &state : states)
+      if (session.machine().companion)
+      {
+        state.q = session.machine().project(state.q);
+        state.v = session.machine().project(state.v);
+      }
   RunStory story;
+  machine.events().follow_history(false); // forces by the motion, whatever branch the run ended in
   story.loads     = load_durations(signals, machine, result);
   story.sentences = story_sentences(signals, machine, result);
   story.plays     = play_estimates(signals, machine, modes_configuration(scene, machine), result);
   result.story    = std::move(story);
+  result.run->states.around.clear();
 }
 
 } // namespace gestell::apps

@@ -16,8 +16,9 @@ namespace gestell::apps
  * over the rows, where these are a tenth of that time apart or closer).  Nothing of that where the run went over the
  * event.  Repetitions of a kind are told twice, then counted; of more than sixty sentences the latest events are left
  * out, which is said, never extremes.  Of an extreme of a force or torque: the vibration that it belongs to, by the
- * time between its neighbouring turning points, half a period (twenty rows or more), and the mode next to it in frequency
- * with what it strains.
+ * time between its neighbouring turning points, half a period (twenty rows or more), and the mode that makes most of
+ * the way between them, see swing_shares(): it carries the swing if it makes half of it and half its period differs
+ * from the swing by less than a quarter.
  */
 std::vector<StorySentence> story_sentences(const std::vector<coupling::Signal> &signals,
                                            const coupling::Machine &machine, const Result &result);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace gestell::apps
 {
@@ -41,22 +40,32 @@ std::vector<double> turning_points(const std::vector<double> &t, const std::vect
 
 } // namespace
 
-double half_period_at(const std::vector<double> &t, const std::vector<double> &y, double at)
+Swing swing_at(const std::vector<double> &t, const std::vector<double> &y, double at)
 {
   if (y.size() < 3)
-    return 0.;
+    return {};
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   const auto turns       = turning_points(t, y, small_turn * (*high - *low));
   if (turns.empty())
-    return 0.;
+    return {};
   const auto nearest = std::min_element(turns.begin(), turns.end(),
                                         [&](double a, double b) { return std::abs(a - at) < std::abs(b - at); });
-  double     half    = std::numeric_limits<double>::infinity();
+  Swing      swing{0., *nearest, *nearest};
+  const auto take = [&](double other)
+  {
+    if (swing.half == 0. || std::abs(other - *nearest) < swing.half)
+      swing = {std::abs(other - *nearest), *nearest, other};
+  };
   if (nearest != turns.begin())
-    half = *nearest - *(nearest - 1);
+    take(*(nearest - 1));
   if (nearest + 1 != turns.end())
-    half = std::min(half, *(nearest + 1) - *nearest);
-  return std::isfinite(half) ? half : 0.;
+    take(*(nearest + 1));
+  return swing;
+}
+
+double half_period_at(const std::vector<double> &t, const std::vector<double> &y, double at)
+{
+  return swing_at(t, y, at).half;
 }
 
 } // namespace gestell::apps

@@ -22,7 +22,8 @@ using apps::Session;
 
 apps::Result told(const std::string &file, const std::vector<std::string> &overrides = {})
 {
-  Session      session(file, overrides);
+  Session session(file, overrides);
+  session.keep_swings();
   apps::Result result = session.run();
   add_story(session, result);
   return result;
@@ -164,6 +165,20 @@ TEST(Story, OfThePressTellsItsCuttingShock)
     EXPECT_THAT(text, ::testing::HasSubstr(words));
 }
 
+TEST(TurningPoints, TellBothEndsOfASwing)
+{
+  std::vector<double> t, y;
+  for (int i = 0; i <= 4000; ++i)
+  {
+    t.push_back(1e-3 * i);
+    y.push_back(std::cos(M_PI * t.back()) * (1. + 0.1 * t.back())); // turns about every second
+  }
+  const apps::Swing swing = apps::swing_at(t, y, 2.);
+  EXPECT_NEAR(swing.turn, 2., 0.05);
+  EXPECT_NEAR(std::abs(swing.beside - swing.turn), 1., 0.01);
+  EXPECT_NEAR(swing.half, std::abs(swing.beside - swing.turn), 1e-12);
+}
+
 std::string sentences_of(const apps::Result &result)
 {
   std::string text;
@@ -178,6 +193,50 @@ std::string first_with(const apps::Result &result, const std::string &words)
     if (sentence.text.find(words) != std::string::npos)
       return sentence.text;
   return "";
+}
+
+// Behind the shock the rod swings through its play: a mode that makes most of the force's way and has its period
+// carries that.  Before it the rod is wound up by the tool: whatever mode lies near in frequency, none carries it.
+TEST(Story, NamesAModeForASwingThatItMakes)
+{
+  const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  EXPECT_THAT(first_with(result, "F_P is smallest"),
+              ::testing::ContainsRegex("carried by mode 4 at 84.68 Hz, which makes (5|6|7|8|9)[0-9.]* % of it"));
+  EXPECT_THAT(first_with(result, "M_T is largest"),
+              ::testing::ContainsRegex("carried by mode 2 at 11.58 Hz, which makes (8|9)[0-9.]* % of it"));
+  EXPECT_THAT(first_with(result, "F_u is largest"), ::testing::HasSubstr("a force of its law, no vibration"));
+  EXPECT_THAT(first_with(result, "F_P is largest"), ::testing::Not(::testing::HasSubstr("carried by")));
+}
+
+// Twelve pictures and more to a period of the vibration that makes the main peak, few of them elsewhere.
+TEST(Pictures, AreDenseAroundTheMainPeak)
+{
+  const std::vector<std::string> step{"run.step=\"20 us\""};
+  const apps::Result             dense = told(shipped("press_minimal.toml"), step),
+                     plain             = Session(shipped("press_minimal.toml"), step).run();
+  ASSERT_TRUE(dense.peak);
+  ASSERT_GT(dense.peak->half_swing, 0.);
+  const auto &times  = dense.run->picture_times;
+  const auto  around = std::count_if(times.begin(), times.end(),
+                                     [&](double t) { return std::abs(t - dense.peak->t) <= dense.peak->half_swing; });
+  EXPECT_GE(around, 12);
+  EXPECT_LE(times.size(), plain.run->picture_times.size() + 48);
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
+  ASSERT_EQ(dense.run->picture_states.size(), times.size());
+  ASSERT_EQ(dense.run->picture_forces.size(), times.size());
+}
+
+// Where the rod is loaded from one side only it does not swing through its play, and is not told to.
+TEST(PlayEstimates, AreOfCyclesThatCrossThePlay)
+{
+  const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  ASSERT_FALSE(result.story->plays.empty());
+  for (const apps::PlayEstimate &play : result.story->plays)
+  {
+    EXPECT_EQ(play.unit, "m");
+    EXPECT_LT(play.mean - play.amplitude, -0.4e-3); // beyond the play of 0.4 mm the other side pulls
+    EXPECT_GT(play.mean + play.amplitude, 0.);
+  }
 }
 
 // What is told at an event comes from the motion there: rows a hundred times as far apart change none of it, and what

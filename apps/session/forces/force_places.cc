@@ -1,0 +1,200 @@
+#include "apps/session/forces/force_places.h"
+
+#include "apps/scene/build/build_measures.h"
+
+#include <algorithm>
+#include <set>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+using coupling::MachineModel;
+
+std::set<int> moved_by(const coupling::PlacedPoint &place)
+{
+  std::set<int> coordinates;
+  for (const coupling::Measure &measure : place.measures)
+    for (const auto &[coordinate, weight] : measure)
+      if (weight != 0.)
+        coordinates.insert(coordinate);
+  return coordinates;
+}
+
+std::vector<int> without(const std::set<int> &all, const std::set<int> &others)
+{
+  std::vector<int> own;
+  std::set_difference(all.begin(), all.end(), others.begin(), others.end(), std::back_inserter(own));
+  return own;
+}
+
+/// Gathers the places while it goes through the measures of the machine.
+class Places
+{
+public:
+  Places(const Scene &scene, const coupling::Machine &machine)
+      : scene_(scene), machine_(machine), model_(machine.model())
+  {
+  }
+
+  ForcePlaces all()
+  {
+    for (const coupling::ElementPlacement &element : model_.elements())
+    {
+      add(element);
+      next_ += int(element.measures.size());
+    }
+    for (const LinearRequest &spring : scene_.linear)
+      add_signal(spring.name, spring.u, -1.);
+    for (const LoadRequest &load : scene_.loads)
+      add_signal(load.name, load.u, 1.);
+    return std::move(places_);
+  }
+
+private:
+  void       add(const coupling::ElementPlacement &element);
+  void       add_joint(const JointRequest &joint, const coupling::ElementPlacement &element);
+  void       add_element(const ElementRequest &request, const coupling::ElementPlacement &element);
+  void       add_measure(const MeasureRequest &request, const coupling::ElementPlacement &element);
+  int        add_term(const TermRequest &term, const coupling::ElementPlacement &element, int from);
+  void       add_motion(const std::string &name, const MotionMeasure &motion, int measure);
+  void       add_signal(const std::string &name, const MotionMeasure &motion, double sign);
+  void       add_between(const std::string &name, const PlaceRequest &from, const PlaceRequest &to,
+                         const coupling::ElementPlacement &element, int begin, int end, bool is_load = false);
+  ForceAlong along(const std::string &name, const MotionTerm &term) const;
+
+  const Scene             &scene_;
+  const coupling::Machine &machine_;
+  const MachineModel      &model_;
+  ForcePlaces              places_;
+  int                      next_ = 0; ///< first measure of the element
+};
+
+template <typename Requests>
+auto named(const Requests &requests, const std::string &name)
+{
+  return std::find_if(requests.begin(), requests.end(), [&](const auto &one) { return one.name == name; });
+}
+
+void Places::add(const coupling::ElementPlacement &element)
+{
+  if (const auto joint = named(scene_.joints, element.name); joint != scene_.joints.end())
+    add_joint(*joint, element);
+  else if (const auto request = named(scene_.elements, element.name); request != scene_.elements.end())
+    add_element(*request, element);
+}
+
+void Places::add_joint(const JointRequest &joint, const coupling::ElementPlacement &element)
+{
+  if (joint.type == JointType::measure)
+    add_measure(joint.measure, element);
+  else
+    add_between(element.joint >= 0 ? joint.name + " friction" : joint.name, joint.from, joint.to, element, 0,
+                int(element.measures.size()));
+  if (joint.type == JointType::gear)
+    places_.between.back().is_coupling = true;
+}
+
+void Places::add_element(const ElementRequest &request, const coupling::ElementPlacement &element)
+{
+  const int n = int(element.measures.size());
+  if (request.follows)
+    add_between(request.name, request.own->second, request.own->second, element, 0, n, true);
+  else if (request.own)
+    add_measure(*request.own, element);
+  else if (!request.on.empty())
+  {
+    if (const auto measure = named(scene_.measures, request.on); measure != scene_.measures.end())
+      add_measure(*measure, element);
+  }
+  else if (request.pair)
+    add_between(request.name, request.pair->from, request.pair->to, element, 0, n);
+  else
+    for (std::size_t i = 0; i < request.measures.size(); ++i)
+      add_motion(request.name, request.measures[i], next_ + int(i));
+}
+
+void Places::add_measure(const MeasureRequest &request, const coupling::ElementPlacement &element)
+{
+  if (request.terms.empty())
+  {
+    add_between(element.name, request.first, request.second, element, 0, int(element.measures.size()));
+    return;
+  }
+  int from = 0;
+  for (const TermRequest &term : request.terms)
+    from = add_term(term, element, from);
+  if (request.function)
+    add_term(request.argument, element, from);
+}
+
+/// @return the measure behind its own
+int Places::add_term(const TermRequest &term, const coupling::ElementPlacement &element, int from)
+{
+  if (!term.placed)
+  {
+    add_motion(element.name, term.motion, next_ + from);
+    return from + 1;
+  }
+  const int end = from + int(placed(model_, term.placed->first).measures.size() +
+                             placed(model_, term.placed->second).measures.size());
+  add_between(element.name, term.placed->first, term.placed->second, element, from, end);
+  return end;
+}
+
+ForceAlong Places::along(const std::string &name, const MotionTerm &term) const
+{
+  ForceAlong along;
+  along.name      = name;
+  along.body      = term.marker;
+  along.at        = placed(model_, {term.marker, std::nullopt});
+  along.direction = term.weight * vector(term.axis).normalized();
+  along.turns     = term.rotation;
+  return along;
+}
+
+void Places::add_motion(const std::string &name, const MotionMeasure &motion, int measure)
+{
+  for (const MotionTerm &term : motion)
+  {
+    places_.along.push_back(along(name, term));
+    places_.along.back().measure = measure;
+  }
+}
+
+void Places::add_signal(const std::string &name, const MotionMeasure &motion, double sign)
+{
+  for (const MotionTerm &term : motion)
+  {
+    places_.along.push_back(along(name, term));
+    places_.along.back().signal = machine_.signal(name, name + ".force");
+    places_.along.back().sign   = sign;
+  }
+}
+
+void Places::add_between(const std::string &name, const PlaceRequest &from, const PlaceRequest &to,
+                         const coupling::ElementPlacement &element, int begin, int end, bool is_load)
+{
+  ForceBetween force;
+  force.name          = name;
+  force.first_measure = next_ + begin;
+  force.measures.assign(element.measures.begin() + begin, element.measures.begin() + end);
+  force.first      = {from.marker, placed(model_, from), {}};
+  force.second     = {to.marker, placed(model_, to), {}};
+  force.is_load    = is_load;
+  const auto first = moved_by(force.first.at), second = moved_by(force.second.at);
+  force.first.own  = without(first, second);
+  force.second.own = is_load ? without(second, {}) : without(second, first);
+  places_.between.push_back(std::move(force));
+}
+
+} // namespace
+
+ForcePlaces force_places(const Scene &scene, const coupling::Machine &machine)
+{
+  return Places(scene, machine).all();
+}
+
+} // namespace gestell::apps
