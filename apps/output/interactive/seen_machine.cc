@@ -68,10 +68,11 @@ void add_instant(SeenInstants &seen, double t, const Eigen::VectorXd &q)
 
 SeenInstants seen_instants(const Result &result, std::size_t most)
 {
-  const auto       &times  = result.run->picture_times;
-  const auto       &states = result.run->picture_states;
-  const auto       &peak   = result.peak;
-  const auto        dense  = [&](double t) { return peak && std::abs(t - peak->t) <= swings_seen * peak->half_swing; };
+  const auto &times  = result.run->picture_times;
+  const auto &states = result.run->picture_states;
+  const auto &peak   = result.peak;
+  const auto  dense  = [&](double t)
+  { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= swings_seen * peak->half_swing; };
   const std::size_t around = std::min(std::size_t(std::count_if(times.begin(), times.end(), dense)), most / 2);
   const std::size_t every  = (states.size() - around + most - around - 1) / (most - around);
   SeenInstants      seen;

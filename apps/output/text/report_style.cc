@@ -63,7 +63,7 @@ footer { margin-top: 3rem; padding-top: .7rem; border-top: 1px solid var(--rule)
   #view { display: none; }
   pre { white-space: pre-wrap; overflow: visible; font-size: 8pt; }
   figure, tr, .keys, .warnings, h2 + p, h3 + p { break-inside: avoid; }
-  .long { columns: 3; column-gap: 1.5rem; }
+  .long { columns: 2; column-gap: 1.5rem; }
   h1, h2, h3, h2 + p, h3 + p { break-after: avoid; }
   .modes { grid-template-columns: repeat(3, 1fr); }
   .bars { grid-template-columns: repeat(2, 1fr); }

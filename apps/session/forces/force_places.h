@@ -26,7 +26,7 @@ struct ForceBetween
   int                            first_measure = 0; ///< in p of the machine
   std::vector<coupling::Measure> measures;
   ForceSide                      first, second;
-  bool                           is_load    = false; ///< it acts on the second place alone
+  bool                           is_load     = false; ///< it acts on the second place alone
   bool                           is_coupling = false; ///< of two coordinates, which bearings elsewhere take part in
 };
 

@@ -156,7 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
     Scenes, ForcesOnBodies,
     ::testing::Values(Given{"crank_press_joints", {"run.end=0.19", "output.picture_step=1e-3"}, 1e-4},
                       Given{"double_four_bar", {"run.end=0.1", "output.picture_step=5e-4"}, 1e-4},
-                      Given{"spatial_crank_rocker", {"run.end=0.1", "run.step=5e-5", "output.picture_step=5e-4"}, 1e-3},
+                      Given{
+                          "spatial_crank_rocker", {"run.end=0.03", "run.step=5e-5", "output.picture_step=1e-4"}, 1e-3},
                       Given{"crane_minimal", {"run.end=1.0", "output.picture_step=1e-2"}, 1e-3}),
     [](const auto &info) { return info.param.scene; });
 

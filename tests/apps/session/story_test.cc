@@ -195,8 +195,8 @@ std::string first_with(const apps::Result &result, const std::string &words)
   return "";
 }
 
-// Behind the shock the rod swings through its play: a mode that makes most of the force's way and has its period carries
-// that.  Before it the rod is wound up by the tool: whatever mode lies near in frequency, none carries it.
+// Behind the shock the rod swings through its play: a mode that makes most of the force's way and has its period
+// carries that.  Before it the rod is wound up by the tool: whatever mode lies near in frequency, none carries it.
 TEST(Story, NamesAModeForASwingThatItMakes)
 {
   const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
@@ -217,8 +217,8 @@ TEST(Pictures, AreDenseAroundTheMainPeak)
   ASSERT_TRUE(dense.peak);
   ASSERT_GT(dense.peak->half_swing, 0.);
   const auto &times  = dense.run->picture_times;
-  const auto  around = std::count_if(times.begin(), times.end(), [&](double t)
-                                     { return std::abs(t - dense.peak->t) <= dense.peak->half_swing; });
+  const auto  around = std::count_if(times.begin(), times.end(),
+                                     [&](double t) { return std::abs(t - dense.peak->t) <= dense.peak->half_swing; });
   EXPECT_GE(around, 12);
   EXPECT_LE(times.size(), plain.run->picture_times.size() + 48);
   EXPECT_TRUE(std::is_sorted(times.begin(), times.end()));
