@@ -9,8 +9,6 @@
 namespace gestell::coupling
 {
 
-class StateArchive;
-
 constexpr double most_steps = 1e10; ///< of a run
 
 /// Ends a run whose controlled steps have become so short that it would never end.
@@ -34,7 +32,11 @@ public:
     from_ = t;
   }
 
-  void exchange(StateArchive &archive);
+  template <typename Archive>
+  void exchange(Archive &archive)
+  {
+    archive(from_);
+  }
 
   static constexpr long window = 1L << 15;
 

@@ -1,6 +1,14 @@
 #pragma once
 
-#include "coupling/simulation/simulation.h"
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
+#include "coupling/simulation/run_result.h"
+#include "coupling/simulation/trajectory.h"
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace gestell::coupling
 {
