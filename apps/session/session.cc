@@ -9,11 +9,11 @@
 #include "apps/session/joint_opening.h"
 #include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
-#include "apps/session/spectra/order_tracking.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
+#include "apps/session/spectra/order_tracking.h"
 #include "apps/session/spectra/spectra.h"
 #include "apps/session/stages/main_peak.h"
 #include "apps/session/stages/stage_answer.h"
@@ -413,10 +413,14 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
   ask_for_peak(signals, run.states);
   const auto now = progress();
   now("integration", 0.);
-  const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  const auto share       = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  std::optional<coupling::RunCheckpoints> checkpoints;
+  if (checkpoints_)
+    checkpoints = run_checkpoints(*checkpoints_, read_scene_file(path_, overrides_), machine_->machine, initial);
   try
   {
-    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory);
+    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
+                              checkpoints ? &*checkpoints : nullptr);
   }
   catch (const std::invalid_argument &error)
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/session/checkpoint/run_checkpoints.h"
 #include "apps/session/frf_options.h"
 #include "apps/session/modes_options.h"
 #include "apps/session/partition.h"
@@ -67,7 +68,10 @@ public:
   Result modes(const ModesOptions &options = {});
   /// Frequency responses of the machine linearised at an operating point.
   Result frequency_response(const FrfOptions &options);
+  /// For the run to come.
+  void keep_checkpoints(const CheckpointRequest &request) { checkpoints_ = request; }
   /// The scene simulated in time, with modes, stresses and warnings.
+  /// @throws std::invalid_argument as read_checkpoint()
   /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
   Result run(const std::optional<std::string> &sensitivities = {});
 
@@ -87,15 +91,16 @@ private:
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
-  std::string                    path_;
-  std::vector<std::string>       overrides_;
-  fem::Scripts                   scripts_;
-  Scene                          scene_;
-  Watch                          watch_;
-  PhaseTimes                     times_;
-  std::optional<PreparedMachine> machine_;
-  bool                           checked_ = false;
-  std::unique_ptr<Session>       begin_; ///< of a branch: results draw its machine
+  std::string                      path_;
+  std::vector<std::string>         overrides_;
+  fem::Scripts                     scripts_;
+  Scene                            scene_;
+  Watch                            watch_;
+  PhaseTimes                       times_;
+  std::optional<PreparedMachine>   machine_;
+  bool                             checked_ = false;
+  std::optional<CheckpointRequest> checkpoints_;
+  std::unique_ptr<Session>         begin_; ///< of a branch: results draw its machine
 };
 
 } // namespace gestell::apps
