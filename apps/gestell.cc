@@ -2,11 +2,13 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/interruption.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/team.h"
 #include "apps/command_line/command_line.h"
 #include "apps/command_line/completion.h"
 #include "apps/command_line/man_page.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <new>
@@ -45,7 +47,9 @@ int run_program(int argc, char **argv)
   }
   catch (const CLI::ParseError &error)
   {
-    return program.exit(error) == 0 ? exit_done : exit_wrong_input;
+    if (error.get_exit_code() != 0)
+      throw refused(program, error.what());
+    return program.exit(error);
   }
 
   if (options.jobs > 1)
@@ -56,13 +60,17 @@ int run_program(int argc, char **argv)
   return exit_wrong_input;
 }
 
-} // namespace
-
-int main(int argc, char **argv)
+/// Why there is no answer, for people or in the document.
+int fail(int exit_code, const std::string &message, JsonAnswer &answer)
 {
-  const bool speaks = coupling::launch().rank == 0; // of all that mpirun started
-  if (argc > 1 && std::string(argv[1]) == "study")  // ranks make shares of it, each by itself
-    leave_team();
+  answer.failed(message);
+  if (!answer.wanted() && coupling::launch().rank == 0) // of all that mpirun started one speaks
+    std::cerr << "gestell: " << message << '\n';
+  return exit_code;
+}
+
+int run_guarded(int argc, char **argv, JsonAnswer &answer)
+{
   try
   {
     MpiRun ranks;
@@ -73,28 +81,33 @@ int main(int argc, char **argv)
   }
   catch (const std::invalid_argument &error)
   {
-    if (speaks)
-      std::cerr << "gestell: " << error.what() << '\n';
-    return exit_wrong_input;
+    return fail(exit_wrong_input, error.what(), answer);
   }
   catch (const std::bad_alloc &)
   {
-    if (speaks)
-      std::cerr << "gestell: the computation failed: out of memory; take a coarser mesh (mesh.size), fewer modes "
-                   "(reduction.modes) or a larger step of what is kept (output.step, output.picture_step, "
-                   "output.stress.step), or a machine with more memory\n";
-    return exit_failed;
+    return fail(exit_failed,
+                "the computation failed: out of memory; take a coarser mesh (mesh.size), fewer modes "
+                "(reduction.modes) or a larger step of what is kept (output.step, output.picture_step, "
+                "output.stress.step), or a machine with more memory",
+                answer);
   }
   catch (const std::exception &error)
   {
     if (interruption()) // what was under way then fails somewhere
-    {
-      if (speaks)
-        std::cerr << "gestell: interrupted: " << error.what() << '\n';
-      return exit_interrupted;
-    }
-    if (speaks)
-      std::cerr << "gestell: the computation failed: " << error.what() << '\n';
-    return exit_failed;
+      return fail(exit_interrupted, std::string("interrupted: ") + error.what(), answer);
+    return fail(exit_failed, std::string("the computation failed: ") + error.what(), answer);
   }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+  if (argc > 1 && std::string(argv[1]) == "study") // ranks make shares of it, each by itself
+    leave_team();
+  const bool json = std::any_of(argv + 1, argv + argc, [](const char *word) { return word == std::string("--json"); });
+  JsonAnswer answer(json && coupling::launch().rank == 0);
+  const int  exit_code = run_guarded(argc, argv, answer);
+  answer.finish(argc > 1 ? argv[1] : "", exit_code);
+  return exit_code;
 }

@@ -22,6 +22,16 @@ namespace gestell::apps
 namespace
 {
 
+/// As std::printf prints it.
+template <typename... Parts>
+std::string formatted(const char *format, const Parts &...parts)
+{
+  std::string text(std::size_t(std::snprintf(nullptr, 0, format, parts...)) + 1, '\0');
+  std::snprintf(text.data(), text.size(), format, parts...);
+  text.pop_back();
+  return text;
+}
+
 using coupling::CacheEntry;
 
 constexpr std::size_t most_particulars = 6;
@@ -185,27 +195,29 @@ void list_cache(const ReduceCommandOptions &options)
             << size_text(double(bytes)) << '\n';
   if (entries.empty())
     return;
-  std::printf("  %-12s  %-16s  %9s  %-26s  %s\n", "key", "last used", "size", "coordinates", "made from");
+  std::cout << formatted("  %-12s  %-16s  %9s  %-26s  %s\n", "key", "last used", "size", "coordinates", "made from");
   for (const CacheEntry &entry : entries)
   {
     const std::string coordinates = std::to_string(entry.n_full) + " -> " + std::to_string(entry.n_interface) + " + " +
                                     std::to_string(entry.n_modes) + " modes";
     const bool good = entry.defect.empty();
-    std::printf("  %-12s  %-16s  %9s  %-26s  %s\n", short_key(entry.key).c_str(), date_text(entry.last_used).c_str(),
-                size_text(double(entry.bytes)).c_str(), good ? coordinates.c_str() : "-",
-                good ? origin_text(entry.origin).c_str() : ("unusable: " + entry.defect).c_str());
+    std::cout << formatted("  %-12s  %-16s  %9s  %-26s  %s\n", short_key(entry.key).c_str(),
+                           date_text(entry.last_used).c_str(), size_text(double(entry.bytes)).c_str(),
+                           good ? coordinates.c_str() : "-",
+                           good ? origin_text(entry.origin).c_str() : ("unusable: " + entry.defect).c_str());
     if (const std::string own = good ? particulars(entry, entries) : ""; !own.empty())
-      std::printf("  %-12s  %s\n", "", own.c_str());
+      std::cout << formatted("  %-12s  %s\n", "", own.c_str());
   }
   if (options.check)
   {
     const auto n_bad =
         std::count_if(entries.begin(), entries.end(), [](const CacheEntry &entry) { return !entry.defect.empty(); });
-    std::printf("checked: %s read whole, against checksum and key; %s\n", count_text(entries.size(), "file").c_str(),
-                n_bad == 0 ? "all can be used"
-                           : (std::to_string(n_bad) + " cannot be used, --prune --check removes such files").c_str());
+    std::cout << formatted(
+        "checked: %s read whole, against checksum and key; %s\n", count_text(entries.size(), "file").c_str(),
+        n_bad == 0 ? "all can be used"
+                   : (std::to_string(n_bad) + " cannot be used, --prune --check removes such files").c_str());
   }
-  std::fflush(stdout);
+  std::cout.flush();
 }
 
 void explain_cache(const Scene &scene)

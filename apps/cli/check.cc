@@ -1,4 +1,6 @@
 #include "apps/cli/command.h"
+#include "apps/cli/json_answer.h"
+#include "apps/output/text/json.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/build/scene_in_words.h"
@@ -55,6 +57,37 @@ std::size_t elements_written(const Scene &scene)
   return names.size();
 }
 
+template <typename Named>
+Json names_of(const std::vector<Named> &all)
+{
+  Json names = Json::array();
+  for (const Named &one : all)
+    names.push_back(one.name);
+  return names;
+}
+
+std::string scene_json(const Scene &scene)
+{
+  Json elements = Json::array();
+  for (const auto &[name, place] : scene.element_places)
+    elements.push_back(name);
+  Json run = nullptr;
+  if (scene.run.options.end > scene.run.options.begin)
+    run = {{"method", scene.run.options.method.method},
+           {"begin_s", scene.run.options.begin},
+           {"end_s", scene.run.options.end},
+           {"step_s", scene.run.options.method.step},
+           {"tolerance", scene.run.options.method.tolerance}};
+  return json_text({{"scene", scene.name},
+                    {"file", scene.file},
+                    {"bodies", names_of(scene.bodies)},
+                    {"elements", elements},
+                    {"joints", names_of(scene.joints)},
+                    {"signals", names_of(scene.signals)},
+                    {"gravity_m_s2", scene.gravity},
+                    {"run", run}});
+}
+
 int check(const CommonOptions &options)
 {
   Scene                    scene    = read_scene(options.input, options.overrides, options.scripts);
@@ -82,6 +115,8 @@ int check(const CommonOptions &options)
   warnings.insert(warnings.end(), loose.begin(), loose.end());
   if (const std::string floating = floating_frame(scene); !floating.empty())
     warnings.push_back(floating);
+  if (answers_in_json())
+    answer_with(scene_json(scene));
   std::cout << scene.file << ": the scene \"" << scene.name
             << "\" is well formed: " << count_text(scene.bodies.size(), "body", "bodies") << ", "
             << count_text(elements_written(scene), "element") << ", " << count_text(scene.signals.size(), "signal")

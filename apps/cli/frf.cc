@@ -1,8 +1,10 @@
 #include "apps/cli/command.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/exchange/state_space_files.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/result_tables.h"
 #include "apps/session/exchange/state_space_answer.h"
 #include "apps/session/session.h"
 #include "fem/values/nearest_name.h"
@@ -74,6 +76,8 @@ int find_response(const CommonOptions &options, const FrfOptions &asked, const s
     prepare_folder(folder);
     write_results(folder, result);
   }
+  if (answers_in_json())
+    answer_with(summary_json(result));
   print_response(*result.frf);
   if (!format.empty())
     export_machine(session, asked, format, folder);

@@ -45,6 +45,7 @@ const std::atomic<bool> &interruption()
   {
     std::signal(SIGINT, note_interruption);
     std::signal(SIGTERM, note_interruption);
+    std::signal(SIGHUP, note_interruption);
     return true;
   }();
   (void)installed;

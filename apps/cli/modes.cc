@@ -1,4 +1,5 @@
 #include "apps/cli/command.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/modes_converge.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
@@ -7,6 +8,7 @@
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
+#include "apps/output/tables/result_tables.h"
 #include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/session.h"
@@ -188,6 +190,8 @@ int find_modes(const CommonOptions &options, const Asked &asked)
 
   if (convergence)
     write_convergence(folder, *convergence);
+  if (answers_in_json())
+    answer_with(summary_json(result));
   print_answer(result, convergence, asked.mesh.converge);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';

@@ -1,10 +1,12 @@
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/noise.h"
+#include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/section_table.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
@@ -95,6 +97,8 @@ int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
   progress.done();
   prepare_folder(folder);
   write_results(folder, result);
+  if (answers_in_json())
+    answer_with(summary_json(result));
   print_solutions(*result.periodic);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';

@@ -1,11 +1,13 @@
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/noise.h"
+#include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
@@ -44,9 +46,13 @@ void print_answer(const coupling::RunResult &run)
               << energy.input << " J supplied\n";
 }
 
-struct BudgetOptions
+const char *const checkpoint_name = "checkpoint.bin";
+
+struct RunAsked
 {
-  bool        budget = false;
+  bool        resume     = false;
+  double      checkpoint = 30.; ///< [s] of wall time
+  bool        budget     = false;
   std::string outputs;
   std::string sensitivities;
   std::string compare; ///< file of another scene; empty: none
@@ -65,7 +71,17 @@ void add_budget(const Scene &scene, const std::vector<OutputName> &outputs, Resu
   }
 }
 
-int run_scene(const CommonOptions &options, const BudgetOptions &asked)
+/// Derivatives follow the whole motion, which is not kept.
+void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &file, Session &session)
+{
+  if (asked.sensitivities.empty())
+    session.keep_checkpoints({file, asked.checkpoint, asked.resume});
+  else if (asked.resume)
+    throw std::invalid_argument("--resume: a run with --sensitivities cannot go on from a checkpoint, as derivatives "
+                                "follow its whole motion; leave out one of the two");
+}
+
+int run_scene(const CommonOptions &options, const RunAsked &asked)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
@@ -80,6 +96,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
     require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));
   session.keep_swings();
+  keep_checkpoints(asked, folder / checkpoint_name, session);
   Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
   add_story(session, result);
   if (other && !result.run->interrupted)
@@ -89,7 +106,11 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   prepare_folder(folder);
   progress.done();
   write_results(folder, result);
+  if (!result.run->interrupted)
+    std::filesystem::remove(folder / checkpoint_name);
 
+  if (answers_in_json())
+    answer_with(summary_json(result));
   print_answer(*result.run);
   if (result.stages)
     std::cout << stages_text(*result.stages);
@@ -123,6 +144,9 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
   }
   if (asked.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
+  if (result.run->interrupted && asked.sensitivities.empty())
+    std::cerr << "gestell: interrupted; gestell run " << options.input << " --resume -o " << folder.string()
+              << " goes on from there\n";
   const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
   return interrupted ? exit_interrupted : exit_done;
 }
@@ -131,7 +155,7 @@ int run_scene(const CommonOptions &options, const BudgetOptions &asked)
 
 Command run_command()
 {
-  const auto asked = std::make_shared<BudgetOptions>();
+  const auto asked = std::make_shared<RunAsked>();
   return {
       "run",
       "simulate a scene in time",
@@ -142,6 +166,11 @@ Command run_command()
                      "another scene, which runs as it stands in its file: its signals in the same charts, extremes "
                      "and modes beside each other"}
            .existing_file(),
+       {"--resume", &asked->resume,
+        "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
+       {"--checkpoint", &asked->checkpoint,
+        "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
+        "time), 0: when interrupted alone"},
        {"--budget", &asked->budget,
         "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
        {"--outputs",

@@ -1,8 +1,10 @@
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
+#include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/text/write_file.h"
 #include "apps/session/session.h"
@@ -102,6 +104,8 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
     write_file(folder / "size_all.csv", size_all_csv(model.result));
   write_file(file, sized_scene(scene, options.overrides, model.chosen, folder));
 
+  if (answers_in_json())
+    answer_with(summary_json(result));
   std::cout << size_text(model.result) << "scene: " << file.string()
             << "\nreport: " << (folder / "report.html").string() << '\n';
   for (const std::string &warning : result.warnings)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <variant>
 
@@ -14,6 +15,20 @@ namespace gestell::apps
 {
 namespace
 {
+
+CLI::Validator existing()
+{
+  return CLI::Validator(
+      [](const std::string &path)
+      {
+        std::error_code error;
+        return std::filesystem::is_regular_file(path, error) ? std::string()
+                                                             : "there is no file " + path +
+                                                                   "; relative paths start at the "
+                                                                   "working directory";
+      },
+      "FILE");
+}
 
 /// CLI11's own check prints the largest number there is, with all its digits.
 CLI::Validator above_zero()
@@ -99,7 +114,7 @@ void add_option(CLI::App &command, const CommandOption &option)
   if (option.range == CommandOption::Range::above_zero)
     added->check(above_zero());
   if (option.range == CommandOption::Range::existing_file)
-    added->check(CLI::ExistingFile);
+    added->check(existing());
   if (std::holds_alternative<std::string *>(option.value))
     added->check([](const std::string &text)
                  { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); });
@@ -116,6 +131,7 @@ void add_command(CLI::App &program, const Command &command, CommonOptions &optio
   for (const std::string &example : command.examples)
     footer += "\n  " + example;
   added->footer(footer);
+  added->add_flag("--json", "one JSON document on standard output in place of text");
   add_input(*added, command.input, options);
   for (const CommandOption &option : command.options)
     add_option(*added, option);
@@ -140,6 +156,14 @@ void require_command(const CLI::App &program, const std::string &word)
   const auto names = command_names(program);
   if (!word.empty() && word.front() != '-' && std::find(names.begin(), names.end(), word) == names.end())
     throw std::invalid_argument("there is no command '" + word + "'" + suggestion(word, names));
+}
+
+std::invalid_argument refused(const CLI::App &program, const std::string &why)
+{
+  const bool        known = !program.get_subcommands().empty();
+  const std::string name  = known ? program.get_subcommands().front()->get_name() : "";
+  return std::invalid_argument((known ? name + ": " : "") + why + "; gestell " + (known ? name + ' ' : "") +
+                               "--help tells what it takes");
 }
 
 std::invalid_argument unexpected(const CLI::App &program)

@@ -2,6 +2,7 @@
 
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/file/scene_file.h"
+#include "apps/scene/plausibility.h"
 #include "apps/scene/read/frame/node_interfaces.h"
 #include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/read_bodies.h"
@@ -272,6 +273,8 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   parameters.refuse_idle_overrides();
   refuse_rotations_of_nodes(scene);
   scene.warnings = table.warnings();
+  for (std::string &warning : implausible_numbers(scene))
+    scene.warnings.push_back(std::move(warning));
   return scene;
 }
 

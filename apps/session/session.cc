@@ -435,10 +435,14 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
     run.states.around = swing_extremes(signals, machine_->machine.size());
   const auto now = progress();
   now("integration", 0.);
-  const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  const auto share       = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  std::optional<coupling::RunCheckpoints> checkpoints;
+  if (checkpoints_)
+    checkpoints = run_checkpoints(*checkpoints_, read_scene_file(path_, overrides_), machine_->machine, initial);
   try
   {
-    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory);
+    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
+                              checkpoints ? &*checkpoints : nullptr);
   }
   catch (const std::invalid_argument &error)
   {

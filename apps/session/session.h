@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/file/scene_node.h"
+#include "apps/session/checkpoint/run_checkpoints.h"
 #include "apps/session/frf_options.h"
 #include "apps/session/modes_options.h"
 #include "apps/session/partition.h"
@@ -82,7 +83,10 @@ public:
   /// From here on runs keep the states around the peaks of forces: pictures become dense around the main one, and
   /// add_story() tells which modes make them.  Takes some of their time.
   void keep_swings() { swings_ = true; }
+  /// For the run to come.
+  void keep_checkpoints(const CheckpointRequest &request) { checkpoints_ = request; }
   /// The scene simulated in time, with modes, stresses and warnings.
+  /// @throws std::invalid_argument as read_checkpoint()
   /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
   Result run(const std::optional<std::string> &sensitivities = {}, SpectraAre spectra = SpectraAre::told);
   /// Of a run that left them out.
@@ -105,16 +109,17 @@ private:
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
-  std::string                    path_;
-  std::vector<std::string>       overrides_;
-  fem::Scripts                   scripts_;
-  Scene                          scene_;
-  std::optional<SceneNode>       entries_;
-  Watch                          watch_;
-  PhaseTimes                     times_;
-  std::optional<PreparedMachine> machine_;
-  bool                           checked_ = false, swings_ = false;
-  std::unique_ptr<Session>       begin_; ///< of a branch: results draw its machine
+  std::string                      path_;
+  std::vector<std::string>         overrides_;
+  fem::Scripts                     scripts_;
+  Scene                            scene_;
+  std::optional<SceneNode>         entries_;
+  Watch                            watch_;
+  PhaseTimes                       times_;
+  std::optional<PreparedMachine>   machine_;
+  bool                             checked_ = false, swings_ = false;
+  std::optional<CheckpointRequest> checkpoints_;
+  std::unique_ptr<Session>         begin_; ///< of a branch: results draw its machine
 };
 
 } // namespace gestell::apps

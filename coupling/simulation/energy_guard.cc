@@ -1,4 +1,5 @@
 #include "coupling/simulation/energy_guard.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,11 @@ std::string EnergyGuard::words(const std::string &method) const
   text << (gain_ > loss_ ? "which came from nowhere: " : "which the method lost: ") << method;
   text << (verdict == Verdict::open ? " is too coarse for this motion" : " does not give a motion of the machine");
   return text.str();
+}
+
+void EnergyGuard::exchange(StateArchive &archive)
+{
+  archive(at_begin_, gain_, loss_, largest_, rounding_, input_, dissipated_, steps_);
 }
 
 } // namespace gestell::coupling

@@ -8,6 +8,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * Says whether the energy balance of a run is open: its residual against the energy that the motion exchanges,
  *
@@ -43,6 +45,8 @@ public:
   /// What is open and by what, empty if closed.
   /// @param method  with its step, for messages: "BDF 2 with a step of 0.001 s"
   std::string words(const std::string &method) const;
+
+  void exchange(StateArchive &archive);
 
 private:
   /// Of a quantity that begins with zero.

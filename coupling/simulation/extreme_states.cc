@@ -1,4 +1,6 @@
 #include "coupling/simulation/extreme_states.h"
+#include "coupling/integration/system/state_archive.h"
+#include "coupling/simulation/run_state.h"
 
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/states_around.h"
@@ -60,6 +62,11 @@ void ExtremeStates::follow()
     kept.v = v_;
     kept.p = p_;
   }
+}
+
+void ExtremeStates::exchange(StateArchive &archive)
+{
+  archive(kept_.grid, kept_.at, kept_.extremes, next_at_);
 }
 
 } // namespace gestell::coupling

@@ -11,6 +11,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// Takes the wanted states from the dense output, where they lie, not from the steps beside them.  Without a request a
 /// step costs one comparison.
 class ExtremeStates
@@ -21,6 +23,8 @@ public:
 
   /// At the start, after a step and after an event, when the extremes of the signals are known.
   void follow();
+
+  void exchange(StateArchive &archive);
 
 private:
   Eigen::VectorXd state(double t);

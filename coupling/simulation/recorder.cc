@@ -1,5 +1,8 @@
 #include "coupling/simulation/recorder.h"
 
+#include "coupling/integration/system/state_archive.h"
+#include "coupling/simulation/run_state.h"
+
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -333,6 +336,14 @@ void Recorder::finish()
     result_.warnings.push_back(words);
   else
     result_.failure = words;
+}
+
+void Recorder::exchange(StateArchive &archive)
+{
+  archive(result_.signals, result_.rows, result_.event_values, result_.energy, result_.picture_times,
+          result_.picture_states, result_.picture_velocities);
+  archive(keeper_, around_, energy_, guard_, between_, a_, extremes_, behind_, pending_, length_, settled_, next_row_,
+          next_picture_, close_until_, close_budget_);
 }
 
 } // namespace gestell::coupling

@@ -14,6 +14,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// Coordinates that signals read by their positions or rates, ascending.
 std::vector<int> coordinates_of(const std::vector<Signal> &signals);
 
@@ -42,6 +44,8 @@ public:
   /// An event of that object has changed the history at the present instant, and the integration goes on from there.
   void jump(const std::string &event);
   void finish(); ///< the last instant always has a row
+
+  void exchange(StateArchive &archive); ///< of the result what was recorded, too
 
 private:
   void          evaluate(double t, SignalSample &sample) override;

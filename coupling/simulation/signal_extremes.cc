@@ -1,5 +1,7 @@
 #include "coupling/simulation/signal_extremes.h"
 
+#include "coupling/integration/system/state_archive.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -271,6 +273,16 @@ void SignalExtremes::search(std::size_t signal, double sign, int middle)
     p[top.t - p[0].t > p[2].t - top.t ? 0 : 2] = top;
     std::sort(p.begin(), p.end(), [](const Point &x, const Point &y) { return x.t < y.t; });
   }
+}
+
+void SignalSample::exchange(StateArchive &archive)
+{
+  archive(t, values);
+}
+
+void SignalExtremes::exchange(StateArchive &archive)
+{
+  archive(samples_, watched_, anew_, n_, begin_);
 }
 
 } // namespace gestell::coupling

@@ -9,11 +9,15 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// All signals at an instant.
 struct SignalSample
 {
   double              t = 0.;
   std::vector<double> values;
+
+  void exchange(StateArchive &archive);
 };
 
 /// A run whose last step can be looked into.
@@ -70,6 +74,8 @@ public:
   bool   watched(std::size_t signal) const { return watched_[signal] != 0; }
   /// Extremes of a signal count from the last sample on.
   void look_anew(std::size_t signal);
+
+  void exchange(StateArchive &archive);
 
 private:
   void   append(double t);

@@ -2,16 +2,20 @@
 
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/system/fastest_load.h"
+#include "coupling/integration/system/state_archive.h"
 #include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/element_law.h"
+#include "coupling/simulation/checkpoint_pace.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
 #include "coupling/simulation/checks/fast_forces.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
 #include "coupling/simulation/checks/hydraulic_limits.h"
 #include "coupling/simulation/checks/momentary_modes.h"
 #include "coupling/simulation/checks/stiffness_check.h"
+#include "coupling/simulation/crawl_watch.h"
 #include "coupling/simulation/no_tiny_numbers.h"
 #include "coupling/simulation/recorder.h"
+#include "coupling/simulation/resumable_run.h"
 #include "coupling/simulation/run_method.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
@@ -28,7 +32,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double most_steps = 1e10, most_bytes = 1e9;
+constexpr double most_bytes        = 1e9;
 constexpr double seldom            = 1e-4; ///< share of a run whose events need not be located
 constexpr double often             = 0.1;  ///< share of controlled steps that go over events
 constexpr double samples_of_period = 32.;
@@ -134,34 +138,6 @@ void add(const std::vector<std::string> &warnings, std::vector<std::string> &all
 {
   all.insert(all.end(), warnings.begin(), warnings.end());
 }
-
-/// Ends a run whose controlled steps have become so short that it would never end.
-class CrawlWatch
-{
-public:
-  explicit CrawlWatch(const RunOptions &options) : options_(options), from_(options.begin) {}
-
-  /// @throws ConvergenceFailure if the rest of the run would need more than `most_steps` at the pace of the last ones.
-  void look(double t)
-  {
-    const double steps = window * (options_.end - t) / std::max(t - from_, 1e-300);
-    if (steps > most_steps)
-    {
-      std::ostringstream text;
-      text << "controlled steps have become too short to reach the end: " << window << " steps from t = " << from_
-           << " s took " << t - from_ << " s, and at this pace the rest would need " << steps
-           << "; take a larger run.tolerance";
-      throw ConvergenceFailure(text.str());
-    }
-    from_ = t;
-  }
-
-  static constexpr long window = 1L << 15;
-
-private:
-  const RunOptions &options_;
-  double            from_;
-};
 
 EventDriver event_driver(Machine &machine, TimeIntegrator &integrator, const RunOptions &options, double still)
 {
@@ -279,8 +255,33 @@ public:
   Run(const Run &)            = delete;
   Run &operator=(const Run &) = delete;
 
-  void integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop);
+  void integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop,
+                 const RunCheckpoints *checkpoints);
   void finish(const InitialState &initial);
+
+  /// All that the rest of the run depends on, and what was recorded.
+  void exchange(StateArchive &archive)
+  {
+    driver_.exchange(archive);
+    archive(recorder_, *cylinders_, *stiffness_, *fast_forces_, *momentary_, crawl_, steps_);
+  }
+
+  std::string state()
+  {
+    StateArchive archive;
+    exchange(archive);
+    return archive.bytes();
+  }
+
+  /// Goes on from there instead of the begin.
+  /// @throws std::runtime_error if the state is that of another run
+  void go_on(const std::string &state)
+  {
+    StateArchive archive(state);
+    exchange(archive);
+    if (!archive.at_end())
+      throw std::runtime_error("the stored state is longer than that of this run");
+  }
 
 private:
   void look_at_step()
@@ -313,19 +314,22 @@ private:
   std::unique_ptr<StiffnessCheck>  stiffness_;
   std::unique_ptr<FastForces>      fast_forces_;
   std::unique_ptr<MomentaryModes>  momentary_;
+  CrawlWatch                       crawl_{options_};
+  long                             steps_      = 1; ///< the next one
   Trajectory                      *trajectory_ = nullptr;
   double                           spacing_    = 0.; ///< [s] of its nodes
 };
 
 /// A step that cannot be made ends the run, with its reason in the result.
-void Run::integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop)
+void Run::integrate(const std::function<void(double)> &progress, const std::atomic<bool> *stop,
+                    const RunCheckpoints *checkpoints)
 {
-  const long   progress_every = machine_.size() > 1000 ? 4 : 1024;
-  CrawlWatch   crawl(options_);
-  const double finish = options_.end - 1e-12 * (options_.end - options_.begin); // what rounding may leave
+  const long     progress_every = machine_.size() > 1000 ? 4 : 1024;
+  const double   finish         = options_.end - 1e-12 * (options_.end - options_.begin); // what rounding may leave
+  CheckpointPace pace(checkpoints, [this] { return state(); });
   try
   {
-    for (long k = 1; integrator_->time() < finish; ++k)
+    for (; integrator_->time() < finish; ++steps_)
     {
       driver_.advance();
       if (!end_.empty())
@@ -333,15 +337,24 @@ void Run::integrate(const std::function<void(double)> &progress, const std::atom
         result_.failure = end_;
         break;
       }
+      const bool pauses = steps_ % progress_every == 0;
+      if (pauses && progress)
+        progress(integrator_->time());
+      if (steps_ % CrawlWatch::window == 0 && controlled(method_))
+        crawl_.look(integrator_->time());
       if (stop && stop->load(std::memory_order_relaxed))
       {
         result_.interrupted = true;
+        ++steps_;
+        pace.keep();
         break;
       }
-      if (progress && k % progress_every == 0)
-        progress(integrator_->time());
-      if (k % CrawlWatch::window == 0 && controlled(method_))
-        crawl.look(integrator_->time());
+      if (pauses && pace.is_due())
+      {
+        ++steps_;
+        pace.keep();
+        --steps_;
+      }
     }
   }
   catch (const ConvergenceFailure &failure)
@@ -373,6 +386,13 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
                    const std::atomic<bool> *stop, Trajectory *trajectory)
 {
+  return simulate(machine, initial, options, signals, progress, stop, trajectory, nullptr);
+}
+
+RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
+                   const std::vector<Signal> &signals, const std::function<void(double)> &progress,
+                   const std::atomic<bool> *stop, Trajectory *trajectory, const RunCheckpoints *checkpoints)
+{
   const NoTinyNumbers while_it_runs;
   check_run(machine, options, signals.size());
   machine.will_read(signals);
@@ -400,7 +420,9 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   run.look_on(initial);
   if (trajectory)
     run.keep(*trajectory);
-  run.integrate(progress, stop);
+  if (checkpoints && !checkpoints->from.empty())
+    run.go_on(checkpoints->from);
+  run.integrate(progress, stop, checkpoints);
   run.finish(initial);
   result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count();
   return result;

@@ -1,5 +1,8 @@
 #include "coupling/simulation/states_around.h"
 
+#include "coupling/integration/system/state_archive.h"
+#include "coupling/simulation/run_state.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -126,6 +129,16 @@ void StatesAround::finish()
                              [](const KeptState &a, const KeptState &b) { return b.t - a.t <= rounded * (b.t + a.t); }),
                  around.end());
   }
+}
+
+void StatesAround::Scale::exchange(StateArchive &archive)
+{
+  archive(next, ring, kept);
+}
+
+void StatesAround::exchange(StateArchive &archive)
+{
+  archive(scales_, seen_);
 }
 
 } // namespace gestell::coupling

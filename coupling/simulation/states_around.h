@@ -11,6 +11,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// Forces p [n_u] on the measures of all elements at a motion: of laws by their values, of joints and of what sticks as
 /// the motion carries them.
 void forces_on_measures(const Machine &machine, const LocalState &local, Eigen::VectorXd &p);
@@ -30,6 +32,8 @@ public:
   void follow();
   void finish(); ///< fills KeptStates::around
 
+  void exchange(StateArchive &archive);
+
 private:
   /// A grid of instants and the latest states on it.
   struct Scale
@@ -38,6 +42,8 @@ private:
     long                                next    = 0;
     std::vector<KeptState>              ring{};
     std::vector<std::vector<KeptState>> kept{}; ///< by extreme: left the ring, and lie around it
+
+    void exchange(StateArchive &archive);
   };
 
   double time_of(std::size_t extreme) const;

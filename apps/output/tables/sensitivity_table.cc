@@ -97,7 +97,7 @@ Json sensitivities_json(const SensitivityResult &result)
 std::string sensitivities_text(const SensitivityResult &result)
 {
   std::ostringstream text;
-  text << "1 % more changes\n";
+  text << "1 % more changes (+: away from zero)\n";
   for (const SensitivityOutput &output : result.outputs)
   {
     const std::string &name = output.output;

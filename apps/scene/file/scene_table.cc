@@ -1,6 +1,8 @@
 #include "apps/scene/file/scene_table.h"
 
+#include "apps/scene/file/written_text.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -221,7 +223,7 @@ double SceneTable::positive(const std::string &key, const Kind &kind) const
   const double value = number(key, kind);
   if (value <= 0.)
     throw error(key, "needs " + with_article(kind) + " above zero such as \"" + kind.example + "\", got " +
-                         node_->find(key)->text);
+                         with_value(node_->find(key)->text, value));
   return value;
 }
 
@@ -234,7 +236,8 @@ double SceneTable::not_negative(const std::string &key, const Kind &kind) const
 {
   const double value = number(key, kind);
   if (value < 0.)
-    throw error(key, "needs " + with_article(kind) + " of zero or more, got " + node_->find(key)->text);
+    throw error(key,
+                "needs " + with_article(kind) + " of zero or more, got " + with_value(node_->find(key)->text, value));
   return value;
 }
 

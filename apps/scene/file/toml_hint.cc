@@ -88,4 +88,65 @@ std::string toml_hint(const std::string &line)
   return hint_of_value(trimmed(content.substr(equals + 1)));
 }
 
+std::string hint_of_reason(const std::string &reason)
+{
+  static const std::regex twice(R"x((value|table) \("([^"]+)"\) already exists)x");
+  std::smatch             parts;
+  if (!std::regex_search(reason, parts, twice))
+    return "";
+  const std::string name = parts[2];
+  return parts[1] == "table" ? "[" + name + "] stands in the file twice; put all its keys under one head"
+                             : "the key '" + name + "' stands twice in this table; leave one of the two out";
+}
+
+std::string hint_of_place(const std::string &reason)
+{
+  return reason.find("array separator") != std::string::npos
+             ? "an array above is not closed; it begins with [, has commas between its values and ends with ]"
+             : "";
+}
+
+namespace
+{
+
+int line_at(const std::string &text, std::size_t place)
+{
+  return 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(place), '\n'));
+}
+
+/// Bytes of the character that begins there, 0: none of UTF-8 does.
+std::size_t utf8_length(const std::string &text, std::size_t at)
+{
+  const auto        first  = static_cast<unsigned char>(text[at]);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if (at + k >= text.size() || (static_cast<unsigned char>(text[at + k]) & 0xC0) != 0x80)
+      return 0;
+  return length;
+}
+
+} // namespace
+
+std::pair<int, std::string> hint_of_bytes(const std::string &text)
+{
+  const std::string begin = text.substr(0, 2);
+  if (begin == "\xFF\xFE" || begin == "\xFE\xFF" || text.substr(0, 256).find('\0') != std::string::npos)
+    return {1, "is written in UTF-16 or is no text; save it as UTF-8, as editors offer with the encoding"};
+  if (text.compare(0, 10, "ISO-10303-") == 0)
+    return {1, "is a STEP file, not a scene; 'gestell mesh FILE' shows it, and a scene names it as frame.cad"};
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0)
+      return {line_at(text, at), "has a character that is not UTF-8 (of Latin-1 or Windows?); save the file as UTF-8"};
+    at += length;
+  }
+  return {0, ""};
+}
+
 } // namespace gestell::apps

@@ -166,7 +166,11 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
   }
   catch (const toml::exception &e)
   {
-    const auto hint = toml_hint(line_of(text, e.location().line()));
+    auto hint = hint_of_reason(e.what());
+    if (hint.empty())
+      hint = toml_hint(line_of(text, e.location().line()));
+    if (hint.empty())
+      hint = hint_of_place(e.what());
     fail(e.location().line(), "is not TOML here: " + (hint.empty() ? first_line(e.what()) : hint));
   }
   catch (const std::exception &e)
@@ -188,6 +192,8 @@ SceneNode parse_toml_file(const std::string &path)
     fail("cannot be read; check its permissions");
   std::ostringstream text;
   text << in.rdbuf();
+  if (const auto [line, hint] = hint_of_bytes(text.str()); !hint.empty())
+    throw std::invalid_argument(Place{path, line}.text() + ": " + hint);
   return parse_toml_text(text.str(), path, std::filesystem::absolute(path).parent_path().lexically_normal().string());
 }
 

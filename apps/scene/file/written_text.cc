@@ -1,5 +1,7 @@
 #include "apps/scene/file/written_text.h"
 
+#include "fem/values/number_text.h"
+
 #include <cctype>
 #include <cstdio>
 
@@ -21,6 +23,12 @@ std::string written_text(const std::string &text)
     else
       written += c;
   return written + '"';
+}
+
+std::string with_value(const std::string &text, double value)
+{
+  const bool plain = text.find_first_not_of("+-.0123456789eE") == std::string::npos;
+  return plain ? text : text + ", which is " + short_text(value) + " in SI units";
 }
 
 } // namespace gestell::apps

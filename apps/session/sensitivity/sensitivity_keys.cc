@@ -81,8 +81,11 @@ const SceneNode &node_of(const SceneNode &root, const std::string &key)
   std::string      path;
   for (const std::string &part : split_outside_quotes(key, '.'))
   {
-    const std::string name = without_quotes(part);
-    const SceneNode  *next = node->type == SceneNode::Type::table ? node->find(name) : nullptr;
+    const std::string name       = without_quotes(part);
+    const SceneNode  *next       = node->type == SceneNode::Type::table ? node->find(name) : nullptr;
+    const SceneNode  *parameters = root.find("parameters");
+    if (!next && path.empty() && parameters && parameters->find(name))
+      refuse(key, "the scene has no entry \"" + name + "\", but a parameter of that name; write parameters." + name);
     if (!next)
       refuse(key, node->place.text() + ": " + (path.empty() ? "the scene" : path) + " has no entry \"" + name + "\"" +
                       suggestion(name, names_in(*node)));
@@ -169,8 +172,15 @@ std::vector<std::string> all_keys(const SceneNode &root, const Parameters &param
 
 } // namespace
 
+/// Entries with a unit take numbers without one, but no expressions of such.
 std::string VariedKey::overridden(double by) const
 {
+  if (text.find_first_not_of("+-.0123456789eE") == std::string::npos)
+  {
+    std::string number;
+    append_exact(number, told.value * (1. + (by * told.value > 0. ? 1. : -1.) * share * std::abs(by)));
+    return told.key + '=' + number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
+  }
   // A whole number of a file that stands for a real one is written as a text.
   std::string text_of_share;
   append_exact(text_of_share, share * std::abs(by));

@@ -43,6 +43,12 @@ public:
   /// Instants ratio h apart, on the polynomial of a degree <= known(), which is then all that is known.
   void rescale(double ratio, int degree);
 
+  template <typename Archive>
+  void exchange(Archive &archive)
+  {
+    archive(D_, known_);
+  }
+
 private:
   Eigen::MatrixXd D_; ///< [size x highest + 1]
   int             known_ = 0;

@@ -4,6 +4,7 @@
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/step/implicit_step.h"
 #include "coupling/integration/step/virtual_rates.h"
+#include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/time_integrator.h"
 
 #include <array>
@@ -32,7 +33,7 @@ namespace gestell::coupling
  * A step in which Newton fails is divided: two implicit Euler steps of half the length, each divided again up to
  * max_halvings times; the grid stays as it was.
  */
-class Bdf : public TimeIntegrator
+class Bdf : public TimeIntegrator, public Resumable
 {
 public:
   struct Options
@@ -61,6 +62,7 @@ public:
   void                   cut(double t) override;
   void                   restart() override;
   const IntegrationWork &work() const override { return work_; }
+  void exchange(StateArchive &archive) override;
 
 private:
   /// A past point: q, v = q', w = M q' + B q [n]; motion of the measures and their forces.
@@ -68,6 +70,8 @@ private:
   {
     double          t = 0.;
     Eigen::VectorXd q, v, w, u, u_rate, a, p, lambda;
+
+    void exchange(StateArchive &archive);
   };
 
   Point       &past(int i) { return points_[(newest_ + capacity - i) % capacity]; } ///< i = 0: the newest

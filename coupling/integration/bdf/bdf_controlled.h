@@ -7,6 +7,7 @@
 #include "coupling/integration/step/virtual_rates.h"
 #include "coupling/integration/system/error_control.h"
 #include "coupling/integration/system/error_scale.h"
+#include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/time_integrator.h"
 
 namespace gestell::coupling
@@ -55,7 +56,7 @@ namespace gestell::coupling
  * Dense output: cubic Hermite through u, u' (q, q') at both ends for orders 1 and 2, quintic through the three points
  * of a start; the polynomial of degree k + 1 from order 3 on.
  */
-class BdfControlled : public TimeIntegrator, public ErrorControl
+class BdfControlled : public TimeIntegrator, public ErrorControl, public Resumable
 {
 public:
   struct Options
@@ -85,6 +86,7 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return work_; }
+  void exchange(StateArchive &archive) override;
   bool                   controls_error() const override { return true; }
   void                   expect(double way, double speed) override { scale_.expect(way, speed); }
 

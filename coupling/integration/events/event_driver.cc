@@ -1,4 +1,6 @@
 #include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/system/resumable.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include "coupling/integration/step/loads_to_come.h"
 #include "coupling/integration/system/error_control.h"
@@ -389,6 +391,26 @@ void EventDriver::take(const Crossing &crossing)
   system_.events().transition(guard, between_);
   integrator_.restart();
   before_ = integrator_.local();
+}
+
+/// Found beside Event by the archive.
+void exchange(StateArchive &archive, Event &event)
+{
+  archive(event.t, event.name, event.kind);
+}
+
+void EventDriver::exchange(StateArchive &archive)
+{
+  Eigen::VectorXd history = system_.events().save_history();
+  archive(history);
+  if (archive.reads())
+    system_.events().restore_history(history);
+  if (auto *const resumable = dynamic_cast<Resumable *>(&integrator_))
+    resumable->exchange(archive);
+  if (archive.reads())
+    detection_.begin(integrator_.local());
+  archive(events_, before_, between_, g_, probe_, window_begin_, length_, in_window_, chattering_, chattering_time_,
+          told_);
 }
 
 } // namespace gestell::coupling

@@ -11,6 +11,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 struct EventOptions
 {
   bool locate       = true; ///< false: events are told, the integration goes over them
@@ -18,7 +20,8 @@ struct EventOptions
 
   double end = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
 
-  /// Sliding speed [m/s, rad/s] up to which a motion begins sticking: that of a start that was computed, and is rounded.
+  /// Sliding speed [m/s, rad/s] up to which a motion begins sticking: that of a start that was computed, and is
+  /// rounded.
   double still = 0.;
 };
 
@@ -61,6 +64,9 @@ public:
   long                      chattering_steps() const { return chattering_; }
   /// [s] that those steps took.
   double chattering_time() const { return chattering_time_; }
+
+  /// All that the events to come depend on, history of the elements and state of the integrator too.
+  void exchange(StateArchive &archive);
 
 private:
   void hold_what_is_still();

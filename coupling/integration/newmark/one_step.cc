@@ -1,4 +1,5 @@
 #include "coupling/integration/newmark/one_step.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include "coupling/integration/system/hermite.h"
 
@@ -215,6 +216,16 @@ void OneStep::cut(double t)
   cut_   = true;
   if (system_.joints().n_rows() > 0) // multipliers as accurate as q and q': a limiter may look at them
     start_.solve(here.q, here.v, cut_point_.a, here.local, work_);
+}
+
+void OneStep::Point::exchange(StateArchive &archive)
+{
+  archive(motion, a, f);
+}
+
+void OneStep::exchange(StateArchive &archive)
+{
+  archive(implicit_, start_, begin_, end_, cut_point_, t_begin_, index_, stepped_, cut_, work_);
 }
 
 } // namespace gestell::coupling

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/step/implicit_step.h"
+#include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/time_integrator.h"
 
 #include <vector>
@@ -20,7 +21,7 @@ namespace gestell::coupling
  *   (ConsistentStart::hold()).
  * - A cut takes the dense output; advance() after it begins anew there.
  */
-class OneStep : public TimeIntegrator
+class OneStep : public TimeIntegrator, public Resumable
 {
 public:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
@@ -38,6 +39,7 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return work_; }
+  void exchange(StateArchive &archive) override;
 
 protected:
   /// A point of time: motion, acceleration as the method carries it and load f_t, both [n].
@@ -45,6 +47,8 @@ protected:
   {
     Instant         motion;
     Eigen::VectorXd a, f;
+
+    void exchange(StateArchive &archive);
   };
 
   /// @param name  of the method, for messages

@@ -1,4 +1,5 @@
 #include "coupling/integration/propagation/collocation_step.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -252,6 +253,18 @@ bool CollocationStep::iterate(const StepTable &table)
 std::unique_ptr<ForceStep> make_collocation_step(PropagationContext &context, int stages)
 {
   return std::make_unique<CollocationStep>(context, stages);
+}
+
+void CollocationStep::exchange(StateArchive &archive, const std::vector<const StepTable *> &tables)
+{
+  for (const StepTable **table : {&tried_, &factors_})
+    exchange_table(archive, tables, *table);
+  archive(x_begin_, x_end_, free_, P_, P_last_, P_end_, residual_, defect_, defect_begin_, mobile_, scale_,
+          age_of_way_);
+  for (Reach *reach : {&reached_, &expected_})
+    archive(reach->u, reach->p, reach->way);
+  archive(expected_until_, doubtful_, largest_defect_, defect_part_, U_, V_, dp_du_, dp_dv_, extrapolate_, begin_at_,
+          node_, lu_, factors_h_, h_, h_last_, ratio_, error_);
 }
 
 } // namespace gestell::coupling

@@ -10,6 +10,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * Forces as the polynomial through s Gauss points, at which the laws are met:
  *
@@ -51,6 +53,7 @@ public:
   void interpolate(double sigma, LocalState &state) const override;
 
   void carry_tangents(Eigen::MatrixXd &X) override;
+  void exchange(StateArchive &archive, const std::vector<const StepTable *> &tables) override;
 
 private:
   /// Work space of carry_tangents(), for the n measures whose forces change with the motion.

@@ -1,4 +1,5 @@
 #include "coupling/integration/propagation/force_step.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -260,6 +261,18 @@ void HermiteNodes::weights(double sigma, double *value, double *slope, double *r
     rate_value[i] = -2. * own_slope_[i] * square + 2. * b * L * L_slope;
     rate_slope[i] = square + 2. * d * L * L_slope;
   }
+}
+
+void PropagationContext::exchange(StateArchive &archive)
+{
+  archive(u_begin, scale, force, farthest, loads_way, x_begin_, work);
+}
+
+void exchange_table(StateArchive &archive, const std::vector<const StepTable *> &tables, const StepTable *&table)
+{
+  std::size_t place = std::size_t(std::find(tables.begin(), tables.end(), table) - tables.begin());
+  archive(place);
+  table = place < tables.size() ? tables[place] : nullptr;
 }
 
 } // namespace gestell::coupling

@@ -11,6 +11,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// What the steps of exact propagation share: the system, its measures in modes, scales and counts.
 struct PropagationContext
 {
@@ -54,6 +56,8 @@ struct PropagationContext
   /// only.
   void project_held(Eigen::VectorXd &x, LocalState &local);
 
+  void exchange(StateArchive &archive); ///< what was seen of the motion
+
 private:
   void factorise_delassus(double t);
 
@@ -95,7 +99,13 @@ public:
   /// dx/ds [2 n_p x k] at the begin of the step solved last becomes that at its end.
   /// @throws std::invalid_argument for a rule that has none
   virtual void carry_tangents(Eigen::MatrixXd &X) = 0;
+  /// All that the steps to come depend on.
+  /// @param tables  that steps may have used, in an order that does not change
+  virtual void exchange(StateArchive &archive, const std::vector<const StepTable *> &tables) = 0;
 };
+
+/// A table by its place in the list; none is taken as the end of it.
+void exchange_table(StateArchive &archive, const std::vector<const StepTable *> &tables, const StepTable *&table);
 
 std::unique_ptr<ForceStep> make_collocation_step(PropagationContext &context, int stages);
 /// Linear force or step-averaged force.

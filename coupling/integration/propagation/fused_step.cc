@@ -1,9 +1,10 @@
 #include "coupling/integration/propagation/force_step.h"
 #include "coupling/integration/propagation/fused_kernel.h"
+#include "coupling/integration/system/state_archive.h"
 
-#include <stdexcept>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace gestell::coupling
 {
@@ -73,6 +74,13 @@ public:
   void carry_tangents(Eigen::MatrixXd &) override
   {
     throw std::invalid_argument("tangents are carried with run.force = \"collocation\" only");
+  }
+
+  void exchange(StateArchive &archive, const std::vector<const StepTable *> &tables) override
+  {
+    exchange_table(archive, tables, table_);
+    archive(h_, contraction_, y_begin_, y_end_, p_begin_, p_, p_before_, change_, free_, x_piece_, g_, F_, S_u_, S_v_,
+            at_begin_, at_end_, node_);
   }
 
   bool solve(const StepTable &table, LocalState &end) override

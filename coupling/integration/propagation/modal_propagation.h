@@ -3,6 +3,7 @@
 #include "coupling/integration/propagation/force_step.h"
 #include "coupling/integration/system/error_control.h"
 #include "coupling/integration/system/motion_tangents.h"
+#include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/time_integrator.h"
 
 #include <cstdint>
@@ -34,7 +35,7 @@ namespace gestell::coupling
  * their tables.  Where Newton fails, or with a tolerance the local error is too large, r grows; it falls again where
  * the grid allows.
  */
-class ModalPropagation : public TimeIntegrator, public ErrorControl, public MotionTangents
+class ModalPropagation : public TimeIntegrator, public ErrorControl, public MotionTangents, public Resumable
 {
 public:
   struct Options
@@ -66,6 +67,7 @@ public:
   const IntegrationWork &work() const override { return context_.work; }
   bool                   controls_error() const override { return options_.tolerance > 0.; }
   void                   expect(double way, double speed) override;
+  void exchange(StateArchive &archive) override;
 
   void          begin_tangents(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv) override;
   void          carry_tangents() override;

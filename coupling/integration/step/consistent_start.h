@@ -8,6 +8,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// Rates of held measures in v [n_u] become those they are held at, free of rounding: a motion that lets go there
 /// begins at the very zero of the guard by which it would stick again.
 void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v);
@@ -57,6 +59,9 @@ public:
   /// their kinetic energy; local.u and local.v with them.
   /// @throws ConvergenceFailure if joints depend on each other or g cannot be closed
   void project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState &local);
+
+  /// What was seen of the forces; matrices of held measures are made again.
+  void exchange(StateArchive &archive);
 
 private:
   static constexpr double converged        = 1e-12; ///< correction of u'', relative to the terms it is the sum of

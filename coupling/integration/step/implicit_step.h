@@ -11,6 +11,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 struct NewtonOptions
 {
   double      tolerance      = 1e-10; ///< of the error left, relative to the largest excursion of the measure so far
@@ -105,6 +107,9 @@ public:
   void begin(const Eigen::VectorXd &u);
   /// Other laws hold from here on: how fast Newton converges is to be seen anew.
   void forget_contraction();
+
+  /// What was seen of the steps made; forms that were condensed are condensed again.
+  void exchange(StateArchive &archive);
 
 private:
   static constexpr double unseen_contraction = 1.;   ///< of Newton where it has not been seen: nothing is expected

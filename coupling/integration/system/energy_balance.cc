@@ -1,4 +1,5 @@
 #include "coupling/integration/system/energy_balance.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -190,6 +191,12 @@ EnergyState EnergyBalance::state(const TimeIntegrator &integrator, const Instant
   const int    i    = std::clamp(int((instant.t - t_begin_) / h), 0, panels - 1);
   const Power  work = sum(1., panels_[i], 1., integral(integrator, t_begin_ + i * h, instant.t));
   return at(instant, work);
+}
+
+void EnergyBalance::exchange(StateArchive &archive)
+{
+  archive(product_, load_, first_, last_, work_begin_, work_, panels_, t_begin_, t_, stored_last_, stored_,
+          stored_begin_, in_elements_, forces_, kinetic_, kinetic_begin_);
 }
 
 } // namespace gestell::coupling

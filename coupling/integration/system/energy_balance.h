@@ -8,6 +8,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// Energy [J] since the start; residual() is input - stored - dissipated and would be zero for exact integration.
 struct EnergyState
 {
@@ -61,6 +63,8 @@ public:
   EnergyState state(const Instant &instant);
   /// Likewise after a step by Gauss' rule: from the panel's begin to the instant by the same rule.
   EnergyState state(const TimeIntegrator &integrator, const Instant &instant);
+
+  void exchange(StateArchive &archive);
 
 private:
   /// Powers [W], or their integrals [J].

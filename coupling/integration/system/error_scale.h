@@ -8,6 +8,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * How large an error of a motion is, as one number in the units of the tolerance; for any integrator.
  *
@@ -82,6 +84,8 @@ public:
   double error_of_measures(const Vector &e_u, const Vector &e_rate) const;
   /// Coordinate with the largest part in the error e, for messages: "q3", or "the force on q3".
   std::string worst(const Motion &e) const;
+
+  void exchange(StateArchive &archive); ///< what was seen of the motion and of the laws
 
   /// n [1] of coordinates without mass; their errors count through measures and neighbours alone.
   int massless() const { return massless_; }

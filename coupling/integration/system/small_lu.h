@@ -62,6 +62,12 @@ public:
         });
   }
 
+  template <typename Archive>
+  void exchange(Archive &archive)
+  {
+    archive(a_, row_size_, pivot_, idle_, least_, failed_);
+  }
+
 private:
   /// Calls work with the number of unknowns as a constant where it is small: then the compiler unrolls all loops.
   template <class Work>

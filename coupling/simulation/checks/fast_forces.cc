@@ -1,4 +1,5 @@
 #include "coupling/simulation/checks/fast_forces.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
@@ -304,6 +305,12 @@ std::string FastForces::warning() const
     text << "more than " << limit_ * (1 << (n_ranges - 1))
          << " Hz would be needed; double it until the answer stays as it is";
   return text.str();
+}
+
+void FastForces::exchange(StateArchive &archive)
+{
+  archive(t_, t_step_, impulse_, p_, bank_, sprung_before_, sprung_now_, force_, load_, at_rest_, sum_, difference_,
+          input_, deflection_, least_, most_, error_);
 }
 
 } // namespace gestell::coupling

@@ -10,6 +10,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * What the frequencies of a reduced frame, which are too high, make of the forces of a run.
  *
@@ -37,6 +39,8 @@ public:
 
   /// One for all forces that leave more than a twentieth of a deflection in doubt; empty if none does.
   std::string warning() const;
+
+  void exchange(StateArchive &archive);
 
 private:
   static constexpr int n_ranges = 4; ///< f, 2 f, 4 f, 8 f: what a larger range would leave

@@ -1,4 +1,5 @@
 #include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include "coupling/machine/element_law.h"
 #include "mechanism/elements/hydraulic_cylinder.h"
@@ -81,6 +82,12 @@ std::vector<std::string> HydraulicLimits::warnings() const
     warnings.push_back(text.str());
   }
   return warnings;
+}
+
+void HydraulicLimits::exchange(StateArchive &archive)
+{
+  for (Limit &limit : limits_)
+    archive(limit.t, limit.value, limit.known, limit.passed, limit.first, limit.lowest);
 }
 
 } // namespace gestell::coupling

@@ -9,6 +9,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /// Looks at the hydraulic cylinders of a machine after every step: for pressures below zero, at which oil cavitates,
 /// and pistons at the end of their stroke, none of which their law knows.
 class HydraulicLimits
@@ -21,6 +23,8 @@ public:
 
   /// For each limit that was passed: when it was for the first time, and how far at most.
   std::vector<std::string> warnings() const;
+
+  void exchange(StateArchive &archive);
 
 private:
   /// A signal that should not fall below zero after `offset` was added and `sign` taken.

@@ -1,4 +1,5 @@
 #include "coupling/simulation/checks/momentary_modes.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
@@ -66,6 +67,11 @@ std::string MomentaryModes::warning() const
        << " Hz; see that more modes change nothing (modes.open names contacts that are open most of the time), or take "
           "method = \"craig-bampton\"";
   return text.str();
+}
+
+void MomentaryModes::exchange(StateArchive &archive)
+{
+  archive(next_, looks_, apart_, mode_, t_, omega_, difference_);
 }
 
 } // namespace gestell::coupling

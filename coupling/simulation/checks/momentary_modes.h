@@ -9,6 +9,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * A machine that is superposed of modes of its averaged system against the system of the moment,
  *
@@ -27,6 +29,8 @@ public:
 
   /// Empty where frequencies stay within a tenth.
   std::string warning() const;
+
+  void exchange(StateArchive &archive);
 
 private:
   const Machine  &machine_;

@@ -1,4 +1,5 @@
 #include "coupling/simulation/checks/oscillator_bank.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include <cmath>
 
@@ -51,6 +52,11 @@ void OscillatorBank::advance(double h, const ArrayXd &u)
 void OscillatorBank::jump(const ArrayXd &u)
 {
   u_ = u;
+}
+
+void OscillatorBank::exchange(StateArchive &archive)
+{
+  archive(x_, rate_, u_, h_, xx_, xr_, rr_);
 }
 
 } // namespace gestell::coupling

@@ -5,6 +5,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * Oscillators  x'' + 2 zeta omega x' + omega^2 x = omega^2 u  side by side, for inputs u that are linear between
  * instants: each step is exact for them.  At rest x = u.
@@ -21,6 +23,8 @@ public:
   void jump(const Eigen::ArrayXd &u);              ///< the inputs jump at this instant
 
   const Eigen::ArrayXd &x() const { return x_; }
+
+  void exchange(StateArchive &archive);
 
 private:
   void prepare(double h);

@@ -1,4 +1,5 @@
 #include "coupling/simulation/checks/stiffness_check.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
@@ -153,6 +154,11 @@ void StiffnessCheck::fail(const LocalState &state, double share, const Watched &
        << " s or less, or run.method = \"bdf\" with run.order = 2, stable at any stiffness; run.force_unstable = true "
           "runs it as it is";
   throw ConvergenceFailure(text.str());
+}
+
+void StiffnessCheck::exchange(StateArchive &archive)
+{
+  archive(last_);
 }
 
 } // namespace gestell::coupling

@@ -9,6 +9,8 @@
 namespace gestell::coupling
 {
 
+class StateArchive;
+
 /**
  * Elements whose stiffness grows with the motion (a contact after Hertz, a cubic spring) against the stiffness that a
  * method with fixed step and a limit stands: the guard before the run knows them at the start only.
@@ -30,6 +32,8 @@ public:
   /// After every step.
   /// @throws ConvergenceFailure naming the element, its stiffness and a step that stands what it will come to
   void step(const LocalState &state);
+
+  void exchange(StateArchive &archive);
 
 private:
   struct Watched

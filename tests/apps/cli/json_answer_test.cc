@@ -1,0 +1,87 @@
+// With --json a command writes one document to standard output, and nothing else: the numbers of its text, its files
+// and its errors.
+
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using Json = nlohmann::json;
+
+/// Standard output alone; the document must be all of it.
+Json document(const std::string &arguments, int exit_code = 0)
+{
+  const Folder      folder("json");
+  const std::string out = (folder / "out.json").string();
+  const Answer      answer =
+      shell("( GESTELL_CACHE='" GESTELL_BINARY_DIR "/tests/cache' '" GESTELL_BINARY_DIR "/bin/gestell' " + arguments +
+            " --json >'" + out + "' 2>/dev/null )");
+  EXPECT_EQ(answer.exit_code, exit_code) << answer.text;
+  const Json json = Json::parse(read(out), nullptr, false);
+  EXPECT_FALSE(json.is_discarded()) << read(out);
+  EXPECT_EQ(json.value("exit_code", -1), exit_code);
+  return json;
+}
+
+} // namespace
+
+TEST(JsonAnswer, OfARunIsItsSummary)
+{
+  const Folder folder("json_run");
+  const Json   json    = document("run " + scene("press_minimal.toml") + folder.option());
+  const Json   summary = Json::parse(read(folder.results() / "summary.json"));
+  EXPECT_EQ(json["command"], "run");
+  EXPECT_EQ(json["answer"]["signals"], summary["signals"]);
+  EXPECT_EQ(json["answer"]["signals"]["F_P"]["unit"], "N");
+  EXPECT_EQ(json["answer"]["events"], summary["events"]);
+  EXPECT_TRUE(json["text"].is_array());
+}
+
+TEST(JsonAnswer, HoldsTheLinesOfTheText)
+{
+  const std::string press = scene("press_minimal.toml");
+  const Answer      text  = gestell("check " + press);
+  const Json        json  = document("check " + press);
+  std::string       lines;
+  for (const Json &line : json["text"])
+    lines += line.get<std::string>() + '\n';
+  EXPECT_EQ(lines, text.text);
+  EXPECT_EQ(json["answer"]["bodies"], Json({"flywheel", "crank", "slide"}));
+  EXPECT_DOUBLE_EQ(json["answer"]["run"]["step_s"], 1e-5);
+}
+
+TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
+{
+  const std::string press = scene("press_minimal.toml");
+  const Json        error = document("check " + press + " --set 'run.step=0'", 2)["error"];
+  EXPECT_EQ(error["exit_code"], 2);
+  EXPECT_EQ(error["value"], "0");
+  EXPECT_EQ(error["needed"], "a time above zero such as \"10 us\"");
+  const Folder folder("json_error");
+  const Json   of_file = document(
+        "check " + folder.file("scene.toml", "[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"3 m\"\n"),
+        2)["error"];
+  EXPECT_EQ(of_file["place"]["line"], 4);
+  EXPECT_EQ(of_file["key"], "body.slide.mass");
+  const Json line = document("check", 2)["error"];
+  EXPECT_NE(line["message"].get<std::string>().find("SCENE is required"), std::string::npos);
+  EXPECT_EQ(line["way_out"], "gestell check --help tells what it takes");
+}
+
+TEST(JsonAnswer, IsGivenByEveryCommandThatComputes)
+{
+  const Folder      folder("json_all");
+  const std::string press = scene("press_minimal.toml") + folder.option();
+  EXPECT_TRUE(document("modes " + press)["answer"]["frequencies_hz"].is_object() ||
+              document("modes " + press)["answer"]["frequencies_hz"].is_array());
+  EXPECT_FALSE(document("frf " + press + " --from frame.crown.uz --to frame.crown.uz")["answer"].is_null());
+  EXPECT_FALSE(document("stability --quiet -o '" + folder.results().string() + "'")["text"].empty());
+  EXPECT_EQ(document("reduce --list")["command"], "reduce");
+}
+
+} // namespace gestell::tests

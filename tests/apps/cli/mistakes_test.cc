@@ -1,0 +1,204 @@
+// Typical mistakes of a first day: each is answered with its place, what stands there and a way out, by exit code 2, or
+// by a warning where it might be meant.  press_minimal.toml or a scene to start from, with one thing wrong.
+
+#include "tests/support/program.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <utility>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using Edits = std::vector<std::pair<std::string, std::string>>;
+
+/// What is written wrong, what the answer says of it, and whether it is refused (2) or warned of (0).
+struct Mistake
+{
+  std::string              name;
+  Edits                    edits; ///< from, to
+  std::vector<std::string> words;
+  int                      exit_code = 2;
+  std::string              command   = "check";
+};
+
+void PrintTo(const Mistake &mistake, std::ostream *out)
+{
+  *out << mistake.name;
+}
+
+std::string edited(std::string text, const Edits &edits)
+{
+  for (const auto &[from, to] : edits)
+  {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    if (at != std::string::npos)
+      text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+bool has_place(const std::string &text)
+{
+  return std::regex_search(text, std::regex(R"(scene\.toml:[0-9]+: )"));
+}
+
+class MistakeInAScene : public testing::TestWithParam<Mistake>
+{
+};
+
+std::string name_of(const testing::TestParamInfo<Mistake> &info)
+{
+  return info.param.name;
+}
+
+const std::vector<Mistake> of_the_press = {
+    {"WrongUnit", {{"mass     = \"m3\"", "mass = \"3200 mm\""}}, {"3200 mm", "needs a mass such as \"3 t\""}},
+    {"UnknownUnit", {{"\"80 mm\"", "\"80 milimeter\""}}, {"80 milimeter", "unknown unit 'milimeter'"}},
+    {"UnitsThatDoNotFit", {{"\"80 mm\"", "\"80 kg\""}}, {"2*r - z_BDC", "both must be of one kind"}},
+    {"MisspeltKey", {{"breakdown_torque  =", "breakdown_torqe ="}}, {"breakdown_torqe", "'breakdown_torque'"}},
+    {"MisspeltTable", {{"[output.signals]", "[outputs.signals]"}}, {"outputs", "did you mean 'output'"}},
+    {"ForgottenQuotes", {{"\"80 mm\"", "80 mm"}}, {"in quotes: \"80 mm\""}},
+    {"QuoteNotClosed", {{"\"3200 kg\"", "\"3200 kg"}}, {"a quote is opened here and not closed"}},
+    {"ArrayNotClosed", {{"[0, 0, \"-g\"]", "[0, 0, \"-g\""}}, {"an array above is not closed", "ends with ]"}},
+    {"NameThatIsNotThere", {{"= \"slide\"", "= \"slid\""}}, {"'slid'", "did you mean 'slide'"}},
+    {"MassZero", {{"\"3200 kg\"", "\"0 kg\""}}, {"m3, which is 0", "above zero such as \"3 t\""}},
+    {"MassNegative", {{"\"3200 kg\"", "\"-3200 kg\""}}, {"m3, which is -3200", "above zero"}},
+    {"MassNotANumber", {{"\"3200 kg\"", "nan"}}, {"m3", "is not a finite number"}},
+    {"StepLongerThanTheRun", {{"\"10 us\"", "\"1 s\""}}, {"run.step", "longer than the run itself, 0.45 s"}},
+    {"StepZero", {{"\"10 us\"", "0"}}, {"run.step", "above zero such as \"10 us\", got 0"}},
+    {"EndBeforeStart", {{"\"t_end\"\n\n", "\"-1 s\"\n\n"}}, {"run.end", "must lie after 'begin'", "-1 s"}},
+    {"NoRun",
+     {{"[run]\nmethod = \"bdf\"\norder  = 2\nstep   = \"10 us\"\nend    = \"t_end\"\n", ""}},
+     {"there is no [run]", "end = \"0.5 s\""},
+     2,
+     "run"},
+    {"AxisOfTwoNumbers", {{"[0, 1, 0]", "[0, 1]"}}, {"body.flywheel.axis", "three values [x, y, z], got 2"}},
+    {"AxisOfNoLength", {{"[0, 1, 0]", "[0, 0, 0]"}}, {"body.flywheel.axis", "cannot be [0, 0, 0]"}},
+    {"DegreesForRadians",
+     {{"crank = \"2.0943951023931953 rad\"", "crank = 120"}},
+     {"start.q.crank", "is 120 rad", "\"120 deg\""},
+     0},
+    {"CommaInText", {{"\"80 mm\"", "\"0,08 m\""}}, {"0,08 m", "write 0.08"}},
+    {"CommaInANumber", {{"s_K     = 0.15", "s_K = 0,15"}}, {"decimals have a point: 0.15"}},
+    {"PercentWithoutQuotes", {{"s_K     = 0.15", "s_K = 15%"}}, {"in quotes: \"15%\""}},
+    {"DuplicateKey", {{"order  = 2", "order  = 2\norder = 3"}}, {"'order' stands twice", "leave one"}},
+    {"DuplicateTable", {{"[output.signals]", "[run]\n[output.signals]"}}, {"[run] stands", "under one head"}},
+    {"CyclicParameters",
+     {{"\"80 mm\"", "\"l/10\""}, {"\"800 mm\"", "\"10*r\""}},
+     {"parameters.r", "depends on itself: r -> l -> r"}},
+    {"UnknownParameter", {{"\"k_s * L_s * h\"", "\"k_s * L_z * h\""}}, {"'L_z'", "did you mean 'L_s'"}},
+    {"DivisionByZero", {{"\"3200 kg\"", "\"3200 kg / 0\""}}, {"3200 kg / 0", "divides by zero"}},
+    {"PlayNegative", {{"\"0.4 mm\"", "\"-0.4 mm\""}}, {"element.rod.clearance", "of zero or more, got s_cl"}},
+    {"ShareAboveOne", {{"rho_R = 0.08", "rho_R = 8"}}, {"friction_share = 8", "between 0 and 1"}},
+    {"CrankLongerThanTheRod", {{"\"80 mm\"", "80"}}, {"length [m] = 0.8", "longer than the crank radius"}},
+    {"GravityUpwards", {{"\"-g\"", "\"g\""}}, {"acts upwards, along +z", "-9.81 m/s^2"}, 0},
+    {"GravityAsOneNumber", {{"[0, 0, \"-g\"]", "9.81"}}, {"gravity", "three numbers [x, y, z], got 9.81"}},
+    {"GravityInMillimetres", {{"\"9.81 m/s^2\"", "9810"}}, {"is 9810 m/s^2", "-9810 mm/s^2"}, 0},
+    {"MassOfAShip", {{"\"3200 kg\"", "\"3200000 t\""}}, {"body.slide", "mass of 3.2e+09 kg", "\"3 t\""}, 0},
+    {"SignalOfAnUnknownBody", {{"\"slide.displacement\"", "\"slde.displacement\""}}, {"did you mean 'slide.disp"}},
+    {"UnknownQuantity", {{"\"slide.displacement\"", "\"slide.way\""}}, {"\"slide.way\"", "'slide.velocity'"}},
+    {"UnknownMethod", {{"\"bdf\"", "\"rk4\""}}, {"there is no 'rk4'", "'newmark'"}},
+    {"OrderOutOfRange", {{"order  = 2", "order  = 9"}}, {"order is 9", "1 to 6"}},
+    {"UnknownType", {{"\"blanking force\"", "\"blank force\""}}, {"'blank force'", "'blanking force'"}},
+    {"TextForANumber", {{"order  = 2", "order  = \"two\""}}, {"\"two\"", "a number is given as"}},
+    {"NumberForText", {{"\"bdf\"", "2"}}, {"run.method", "needs text in quotes, got 2"}},
+    {"UnknownCoordinate", {{" slide = \"0.11", " slider = \"0.11"}}, {"'slider'", "did you mean 'slide'"}},
+};
+
+const std::vector<Mistake> of_a_frame = {
+    {"DampingInPercent", {{"ratio = 0.015", "ratio = 1.5"}}, {"ratio: a damping ratio of 1 or more", "0.01 to 0.03"}},
+    {"InterfaceWithoutSurface", {{"surface  = \"guide\"\n", ""}}, {"frame.interface.guide", "'surfaces' is missing"}},
+    {"SurfaceThatIsNotThere", {{"surface = \"floor\"", "surface = \"flor\""}}, {"flor", "did you mean 'floor'"}},
+    {"FileThatIsNotThere", {{".geo\"", ".step\""}}, {"frame.cad", "there is no file", "relative paths start at"}},
+    {"UnknownMaterial", {{"\"steel\"", "\"steal\""}}, {"'steal'", "did you mean 'steel'"}},
+    {"ForgottenFrom", {{"from = \"crank\"\n", ""}}, {"joint.\"crank pin\"", "'from' is missing"}},
+    {"UnknownCoupling", {{"coupling = \"rigid\"", "coupling = \"rigd\""}}, {"'rigd'", "did you mean 'rigid'"}},
+    {"HalfAMode", {{"modes  = 20", "modes  = 20.5"}}, {"reduction.modes", "a whole number, got 20.5"}},
+    {"BounceAboveOne", {{"restitution = 0.6", "restitution = 6"}}, {"restitution = 6", "at most 1"}},
+    {"StiffnessOfAnotherKind", {{"\"1e9 N/m\"", "\"1e9 N\""}}, {"1e9 N", "such as \"420 kN/mm\""}},
+    {"InertiaInMillimetres",
+     {{"\"0.5 kg m^2\"", "\"0.05 kg mm^2\""}},
+     {"body.rod", "radius of gyration", "another unit"},
+     0},
+};
+
+std::string press()
+{
+  return read(GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml");
+}
+
+void expect_told(const Mistake &mistake, const std::string &scene, const Folder &folder)
+{
+  const std::string path   = folder.file("scene.toml", edited(scene, mistake.edits));
+  const Answer      answer = gestell(mistake.command + ' ' + path + folder.option());
+  expect_answer(answer, mistake.exit_code, mistake.words);
+  EXPECT_TRUE(has_place(answer.text)) << answer.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
+} // namespace
+
+TEST_P(MistakeInAScene, IsAnsweredWithPlaceValueAndWayOut)
+{
+  const Folder folder("mistake");
+  expect_told(GetParam(), press(), folder);
+}
+INSTANTIATE_TEST_SUITE_P(Press, MistakeInAScene, testing::ValuesIn(of_the_press), name_of);
+
+class MistakeInAFrame : public MistakeInAScene
+{
+};
+
+TEST_P(MistakeInAFrame, IsAnsweredWithPlaceValueAndWayOut)
+{
+  const Folder      folder("mistake");
+  const std::string there = (folder / "start.toml").string();
+  ASSERT_EQ(gestell("new slider-crank '" + there + "'").exit_code, 0);
+  expect_told(GetParam(), read(there), folder);
+}
+INSTANTIATE_TEST_SUITE_P(Portal, MistakeInAFrame, testing::ValuesIn(of_a_frame), name_of);
+
+TEST(MistakeInAFile, IsAnsweredWithItsLineAndWhatToSaveItAs)
+{
+  const Folder folder("mistake");
+  const auto   check = [&](const std::string &text) { return gestell("check " + folder.file("scene.toml", text)); };
+  std::string  wide;
+  for (const char c : press())
+    wide += {c, '\0'};
+  expect_answer(check("\xFF\xFE" + wide), 2, {"scene.toml:1: ", "save it as UTF-8"});
+  expect_answer(check(edited(press(), {{"# drive", "# Antrieb f\xFCr"}})), 2,
+                {"scene.toml:17: ", "save the file as UTF-8"});
+  expect_answer(check("ISO-10303-21;\n"), 2, {"scene.toml:1: ", "gestell mesh FILE", "frame.cad"});
+  expect_answer(check(""), 2, {"has nothing that moves", "[body.NAME]"});
+  EXPECT_EQ(check("\xEF\xBB\xBF" + press()).exit_code, 0); // what editors of Windows put there
+  EXPECT_EQ(check(std::regex_replace(press(), std::regex("\n"), "\r\n")).exit_code, 0);
+  EXPECT_EQ(check(edited(press(), {{"method =", "\tmethod\t="}})).exit_code, 0);
+}
+
+TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
+{
+  const Folder      folder("mistake");
+  const std::string file = scene("press_minimal.toml");
+  const auto run = [&](const std::string &options) { return gestell("run " + file + folder.option() + options); };
+  expect_answer(run("--compare nothere.toml"), 2, {"gestell: run: --compare", "there is no file nothere.toml"});
+  expect_answer(run("--sensitivities s_cl"), 2, {"--sensitivities s_cl", "write parameters.s_cl"});
+  expect_answer(run("--sensitivities run.step"), 2, {"run.step", "parameters.NAME"});
+  expect_answer(run("--set run.stp=1e-5"), 2, {"--set run.stp=1e-5", "did you mean 'step'"});
+  expect_answer(run("--set run.step"), 2, {"needs the form key.path=value"});
+  expect_answer(run("--jobs 0"), 2, {"gestell: run: --jobs", "above zero, got 0"});
+  expect_answer(run("--fast"), 2, {"there is no option --fast"});
+  expect_answer(run("--resume"), 2, {"checkpoint.bin", "is not there", "without --resume"});
+  expect_answer(run("--resume --sensitivities all"), 2, {"--resume", "leave out one of the two"});
+  expect_answer(gestell("chek " + file), 2, {"no command 'chek'", "did you mean 'check'"});
+  expect_answer(gestell("check nothere.toml"), 2, {"nothere.toml", "give the path of a .toml file"});
+  expect_answer(gestell("check"), 2, {"gestell: check: SCENE is required", "--help"});
+  expect_answer(gestell("run " + file + " -o /proc/x"), 2, {"/proc/x", "name a folder that can be written with -o"});
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
+} // namespace gestell::tests
