@@ -226,6 +226,10 @@ double middle_of(const StudyFindings &findings, const ResponseSurface &surface)
   for (std::size_t i = 0; i < surface.runs.size(); ++i)
     if (coded.row(surface.runs[i]).cwiseAbs().maxCoeff() < 1e-9)
       return surface.computed[Eigen::Index(i)];
+  if (findings.optimum && findings.optimum->nominal)
+    for (std::size_t i = 0; i < findings.table.outputs.size(); ++i)
+      if (findings.table.outputs[i].name == surface.output.name)
+        return (*findings.optimum->nominal)[Eigen::Index(i)];
   return std::numeric_limits<double>::quiet_NaN();
 }
 

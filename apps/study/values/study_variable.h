@@ -23,14 +23,14 @@ enum class Scatter
 struct StudyVariable
 {
   std::string              name{};
-  std::string              key{};       ///< of the scene, such as parameters.c_P
-  std::vector<std::string> more_keys{}; ///< that take its value, too
-  std::string              unit{};      ///< of all values below; empty: none
+  std::string              key{};  ///< of the scene, such as parameters.c_P
+  std::string              unit{}; ///< of all values below; empty: none
   double                   from = -1., to = 1.;
   std::vector<double>      levels{}; ///< of a full factorial design, ascending; empty: as many as it asks for, evenly
   Scatter                  scatter = Scatter::none;
   double                   width   = 0.; ///< of the scatter, in the unit of the variable
   std::vector<std::string> words{};      ///< of a variable that takes words: level k is the k-th of them
+  std::vector<std::string> more_keys{};  ///< of the scene, that take its value, too
 
   double centre() const { return 0.5 * (from + to); }
   double half_range() const { return 0.5 * (to - from); }
