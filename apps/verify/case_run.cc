@@ -177,6 +177,19 @@ AnswerValue CaseRun::value(const std::string &entry) const
   return answer_entry::value(segments_of(entry), result_);
 }
 
+DataTable CaseRun::expected_rows(const Check &check) const
+{
+  const DataTable all  = read_table(check.expected.table.file);
+  DataTable       rows = all.chosen(check.expected.table.rows);
+  for (const auto &[method, why] : case_->methods_left_out)
+  {
+    if (all.chosen({{"method", method}}).rows.empty())
+      throw std::invalid_argument("'methods_left_out' names '" + method + "', which " + all.name + " does not hold");
+    rows = rows.without("method", method);
+  }
+  return rows;
+}
+
 DataTable CaseRun::table(const std::string &name, const DataTable &expected) const
 {
   if (case_->scene.empty())

@@ -22,6 +22,8 @@ public:
 
   /// An entry of the answer, such as "signals.F.max", with its unit.
   AnswerValue value(const std::string &entry) const;
+  /// Rows of the expected table, but for those of methods that the case leaves out.
+  DataTable expected_rows(const Check &check) const;
   /// A file of results, "events" or, of integrators, a map of the rows of `expected`.
   DataTable table(const std::string &name, const DataTable &expected) const;
   /// A formula of the scene's parameters, in SI.

@@ -1,12 +1,15 @@
 #include "apps/verify/data_table.h"
 
 #include "apps/scene/file/csv_file.h"
+#include "apps/scene/language/parse_quantity.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
+#include <iterator>
+#include <optional>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -14,22 +17,12 @@ namespace gestell::apps
 namespace
 {
 
-/// Cells between commas; those in quotes may hold some.
-std::vector<std::string> cells_of(const std::string &line)
+DataTable texts_of(const CsvFile &csv)
 {
-  std::vector<std::string> cells(1);
-  bool                     quoted = false;
-  for (const char c : line)
-    if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  for (std::string &cell : cells)
-    if (const auto first = cell.find_first_not_of(' '); first != std::string::npos)
-      cell.erase(0, first);
-  return cells;
+  DataTable table{csv.name, csv.head, {}};
+  for (const CsvFile::Line &line : csv.lines)
+    table.rows.push_back(line.cells);
+  return table;
 }
 
 } // namespace
@@ -52,25 +45,51 @@ DataTable DataTable::chosen(const std::map<std::string, std::string> &cells) con
   return some;
 }
 
+DataTable DataTable::without(const std::string &of, const std::string &word) const
+{
+  DataTable         some{name, head, {}};
+  const std::size_t j = column(of);
+  std::copy_if(rows.begin(), rows.end(), std::back_inserter(some.rows),
+               [&](const auto &row) { return row[j] != word; });
+  return some;
+}
+
+std::string DataTable::cell(std::size_t row, const std::string &wanted) const
+{
+  if (std::find(head.begin(), head.end(), wanted) != head.end())
+    return rows[row][column(wanted)];
+  bool       names_one = false;
+  const auto number_in = [&](const std::string &of)
+  {
+    double     value = 0.;
+    const auto found = std::find(head.begin(), head.end(), of);
+    names_one        = names_one || found != head.end();
+    return found != head.end() && is_number(rows[row][std::size_t(found - head.begin())], value)
+               ? std::optional<Quantity>(Quantity{value})
+               : std::nullopt;
+  };
+  try
+  {
+    const double value = parse_quantity(wanted, number_in, head).value;
+    if (names_one)
+      return exact_text(value);
+    throw std::invalid_argument("it names none of them"); // "t" alone would be a tonne
+  }
+  catch (const std::invalid_argument &error)
+  {
+    throw std::invalid_argument(name + " has no column '" + wanted + "'" + suggestion(wanted, head) +
+                                ", nor is that a formula of its columns: " + error.what());
+  }
+}
+
 DataTable read_table(const std::string &file)
 {
-  const CsvFile csv = read_csv(file);
-  DataTable     table{csv.name, csv.head, {}};
-  for (const CsvFile::Line &line : csv.lines)
-    table.rows.push_back(line.cells);
-  return table;
+  return texts_of(read_csv(file));
 }
 
 DataTable table_of(const std::string &name, const std::string &csv)
 {
-  DataTable          table{name, {}, {}};
-  std::istringstream text(csv);
-  for (std::string line; std::getline(text, line);)
-    if (table.head.empty())
-      table.head = cells_of(line);
-    else if (!line.empty())
-      (table.rows.emplace_back() = cells_of(line)).resize(table.head.size());
-  return table;
+  return texts_of(csv_of_text(name, csv));
 }
 
 bool is_number(const std::string &text, double &value)

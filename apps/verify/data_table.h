@@ -19,6 +19,11 @@ struct DataTable
   std::size_t column(const std::string &name) const;
   /// Rows whose cells are those, as text or as numbers.
   DataTable chosen(const std::map<std::string, std::string> &cells) const;
+  /// Rows whose cell of that column is another word.
+  DataTable without(const std::string &column, const std::string &word) const;
+  /// A cell, or the number that a formula of columns gives, such as "sqrt(re^2 + im^2)".
+  /// @throws std::invalid_argument with the columns there are
+  std::string cell(std::size_t row, const std::string &column) const;
 };
 
 /// @throws std::invalid_argument as read_csv()

@@ -113,7 +113,11 @@ DataTable integrator_map(const std::string &name, const DataTable &expected,
   {
     const MapRow row{expected, i};
     const auto   method = methods.find(row.text("method"));
-    table.rows.push_back(method == methods.end() ? Cells(map.columns.size()) : map.cells(method->second, row));
+    if (method == methods.end())
+      throw std::invalid_argument(expected.name + " has a method '" + row.text("method") +
+                                  "' that 'methods' does not name; name it there, or in 'methods_left_out' with the "
+                                  "reason");
+    table.rows.push_back(map.cells(method->second, row));
   }
   return table;
 }

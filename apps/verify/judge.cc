@@ -21,7 +21,7 @@ constexpr int shown_digits = 10;
 struct Pairs
 {
   std::vector<double> obtained{}, expected{};
-  int                 n_left = 0;
+  int                 n_left = 0, n_words = 0;
 
   void add(double o, double e)
   {
@@ -30,19 +30,29 @@ struct Pairs
   }
 };
 
-/// What cells of words say; numbers go into the pairs.
+/// Words must be the same; numbers go into the pairs.
 void compare_cells(const std::string &obtained, const std::string &expected, const std::string &where, Pairs &pairs)
 {
   double o = 0., e = 0.;
-  if (obtained.empty() || expected.empty())
+  if (expected.empty())
     ++pairs.n_left;
   else if (is_number(obtained, o) && is_number(expected, e))
-  {
-    if (!std::isinf(o) || o != e)
-      pairs.add(o, e);
-  }
-  else if (obtained != expected)
-    throw std::runtime_error(where + ": obtained '" + obtained + "', expected '" + expected + "'");
+    pairs.add(o, e);
+  else if (obtained == expected)
+    ++pairs.n_words;
+  else
+    throw std::runtime_error(where + ": obtained " + (obtained.empty() ? "nothing" : '\'' + obtained + '\'') +
+                             ", expected '" + expected + "'");
+}
+
+/// An expected cell in the words of the own table.
+std::string in_own_words(const Check &check, const std::string &column, const std::string &expected)
+{
+  const auto words = check.words.find(column);
+  if (words == check.words.end())
+    return expected;
+  const auto word = words->second.find(expected);
+  return word == words->second.end() ? expected : word->second;
 }
 
 std::vector<std::string> key_of(const DataTable &table, std::size_t row, const std::vector<std::string> &columns)
@@ -76,7 +86,7 @@ std::size_t partner(const DataTable &obtained, const DataTable &expected, std::s
 
 std::vector<Pairs> row_pairs(const CaseRun &run, const Check &check)
 {
-  const DataTable expected = read_table(check.expected.table.file).chosen(check.expected.table.rows);
+  const DataTable expected = run.expected_rows(check);
   const DataTable obtained = run.table(check.table, expected).chosen(check.rows);
   if (expected.rows.empty())
     throw std::invalid_argument("the expected table has no such rows");
@@ -88,10 +98,16 @@ std::vector<Pairs> row_pairs(const CaseRun &run, const Check &check)
   {
     const auto &own = obtained.rows[partner(obtained, expected, row, check)];
     for (std::size_t j = 0; j < columns.size(); ++j)
-      compare_cells(own[obtained.column(check.columns[j].first)],
-                    expected.rows[row][expected.column(check.columns[j].second)],
-                    check.columns[j].first + ", row " + std::to_string(row + 1), columns[j]);
+    {
+      const auto &[column, other] = check.columns[j];
+      compare_cells(own[obtained.column(column)], in_own_words(check, column, expected.cell(row, other)),
+                    column + ", row " + std::to_string(row + 1), columns[j]);
+    }
   }
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (columns[j].expected.empty() && columns[j].n_words == 0)
+      throw std::runtime_error("column '" + check.columns[j].second + "' of " + expected.name +
+                               " has no value to compare");
   return columns;
 }
 
@@ -118,14 +134,34 @@ std::vector<Pairs> all_pairs(const CaseRun &run, const Check &check)
   return {pair};
 }
 
-/// By which a number misses; nan counts as infinite.
+/// By which a number misses; nan counts as infinite, and so does an infinite number beside a finite one.
 double miss(const Check &check, double obtained, double expected)
 {
+  if (obtained == expected)
+    return 0.;
   const double difference = obtained - expected;
   if (std::isnan(difference))
     return INFINITY;
   return check.bound == Bound::none ? std::abs(difference)
                                     : std::max(0., check.bound == Bound::least ? -difference : difference);
+}
+
+/// The largest finite magnitude.
+double scale_of(const std::vector<double> &numbers)
+{
+  double scale = 0.;
+  for (const double x : numbers)
+    if (std::isfinite(x))
+      scale = std::max(scale, std::abs(x));
+  return scale;
+}
+
+/// By which a number may miss; of an infinite one nothing is relative.
+double allowed_at(const Check &check, double expected, double scale)
+{
+  if (std::isinf(expected))
+    return check.absolute;
+  return check.absolute + check.relative * (check.each ? std::abs(expected) : scale);
 }
 
 /// The pair that uses most of what is allowed.
@@ -136,14 +172,13 @@ CheckOutcome worst(const std::vector<Pairs> &columns, const Check &check)
   double most    = -1.;
   for (const Pairs &column : columns)
   {
-    double scale = 0.;
-    for (const double e : column.expected)
-      scale = std::max(scale, std::abs(e));
+    const double scale = scale_of(column.expected);
     outcome.n_left += column.n_left;
     outcome.n_numbers += static_cast<int>(column.expected.size());
+    outcome.n_words += column.n_words;
     for (std::size_t i = 0; i < column.expected.size(); ++i)
     {
-      const double allowed = check.absolute + check.relative * (check.each ? std::abs(column.expected[i]) : scale);
+      const double allowed = allowed_at(check, column.expected[i], scale);
       const double error   = miss(check, column.obtained[i], column.expected[i]);
       const double used    = allowed > 0. ? error / allowed : error > 0. ? INFINITY : 0.;
       outcome.passed       = outcome.passed && error <= allowed;
@@ -157,7 +192,7 @@ CheckOutcome worst(const std::vector<Pairs> &columns, const Check &check)
     }
   }
   if (outcome.n_numbers == 0)
-    throw std::runtime_error("no number is left to compare");
+    outcome.expected = outcome.obtained = "the same words";
   return outcome;
 }
 

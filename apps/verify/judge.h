@@ -12,7 +12,8 @@ struct CheckOutcome
 {
   std::string expected{}, obtained{}; ///< numbers; of rows those that differ most
   int         n_numbers = 0;          ///< compared
-  int         n_left    = 0;          ///< cells without a value, as of methods that Gestell has not
+  int         n_words   = 0;          ///< compared, all of them the same
+  int         n_left    = 0;          ///< expected cells without a value
   double      error = 0., allowed = 0.;
   bool        passed = false;
   std::string failure{}; ///< why there is nothing to compare

@@ -88,6 +88,8 @@ std::vector<std::string> notes_of(const ReferenceCase &one)
   std::vector<std::string> lines;
   for (const auto &[from, what] : notes)
     lines.push_back(what + ": " + from + ".");
+  for (const auto &[method, why] : one.methods_left_out)
+    lines.push_back("Left out of the table: " + method + ", " + why + ".");
   return lines;
 }
 
@@ -98,8 +100,10 @@ std::string name_with_count(const Check &check, const CheckOutcome &outcome)
     text += ", order of the error";
   else if (outcome.n_numbers > 1)
     text += ", " + std::to_string(outcome.n_numbers) + " numbers";
+  if (outcome.n_words > 0)
+    text += ", " + count_text(static_cast<std::size_t>(outcome.n_words), "word");
   if (outcome.n_left > 0)
-    text += " (" + std::to_string(outcome.n_left) + " without a value)";
+    text += " (" + std::to_string(outcome.n_left) + " expected without a value)";
   return text;
 }
 

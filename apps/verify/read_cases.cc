@@ -38,6 +38,18 @@ std::vector<std::pair<std::string, std::string>> pairs(const SceneTable &table, 
   return pairs;
 }
 
+std::map<std::string, std::map<std::string, std::string>> words(const SceneTable &table)
+{
+  std::map<std::string, std::map<std::string, std::string>> words;
+  if (table.has("words"))
+  {
+    const SceneTable columns = table.table("words");
+    for (const std::string &column : columns.keys())
+      words[column] = cells(columns, column);
+  }
+  return words;
+}
+
 Expectation read_expectation(const SceneTable &check, const SceneNode &node)
 {
   Expectation expected;
@@ -65,6 +77,10 @@ void require_something(const SceneTable &table, const Check &check)
   if (!check.table.empty() && check.columns.empty())
     throw table.error("columns", "is missing: the columns of " + check.table +
                                      " that are compared, and theirs in the expected table, { \"x [m]\" = \"x\" }");
+  for (const auto &[column, translated] : check.words)
+    if (std::none_of(check.columns.begin(), check.columns.end(), [&](const auto &own) { return own.first == column; }))
+      throw table.error("words",
+                        "names a column '" + column + "' that is not compared; 'columns' names those that are");
   if (check.table.empty() != (check.expected.formula.empty() == false || !check.expected.column.empty()))
     throw table.error("expected", check.table.empty() ? "needs one number: a formula, or a 'column' of a table"
                                                       : "needs rows of a table for rows of " + check.table);
@@ -88,6 +104,7 @@ Check read_check(const SceneTable &table, const SceneNode &node, const Check &us
   check.table    = table.text("table", "");
   check.rows     = cells(table, "rows");
   check.columns  = pairs(table, "columns");
+  check.words    = words(table);
   check.at       = pairs(table, "at");
   check.expected = read_expectation(table, node);
   check.relative = table.not_negative("relative", kind::number, 0.);
@@ -159,6 +176,7 @@ ReferenceCase read_case(const SceneTable &table, const SceneNode &node)
   if (table.has("methods"))
     for (const SceneTable &method : table.tables("methods"))
       one.methods[method.name()] = read_method(method);
+  one.methods_left_out = pairs(table, "methods_left_out");
   read_refinements(table, one);
   read_checks(table, node, one);
   return one;

@@ -47,7 +47,9 @@ struct Check
   std::string                                      table{};   ///< file of results or map whose rows are compared
   std::map<std::string, std::string>               rows{};    ///< of it that count
   std::vector<std::pair<std::string, std::string>> columns{}; ///< of it, and of the expected rows
-  std::vector<std::pair<std::string, std::string>> at{};      ///< columns by which rows belong together; none: in order
+  /// What an expected word of a column is called in the table: by column, then by expected word.
+  std::map<std::string, std::map<std::string, std::string>> words{};
+  std::vector<std::pair<std::string, std::string>> at{}; ///< columns by which rows belong together; none: in order
   Expectation                                      expected{};
   double                                           relative = 0., absolute = 0.;
   bool                                             each  = false; ///< relative to each number, not to the largest
@@ -70,9 +72,10 @@ struct ReferenceCase
   std::vector<std::pair<std::string, std::string>> asked{}; ///< further settings of `compute`
   std::string              refined{}; ///< entry that takes `refinements`, as a check of an order asks
   std::vector<std::string> refinements{};
-  std::map<std::string, coupling::MethodOptions> methods{}; ///< of integrators, by the name in the expected table
-  std::vector<Check>                             checks{};
-  std::string                                    place{};
+  std::map<std::string, coupling::MethodOptions>   methods{}; ///< of integrators, by the name in the expected table
+  std::vector<std::pair<std::string, std::string>> methods_left_out{}; ///< of the expected table, and why
+  std::vector<Check>                               checks{};
+  std::string                                      place{};
 };
 
 struct CaseFile

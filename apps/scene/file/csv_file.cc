@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -13,29 +14,27 @@ namespace gestell::apps
 namespace
 {
 
+/// Cells of a line; a doubled quote between quotes is one of the cell.
 std::vector<std::string> split(const std::string &line, char separator)
 {
   std::vector<std::string> cells(1);
   bool                     quoted = false;
-  for (const char c : line)
-    if (c == '"')
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (quoted && line.compare(i, 2, "\"\"") == 0)
+      cells.back() += line[i++];
+    else if (line[i] == '"')
       quoted = !quoted;
-    else if (c == separator && !quoted)
+    else if (line[i] == separator && !quoted)
       cells.emplace_back();
     else
-      cells.back() += c;
+      cells.back() += line[i];
   std::transform(cells.begin(), cells.end(), cells.begin(), trimmed);
   return cells;
 }
 
-} // namespace
-
-CsvFile read_csv(const std::string &name)
+CsvFile parsed(const std::string &name, std::istream &in)
 {
-  CsvFile       table;
-  std::ifstream in(name);
-  if (!in)
-    throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
+  CsvFile table;
   table.name     = name;
   char separator = ',';
   int  number    = 0;
@@ -62,6 +61,22 @@ CsvFile read_csv(const std::string &name)
   if (table.head.empty())
     throw std::invalid_argument(name + ": is empty; its first line must name the columns");
   return table;
+}
+
+} // namespace
+
+CsvFile read_csv(const std::string &name)
+{
+  std::ifstream in(name);
+  if (!in)
+    throw std::invalid_argument(name + ": cannot be read; check the path and its permissions");
+  return parsed(name, in);
+}
+
+CsvFile csv_of_text(const std::string &name, const std::string &text)
+{
+  std::istringstream in(text);
+  return parsed(name, in);
 }
 
 double CsvFile::number(const Line &line, std::size_t column) const

@@ -7,7 +7,8 @@ namespace gestell::apps
 {
 
 /// A table of text: lines of cells, the first of them the head.  Cells are separated by commas or, if the head has more
-/// of them, by semicolons; they may stand in double quotes.  Empty lines and lines that begin with # do not count.
+/// of them, by semicolons; they may stand in double quotes, a quote in them doubled.  Empty lines and lines that begin
+/// with # do not count.
 struct CsvFile
 {
   struct Line
@@ -30,5 +31,8 @@ struct CsvFile
 
 /// @throws std::invalid_argument if the file cannot be read, has no head or a line of another number of cells.
 CsvFile read_csv(const std::string &file);
+/// Of a text; `name` stands in messages in place of the file.
+/// @throws std::invalid_argument as read_csv()
+CsvFile csv_of_text(const std::string &name, const std::string &text);
 
 } // namespace gestell::apps

@@ -70,6 +70,96 @@ TEST(Verify, EveryRowCounts)
   expect_answer(cases.verified(), 3, {"history.csv has no row with t [s] = 0.151"});
 }
 
+TEST(Verify, AnInfinityIsMetByAnInfinityAlone)
+{
+  const Cases cases("{ " + rows + ", relative = 1e-3 }");
+  cases.folder.file("exact.csv", "case,time,x\nfree,0,0.01\nfree,0.1,inf\n");
+  expect_answer(cases.verified(), 3, {"expected inf, obtained -0.0041"});
+  cases.folder.file("exact.csv", "case,time,x\nfree,0,0.01\nfree,0.1,-0.0042\nfree,0.2,inf\n");
+  expect_answer(cases.verified(), 3, {"expected inf"});
+}
+
+TEST(Verify, AnExpectedCellWithoutAValueDoesNotCountAColumnOfThemFails)
+{
+  const Cases cases("{ " + rows + ", relative = 1e-3 }");
+  cases.folder.file("exact.csv", "case,time,x\nfree,0,0.01\nfree,0.1,\n");
+  expect_answer(cases.verified(), 0, {"all passed"});
+  EXPECT_NE(read(cases.folder.results() / "verification.md").find("1 expected without a value"), std::string::npos);
+  cases.folder.file("exact.csv", "case,time,x\nfree,0,\nfree,0.1,\n");
+  expect_answer(cases.verified(), 3, {"column 'x'", "no value to compare"});
+}
+
+TEST(Verify, AnObtainedCellWithoutAValueFails)
+{
+  const Cases cases("{ table = 'modes.csv', columns = { 'frequency [Hz]' = 'f', 'description' = 'word' }, expected = { "
+                    "file = 'exact.csv' }, relative = 1 }",
+                    "compute = 'modes'\n");
+  cases.folder.file("exact.csv", "f,word\n3.18,bending\n");
+  expect_answer(cases.verified(), 3, {"obtained nothing, expected 'bending'"});
+}
+
+TEST(Verify, AnExpectedColumnMayBeAFormulaOfColumns)
+{
+  const std::string formula = "table = 'history.csv', columns = { 'x [m]' = 'x0*c' }, at = { 't [s]' = 'time' }, "
+                              "expected = { file = 'exact.csv' }, relative = 1e-3";
+  const Cases       cases("{ " + formula + " }");
+  cases.folder.file("exact.csv", "time,x0,c\n0,0.01,1\n0.1,0.01,-0.4161468365\n");
+  expect_answer(cases.verified(), 0, {"all passed"});
+  cases.folder.file("exact.csv", "time,x0,c\n0,0.01,1\n0.1,0.01,-0.5\n");
+  expect_answer(cases.verified(), 3, {"expected -0.005"});
+}
+
+/// Central differences, and a table of the end from which they grow.
+struct MapCase
+{
+  explicit MapCase(const std::string &table, const std::string &more = "")
+  {
+    folder.file("ends.csv", "method,zeta,from,to\n" + table);
+    path = folder.file("cases.toml", "[case.ends]\nstates = 'omega h = 2'\ncompute = 'integrators'\nsource = 'closed "
+                                     "form'\nbecause = 'rounding'\ncheck = [{ table = 'unstable intervals', columns = "
+                                     "{ from = 'from', to = 'to' }, relative_to = 'each', expected = { file = "
+                                     "'ends.csv' }, relative = 1e-9 }]\n" +
+                                         more + "[case.ends.methods]\ncentral = { method = 'central-difference' }\n");
+  }
+  Answer verified() const { return gestell("verify " + path + " -o '" + folder.results().string() + "'"); }
+
+  Folder      folder{"verify_map"};
+  std::string path;
+};
+
+TEST(Verify, AnIntervalWithoutAnEndIsNoLongOne)
+{
+  expect_answer(MapCase("central,0,2,inf\n").verified(), 0, {"all passed"});
+  expect_answer(MapCase("central,0,2,1e300\n").verified(), 3, {"obtained inf"});
+  expect_answer(MapCase("central,0,2.1,inf\n").verified(), 3, {"expected 2.1"});
+}
+
+TEST(Verify, EveryMethodOfATableIsComputedOrLeftOutWithAReason)
+{
+  const std::string both = "central,0,2,inf\nlagged,0,2,inf\n";
+  expect_answer(MapCase(both).verified(), 2, {"cases.toml:", "'lagged'", "methods_left_out"});
+  const MapCase named(both, "[case.ends.methods_left_out]\nlagged = 'Gestell has none'\n");
+  expect_answer(named.verified(), 0, {"all passed"});
+  EXPECT_NE(read(named.folder.results() / "verification.md").find("lagged, Gestell has none"), std::string::npos);
+  expect_answer(MapCase("central,0,2,inf\n", "[case.ends.methods_left_out]\nlaged = 'none'\n").verified(), 2,
+                {"cases.toml:", "'laged'", "does not hold"});
+}
+
+TEST(Verify, WordsOfTheExpectedTableAreTranslated)
+{
+  const auto verified = [](const std::string &words)
+  {
+    const Cases cases("{ table = 'modes.csv', columns = { 'frequency [Hz]' = 'f', kind = 'sort' }, " + words +
+                          "expected = { file = 'exact.csv' }, relative = 1e-3 }",
+                      "compute = 'modes'\n");
+    cases.folder.file("exact.csv", "f,sort\n3.1831,with all\n");
+    return cases.verified();
+  };
+  expect_answer(verified(""), 3, {"obtained 'coupled', expected 'with all'"});
+  expect_answer(verified("words = { kind = { 'with all' = 'coupled' } }, "), 0, {"all passed"});
+  expect_answer(verified("words = { kinds = { 'with all' = 'coupled' } }, "), 2, {"cases.toml:", "words", "'kinds'"});
+}
+
 TEST(Verify, ABoundIsBrokenOnItsOwnSideAlone)
 {
   const auto code = [](const char *bound, const char *expected)
