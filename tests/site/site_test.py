@@ -42,7 +42,7 @@ class Tree:
         site = os.path.join(self.folder.name, "docs", "site")
         return subprocess.run(
             ["mkdocs", "build", "--strict", "--config-file", os.path.join(site, "mkdocs.yml"), "--site-dir", self.path("pages")],
-            env={**os.environ, "PYTHONPATH": site}, capture_output=True, text=True)
+            capture_output=True, text=True)
 
     def path(self, *names):
         return os.path.join(self.folder.name, *names)
@@ -58,7 +58,7 @@ class Site(unittest.TestCase):
             tree.add("tutorials/first.md", "# Your first frame\n\nsee [press](../../apps/scenes/press.toml)\n![x](../../picture.png)\n")
             with open(tree.path("picture.png"), "wb") as picture:
                 picture.write(b"\x89PNG\xff")
-            tree.add("stray.md", "# A page of no group\n")
+            tree.add("stray.md", "# A page of no group\n\n## Again\n\n## Again\n\nsee [the second](#again-1)\n")
             built = tree.build()
             self.assertEqual(built.returncode, 0, built.stderr)
             start = tree.page("index.html")
