@@ -1,6 +1,7 @@
 """The documents become a site by a strict build; one broken link, anchor or script from a network ends it, and is named."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -64,6 +65,8 @@ class Site(unittest.TestCase):
             start = tree.page("index.html")
             for title in ("First steps", "Your first frame", "Theory", "A page of no group"):
                 self.assertIn(title, start)
+            more = start.split(">More<")[1].split("</ul>")[0]
+            self.assertEqual(re.findall(r'href="([^"#]+)"', more), ["stray.html"], "documents that mkdocs.yml puts into no group")
             self.assertIn("closing_length", tree.page("tree/apps/scenes/press.toml.html"))
             self.assertTrue(os.path.exists(tree.path("pages", "tree", "picture.png")))
             self.assertIn("../tree/apps/scenes/press.toml.html", tree.page("tutorials/first.html"))
