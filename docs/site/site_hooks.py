@@ -1,6 +1,7 @@
 """What the site needs beside MkDocs: navigation from groups of documents, pages for files of the tree that documents link to, and
 a check of every link and anchor; what is broken is a warning, which ends a strict build."""
 
+import collections
 import fnmatch
 import html.parser
 import logging
@@ -15,12 +16,25 @@ from mkdocs.structure.files import File
 log = logging.getLogger("mkdocs.site")
 LINK = re.compile(r"\]\(((?:\.\./)+)([^)#\s]+)(#[^)]*)?\)")
 sources = {}  # path in the tree: page of the site that shows it
+titles = collections.Counter()  # anchors of the page at hand
 generated = tempfile.TemporaryDirectory()
 
 
+def on_config(config):
+    config["mdx_configs"]["toc"]["slugify"] = slug
+    return config
+
+
+def on_page_markdown(markdown, page, config, files):
+    titles.clear()
+    return with_pages_of_sources(markdown, page, config)
+
+
 def slug(title, separator):
-    """The anchor of a title as GitHub makes it, so that links hold in both places."""
-    return re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", separator)
+    """The anchor of a title as GitHub makes it, so that links hold in both places; a title that comes again is counted, -1, -2."""
+    anchor = re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", separator)
+    titles[anchor] += 1
+    return anchor if titles[anchor] == 1 else f"{anchor}{separator}{titles[anchor] - 1}"
 
 
 def on_files(files, config):
@@ -80,7 +94,7 @@ def navigation(files, config):
     return nav
 
 
-def on_page_markdown(markdown, page, config, files):
+def with_pages_of_sources(markdown, page, config):
     def shown(match):
         path = outside(page.file.src_path, match[1] + match[2], config)
         if path is None:

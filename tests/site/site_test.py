@@ -1,6 +1,7 @@
 """The documents become a site by a strict build; one broken link, anchor or script from a network ends it, and is named."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -42,7 +43,7 @@ class Tree:
         site = os.path.join(self.folder.name, "docs", "site")
         return subprocess.run(
             ["mkdocs", "build", "--strict", "--config-file", os.path.join(site, "mkdocs.yml"), "--site-dir", self.path("pages")],
-            env={**os.environ, "PYTHONPATH": site}, capture_output=True, text=True)
+            capture_output=True, text=True)
 
     def path(self, *names):
         return os.path.join(self.folder.name, *names)
@@ -58,12 +59,14 @@ class Site(unittest.TestCase):
             tree.add("tutorials/first.md", "# Your first frame\n\nsee [press](../../apps/scenes/press.toml)\n![x](../../picture.png)\n")
             with open(tree.path("picture.png"), "wb") as picture:
                 picture.write(b"\x89PNG\xff")
-            tree.add("stray.md", "# A page of no group\n")
+            tree.add("stray.md", "# A page of no group\n\n## Again\n\n## Again\n\nsee [the second](#again-1)\n")
             built = tree.build()
             self.assertEqual(built.returncode, 0, built.stderr)
             start = tree.page("index.html")
             for title in ("First steps", "Your first frame", "Theory", "A page of no group"):
                 self.assertIn(title, start)
+            more = start.split(">More<")[1].split("</ul>")[0]
+            self.assertEqual(re.findall(r'href="([^"#]+)"', more), ["stray.html"], "documents that mkdocs.yml puts into no group")
             self.assertIn("closing_length", tree.page("tree/apps/scenes/press.toml.html"))
             self.assertTrue(os.path.exists(tree.path("pages", "tree", "picture.png")))
             self.assertIn("../tree/apps/scenes/press.toml.html", tree.page("tutorials/first.html"))

@@ -129,16 +129,21 @@ def wrong_entry(entry):
     return wrong
 
 
+TESTERS = {  # of pages with blocks of other languages: the test that reads them
+    "docs/python.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
+    "docs/python_first_hour.md": ("tests/apps/python/CMakeLists.txt", {"python"}),
+    "docs/library.md": ("tests/apps/package/installed_test.py", {"cpp", "cmake"}),
+    "docs/how_to": ("tests/site/how_to_test.py", {"cpp", "diff"}),
+}
+
+
 def unknown_languages():
-    """Python and C++ are run by other tests, of one page each."""
-    homes = {"python": ["docs/python.md"], "cpp": ["docs/library.md"], "cmake": ["docs/library.md"]}
-    testers = {"docs/python.md": "tests/apps/python/CMakeLists.txt", "docs/library.md": "tests/apps/package/installed_test.py"}
     wrong = []
     for page in pages.pages():
-        for kind, _ in pages.FENCE.findall(pages.text_of(page)):
-            if kind not in ("sh", "text", "toml", "") and str(page) not in homes.get(kind, []):
-                wrong.append(f"{page}: no test knows blocks of '{kind}'")
-    for page, tester in testers.items():
+        _, known = TESTERS.get(str(page)) or TESTERS.get(str(page.parent)) or ("", set())
+        kinds = {kind for kind, _ in pages.FENCE.findall(pages.text_of(page))} - {"sh", "text", "toml", ""}
+        wrong += [f"{page}: no test knows blocks of '{kind}'" for kind in sorted(kinds - known)]
+    for page, (tester, _) in TESTERS.items():
         if page not in (pages.SOURCES / tester).read_text(encoding="utf-8"):
             wrong.append(f"{tester} does not run {page}")
     return wrong
@@ -167,11 +172,12 @@ def wrong_scenes(gestell):
         text = pages.text_of(page)
         for fence in pages.FENCE.finditer(text):
             if fence.group(1) == "toml":
-                wrong += [f"{page}: {complaint}" for complaint in wrong_scene(fence.group(2), text[: fence.start()], gestell)]
+                runs = not pages.changes_the_program(page)
+                wrong += [f"{page}: {complaint}" for complaint in wrong_scene(fence.group(2), text[: fence.start()], runs, gestell)]
     return wrong
 
 
-def wrong_scene(body, before, gestell):
+def wrong_scene(body, before, runs, gestell):
     try:
         entries = tomllib.loads(body)
     except tomllib.TOMLDecodeError as error:
@@ -180,7 +186,7 @@ def wrong_scene(body, before, gestell):
     if source:
         with open(pages.SOURCES / source.group(1), "rb") as file:
             return [] if is_part(entries, tomllib.load(file)) else [f"the block is not part of {source.group(1)}"]
-    if "run" in entries and "output" in entries:
+    if runs and "run" in entries and "output" in entries:
         with tempfile.TemporaryDirectory() as name:
             (pathlib.Path(name) / "scene.toml").write_text(body, encoding="utf-8")
             code, answer = answer_of("gestell check scene.toml", name, gestell)

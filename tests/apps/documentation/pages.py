@@ -7,7 +7,7 @@ import re
 SOURCES = pathlib.Path(__file__).resolve().parents[3]
 
 COMMAND = re.compile(r"(\./|\.ci/|build/release/|~/|(gestell|gestell_random_machines|mpirun|srun|cmake|ctest|apt|export|paraview)\b)")
-PLACEHOLDER = re.compile(r"(?<![\w$./-])(SCENE|SEED|DIR|FILE|STUDY|KEY|KIND)\b")
+PLACEHOLDER = re.compile(r"(?<![\w$./-])(SCENE|SEED|DIR|FILE|STUDY|KEY|KIND|CASES)\b")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.S | re.M)
 INDENTED = re.compile(r"(?:^    .*\n)+", re.M)
 
@@ -30,6 +30,11 @@ def text_of(page):
     return (SOURCES / page).read_text(encoding="utf-8")
 
 
+def changes_the_program(page):
+    """Pages whose commands need the source that they add: followed in a copy of the tree by tests/site/how_to_test.py."""
+    return str(page).startswith("docs/how_to/")
+
+
 def fenced(text, language):
     return [body for kind, body in FENCE.findall(text) if kind == language]
 
@@ -50,6 +55,8 @@ def joined(lines):
 
 def blocks(page):
     """Commands of a page in their order: those fenced as sh with what is printed, those indented one by one."""
+    if changes_the_program(page):
+        return []
     text, found, at = text_of(page), [], 0
     for fence in FENCE.finditer(text):
         found += indented(text[at : fence.start()])

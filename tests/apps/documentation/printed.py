@@ -4,7 +4,8 @@ import re
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?(?![\d])", re.I)
 OF_COMPUTING = re.compile(r", [\d.e-]+ s$")  # seconds that the work took
-ROUNDING = 1e-5  # beside the largest number of a line
+OF_COLUMN = 1e-5  # what a mesh and an iteration leave where symmetry has nothing, beside the largest number of the column
+ROUNDING = 1e-12  # of doubles, beside the largest number of the line
 RELATIVE = 2e-3  # between processors, beyond the last digit shown
 
 
@@ -24,16 +25,24 @@ def last_digit(number):
     return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
 
 
-def alike(shown, found):
-    """Numbers of two lines with one skeleton, to the digits shown; rounding beside the largest of them counts as 0."""
-    pairs = list(zip(numbers(shown), numbers(found)))
-    largest = max([abs(float(a)) for a, _ in pairs], default=0.0)
+def magnitudes(line):
+    return [abs(float(number)) for number in numbers(line)]
 
-    def near(a, b):
+
+def negligible(shown, rows):
+    """For each number of a line: below what it counts as 0.  Other rows of its table have the same skeleton."""
+    rounding = ROUNDING * max(magnitudes(shown), default=0.0)
+    return [max(rounding, OF_COLUMN * max(column)) for column in zip(*map(magnitudes, rows))]
+
+
+def alike(shown, found, rows):
+    """Numbers of two lines with one skeleton, to the digits shown."""
+
+    def near(a, b, nothing):
         difference = abs(float(a) - float(b))
-        return difference <= 1.001 * last_digit(a) + RELATIVE * abs(float(a)) or max(abs(float(a)), abs(float(b))) <= ROUNDING * largest
+        return difference <= 1.001 * last_digit(a) + RELATIVE * abs(float(a)) or max(abs(float(a)), abs(float(b))) <= nothing
 
-    return all(near(a, b) for a, b in pairs)
+    return all(map(near, numbers(shown), numbers(found), negligible(shown, rows)))
 
 
 def is_printed(shown, lines):
@@ -42,12 +51,14 @@ def is_printed(shown, lines):
         parts = [skeleton(part) for part in shown.split("...")]
         pattern = re.compile(".*".join(re.escape(part) for part in parts) + "$")
         return any(pattern.match(skeleton(line)) and matching_numbers(shown, line) for line in lines)
-    return any(skeleton(shown) == skeleton(line) and alike(shown, line) for line in lines)
+    rows = [line for line in lines if skeleton(line) == skeleton(shown)]
+    return any(alike(shown, line, rows) for line in rows)
 
 
 def matching_numbers(shown, line):
     """Numbers up to the first ... of a line."""
-    return alike(shown.split("...")[0], line)
+    told = shown.split("...")[0]
+    return alike(told, line, [told])
 
 
 def missing(printed, answer):

@@ -10,8 +10,16 @@ assert printed.is_printed(LINE, [LINE.replace("-601644.5", "-601644.6")]), "the 
 assert not printed.is_printed(LINE, [LINE.replace("-601644.5", "-611644.5")]), "1.7 % is another number"
 assert not printed.is_printed(LINE, [LINE.replace("-601644.5", "601644.5")]), "so is another sign"
 assert not printed.is_printed(LINE, [LINE.replace("F_P", "F_Q")]), "words are to agree"
-assert printed.is_printed("mode 6325 1.8e-05", ["mode 6325 -3e-06"]), "rounding beside a large number"
-assert not printed.is_printed("mode 6325 1.8", ["mode 6325 -3"])
+assert not printed.is_printed(LINE, [LINE.replace("0.2449125", "7.9").replace("0.2341878", "-3.1")]), "times beside a large force count"
+assert not printed.is_printed("mode 3 of 1056627", ["mode 4 of 1056627"]), "so do counts"
+
+MODES = ["1 54.934595 0.009996 6325 1.812e-05", "6 268.0056 0.009978 1.575e-06 8365"]
+assert printed.is_printed(MODES[0], [MODES[0].replace("1.812e-05", "-3e-06"), MODES[1]]), "rounding beside the largest of its column"
+assert not printed.is_printed(MODES[0], [MODES[0].replace("1.812e-05", "1.8"), MODES[1]])
+assert not printed.is_printed(MODES[0], [MODES[0].replace("0.009996", "0.05"), MODES[1]]), "damping ratios beside masses"
+assert not printed.is_printed("206.408 2.313e-05", ["206.408 9.9e-05", "31.0459 0.0001538"]), "small damping ratios among their like"
+assert printed.is_printed("stable, 0.9197, closes to 5.7e-16", ["stable, 0.9197, closes to 8.1e-15"]), "rounding of doubles"
+assert not printed.is_printed("stable, 0.9197, closes to 5.7e-16", ["stable, 0.9197, closes to 8.1e-9"])
 assert printed.is_printed("4 factorisations, 0.02 s", ["4 factorisations, 1.5 s"]), "times of computing"
 assert not printed.is_printed("4 factorisations, 0.02 s", ["5 factorisations, 0.02 s"])
 assert printed.is_printed("open by 112 J, ... 1 s", ["open by 112 J, which came from nowhere in 1 s"])
