@@ -6,6 +6,7 @@
 #include "apps/verify/manual.h"
 #include "apps/verify/read_cases.h"
 #include "apps/version.h"
+#include "coupling/frame/passing_folder.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -15,7 +16,6 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace gestell::apps
 {
@@ -36,18 +36,10 @@ struct VerifyOptions
 class EmptyCache
 {
 public:
-  EmptyCache() : folder_(fs::temp_directory_path() / ("gestell_verify_" + std::to_string(getpid())))
-  {
-    setenv("GESTELL_CACHE", folder_.c_str(), 1);
-  }
-  ~EmptyCache()
-  {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
+  EmptyCache() { setenv("GESTELL_CACHE", folder_.path().c_str(), 1); }
 
 private:
-  fs::path folder_;
+  coupling::PassingFolder folder_;
 };
 
 bool is_file(const std::string &word)
@@ -193,17 +185,18 @@ int verify(const VerifyOptions &asked)
 Command verify_command()
 {
   const auto own = std::make_shared<VerifyOptions>();
-  return {"verify",
-          "compute reference cases anew and set them beside what is expected",
-          {"gestell verify --all", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
-          CommandInput::none,
-          {{"CASE", &own->cases,
-            "files of cases (.toml), or names of cases and files shipped (default: all but long ones)"},
-           {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},
-           {"--all", &own->all, "long cases, too"},
-           {"--list", &own->list, "name the cases, instead"},
-           {"--renew", &own->docs, "write verification.md in this folder of documents as well"}},
-          [own](const CommonOptions &) { return verify(*own); }};
+  return {
+      "verify",
+      "compute reference cases anew and set them beside what is expected",
+      {"gestell verify --all", "gestell verify my_cases.toml", "gestell verify \"rod force after the cutting shock\""},
+      CommandInput::none,
+      {{"CASE", &own->cases,
+        "files of cases (.toml), or names of cases and files shipped (default: all but long ones)"},
+       {"-o,--output", &own->folder, "folder for the manual (default results/verification)"},
+       {"--all", &own->all, "long cases, too"},
+       {"--list", &own->list, "name the cases, instead"},
+       {"--renew", &own->docs, "write verification.md in this folder of documents as well"}},
+      [own](const CommonOptions &) { return verify(*own); }};
 }
 
 } // namespace gestell::apps

@@ -7,6 +7,8 @@
 #include <set>
 #include <string>
 
+#define FMI2_SHOWN extern "C" __attribute__((visibility("default")))
+
 namespace gestell::apps
 {
 
@@ -34,6 +36,12 @@ struct FmuComponent
   void log(fmi2Status status, const std::string &category, const std::string &message) const;
   void tell_notes(); ///< warnings and events of the model
 };
+
+/// Phases in which a function may be called.
+constexpr auto before_failure = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
+                                 FmuComponent::Phase::stepping, FmuComponent::Phase::terminated};
+constexpr auto always         = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
+                                 FmuComponent::Phase::stepping, FmuComponent::Phase::terminated, FmuComponent::Phase::failed};
 
 /// A component of the importer; null if it is none.
 inline FmuComponent *component_of(fmi2Component component)

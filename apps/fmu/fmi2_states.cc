@@ -1,10 +1,8 @@
 #include "apps/fmu/fmi2_component.h"
 
-#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
-
-#define FMI2_SHOWN extern "C" __attribute__((visibility("default")))
 
 namespace gestell::apps
 {
@@ -18,10 +16,9 @@ struct KeptState
 {
   FmuState state;
   Phase    phase;
+  bool     stops;
+  double   stop; ///< [s]
 };
-
-constexpr auto before_failure = {Phase::instantiated, Phase::initialising, Phase::stepping, Phase::terminated};
-constexpr auto always = {Phase::instantiated, Phase::initialising, Phase::stepping, Phase::terminated, Phase::failed};
 
 fmi2Status no_function(fmi2Component c, const char *function, const char *reason) noexcept
 {
@@ -30,18 +27,26 @@ fmi2Status no_function(fmi2Component c, const char *function, const char *reason
 
 constexpr const char *never_pending = "steps are done when fmi2DoStep returns; none is under way";
 
-/// Phase, then the state.
+constexpr std::size_t head_size = 2 + sizeof(double);
+
+/// Phase and stop time, then the state.
 std::string bytes_of(const KeptState &kept)
 {
-  return char('0' + int(kept.phase)) + kept.state.bytes();
+  std::string bytes{char('0' + int(kept.phase)), kept.stops ? '1' : '0'};
+  bytes.append(reinterpret_cast<const char *>(&kept.stop), sizeof kept.stop);
+  return bytes + kept.state.bytes();
 }
 
 KeptState kept_of(const std::string &bytes)
 {
-  const int phase = bytes.empty() ? -1 : bytes[0] - '0';
-  if (phase < 0 || phase > int(Phase::terminated))
+  const int phase = bytes.size() < head_size ? -1 : bytes[0] - '0';
+  if (phase < 0 || phase > int(Phase::terminated) || (bytes[1] != '0' && bytes[1] != '1'))
     throw std::invalid_argument("these bytes are no state of an FMU of Gestell");
-  return {FmuState::of_bytes(bytes.substr(1)), Phase(phase)};
+  KeptState kept{FmuState::of_bytes(bytes.substr(head_size)), Phase(phase), bytes[1] == '1', 0.};
+  std::memcpy(&kept.stop, bytes.data() + 2, sizeof kept.stop);
+  if (kept.stops && !std::isfinite(kept.stop))
+    throw std::invalid_argument("the state holds a stop time that is no finite number; its bytes are damaged");
+  return kept;
 }
 
 } // namespace
@@ -51,14 +56,15 @@ using namespace gestell::apps;
 
 FMI2_SHOWN fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
-  return answered(c, "fmi2GetFMUstate", before_failure,
-                  [&](FmuComponent &own)
-                  {
-                    auto kept = std::make_unique<KeptState>(KeptState{own.model->state(), own.phase});
-                    delete static_cast<KeptState *>(*state);
-                    *state = kept.release();
-                    return fmi2OK;
-                  });
+  return answered(
+      c, "fmi2GetFMUstate", before_failure,
+      [&](FmuComponent &own)
+      {
+        auto kept = std::make_unique<KeptState>(KeptState{own.model->state(), own.phase, own.stops, own.stop});
+        delete static_cast<KeptState *>(*state);
+        *state = kept.release();
+        return fmi2OK;
+      });
 }
 
 FMI2_SHOWN fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
@@ -69,9 +75,12 @@ FMI2_SHOWN fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
                     if (!state)
                       throw std::invalid_argument("there is no state");
                     const auto &kept = *static_cast<const KeptState *>(state);
-                    own.phase        = Phase::failed; // until it is restored as a whole
+                    own.model->require_own(kept.state);
+                    own.phase = Phase::failed; // until it is restored as a whole
                     own.model->restore(kept.state);
                     own.phase = kept.phase;
+                    own.stops = kept.stops;
+                    own.stop  = kept.stop;
                     return fmi2OK;
                   });
 }

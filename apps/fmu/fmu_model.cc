@@ -215,18 +215,27 @@ std::vector<std::string> FmuModel::take_notes()
 
 FmuState FmuModel::state()
 {
-  FmuState state{parameters_, inputs_, rates_, since_, {}};
+  FmuState state{resources_.guid, parameters_, inputs_, rates_, since_, {}};
   if (run_)
     state.motion = run_->state();
   return state;
 }
 
-void FmuModel::restore(const FmuState &state)
+void FmuModel::require_own(const FmuState &state) const
 {
-  if (state.parameters.size() != parameters_.size() || state.inputs.size() != inputs_.size())
-    throw std::invalid_argument("the state is that of another FMU: it has " + std::to_string(state.parameters.size()) +
+  if (state.guid != resources_.guid)
+    throw std::invalid_argument("the state is that of another FMU, with the guid '" + state.guid + "'; this one is '" +
+                                resources_.guid + "'");
+  if (state.parameters.size() != parameters_.size() || state.inputs.size() != inputs_.size() ||
+      state.rates.size() != inputs_.size() || state.since.size() != inputs_.size())
+    throw std::invalid_argument("the state is damaged: it has " + std::to_string(state.parameters.size()) +
                                 " parameters and " + std::to_string(state.inputs.size()) + " inputs, this one " +
                                 std::to_string(parameters_.size()) + " and " + std::to_string(inputs_.size()));
+}
+
+void FmuModel::restore(const FmuState &state)
+{
+  require_own(state);
   if (!state.motion || state.parameters != parameters_)
     run_.reset();
   parameters_ = state.parameters;
@@ -239,7 +248,7 @@ void FmuModel::restore(const FmuState &state)
   apply_inputs();
   if (state.motion->q.size() != machine_->size() || state.motion->v.size() != machine_->size() ||
       state.motion->history.size() != machine_->events().save_history().size())
-    throw std::invalid_argument("the state is that of another FMU: it has " + std::to_string(state.motion->q.size()) +
+    throw std::invalid_argument("the state is damaged: it has " + std::to_string(state.motion->q.size()) +
                                 " coordinates, this one " + std::to_string(machine_->size()));
   run_->restore(*state.motion);
 }

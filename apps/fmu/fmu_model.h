@@ -25,11 +25,13 @@ struct FmuResources
 /// A state of an FmuModel as a value.
 struct FmuState
 {
-  std::vector<double>                  parameters, inputs, rates, since;
-  std::optional<coupling::MotionState> motion; ///< none: not started
+  std::string                           guid; ///< of the FMU whose state it is
+  std::vector<double>                   parameters, inputs, rates, since;
+  std::optional<coupling::SteppedState> motion; ///< none: not started
 
-  std::string     bytes() const;
-  static FmuState of_bytes(const std::string &bytes); ///< @throws std::invalid_argument if they are none
+  std::string bytes() const;
+  /// @throws std::invalid_argument if they are none, or a motion in them is not finite
+  static FmuState of_bytes(const std::string &bytes);
 };
 
 /**
@@ -65,7 +67,8 @@ public:
   std::string              ended() const;
   std::vector<std::string> take_notes(); ///< warnings and events since they were taken last
   FmuState                 state();
-  void                     restore(const FmuState &state);
+  void                     require_own(const FmuState &state) const; ///< @throws if it is of another FMU
+  void                     restore(const FmuState &state);           ///< one of its own
 
 private:
   void build();

@@ -1,5 +1,7 @@
 #include "apps/fmu/fmu_model.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
@@ -9,13 +11,20 @@ namespace gestell::apps
 namespace
 {
 
-constexpr char state_head[] = "gestell fmu state 1\n";
+constexpr char state_head[] = "gestell fmu state 2\n";
 
 void put(const double *values, std::size_t n, std::string &bytes)
 {
   const std::uint64_t size = n;
   bytes.append(reinterpret_cast<const char *>(&size), sizeof size);
   bytes.append(reinterpret_cast<const char *>(values), n * sizeof(double));
+}
+
+void put(const std::string &text, std::string &bytes)
+{
+  const std::uint64_t size = text.size();
+  bytes.append(reinterpret_cast<const char *>(&size), sizeof size);
+  bytes += text;
 }
 
 /// Takes back what put() wrote.
@@ -26,13 +35,24 @@ public:
 
   std::vector<double> numbers()
   {
-    std::uint64_t size = 0;
-    take(&size, sizeof size);
-    if (size > (bytes_.size() - at_) / sizeof(double))
-      fail();
-    std::vector<double> values(size);
-    take(values.data(), size * sizeof(double));
+    std::vector<double> values(size_of(sizeof(double)));
+    take(values.data(), values.size() * sizeof(double));
     return values;
+  }
+
+  std::vector<double> finite_numbers()
+  {
+    const std::vector<double> values = numbers();
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+      throw std::invalid_argument("the state holds numbers that are not finite; its bytes are damaged");
+    return values;
+  }
+
+  std::string text()
+  {
+    std::string text(size_of(1), '\0');
+    take(text.data(), text.size());
+    return text;
   }
 
   bool at_end() const { return at_ == bytes_.size(); }
@@ -43,6 +63,16 @@ public:
   }
 
 private:
+  /// How many items of so many bytes follow.
+  std::size_t size_of(std::size_t item)
+  {
+    std::uint64_t size = 0;
+    take(&size, sizeof size);
+    if (size > (bytes_.size() - at_) / item)
+      fail();
+    return size;
+  }
+
   void take(void *to, std::size_t n)
   {
     if (n > bytes_.size() - at_)
@@ -66,6 +96,7 @@ Eigen::VectorXd vector_of(const std::vector<double> &values)
 std::string FmuState::bytes() const
 {
   std::string bytes = state_head;
+  put(guid, bytes);
   for (const auto *values : {&parameters, &inputs, &rates, &since})
     put(values->data(), values->size(), bytes);
   if (!motion)
@@ -73,6 +104,7 @@ std::string FmuState::bytes() const
   put(&motion->t, 1, bytes);
   for (const Eigen::VectorXd *values : {&motion->q, &motion->v, &motion->history})
     put(values->data(), std::size_t(values->size()), bytes);
+  put(motion->ended, bytes);
   return bytes;
 }
 
@@ -82,15 +114,18 @@ FmuState FmuState::of_bytes(const std::string &bytes)
     StateReader::fail();
   StateReader reader(bytes);
   FmuState    state;
+  state.guid = reader.text();
   for (auto *values : {&state.parameters, &state.inputs, &state.rates, &state.since})
-    *values = reader.numbers();
+    *values = reader.finite_numbers();
   if (reader.at_end())
     return state;
-  const auto            t = reader.numbers();
-  coupling::MotionState motion;
+  const auto             t = reader.finite_numbers();
+  coupling::SteppedState motion;
   motion.t = t.size() == 1 ? t[0] : (StateReader::fail(), 0.);
-  for (Eigen::VectorXd *values : {&motion.q, &motion.v, &motion.history})
-    *values = vector_of(reader.numbers());
+  for (Eigen::VectorXd *values : {&motion.q, &motion.v})
+    *values = vector_of(reader.finite_numbers());
+  motion.history = vector_of(reader.numbers()); // NaN there tells what never happened
+  motion.ended   = reader.text();
   if (!reader.at_end())
     StateReader::fail();
   state.motion = motion;

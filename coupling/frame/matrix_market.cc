@@ -1,14 +1,15 @@
 #include "coupling/frame/matrix_market.h"
 
+#include "coupling/frame/number_in_file.h"
 #include "coupling/frame/whole_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -103,18 +104,18 @@ public:
 
   double real(const char *expected)
   {
-    char  *end;
-    double value = std::strtod(rest_, &end);
-    if (*end == 'D' || *end == 'd') // an exponent of Fortran, 1.5D+03
+    double      value = 0.;
+    std::size_t n     = read_number(rest_, value) - rest_;
+    if (rest_[n] == 'D' || rest_[n] == 'd') // an exponent of Fortran, 1.5D+03
     {
-      *end  = 'e';
-      value = std::strtod(rest_, &end);
+      rest_[n] = 'e';
+      n        = read_number(rest_, value) - rest_;
     }
-    if (end == rest_)
+    if (n == 0)
       fail(expected);
     if (!std::isfinite(value))
       fail("its value is not a finite number; the program that wrote it failed, or divided by zero");
-    rest_ = end;
+    rest_ += n;
     return value;
   }
 
@@ -281,7 +282,8 @@ public:
   std::ostream &stream() { return file_.stream(); }
   const char   *digits(double value)
   {
-    std::snprintf(digits_, sizeof digits_, "%.17g", value);
+    const auto written = std::to_chars(digits_, digits_ + sizeof digits_ - 1, value, std::chars_format::general, 17);
+    *written.ptr       = '\0';
     return digits_;
   }
   void finish() { file_.finish(); }

@@ -106,8 +106,9 @@ bool SteppedRun::is_now(double t) const
 /// Its dense output and the history that holds on it are there.
 void SteppedRun::look_at_step()
 {
+  on_step_ = machine_.events().save_history();
   if (!ahead_ && steps_.time() > target_ + slack_)
-    look_into_step(target_, machine_.events().save_history());
+    look_into_step(target_, on_step_);
 }
 
 /// @param history  that held on the last step
@@ -115,9 +116,9 @@ void SteppedRun::look_into_step(double t, const Eigen::VectorXd &history)
 {
   steps_.interpolate(t, inside_);
   steps_.interpolate(t, q_, v_);
-  there_ = {t, q_, v_, history};
   ahead_ = true;
   now_   = t;
+  there_ = {t, q_, v_, history, ended()};
   if (accelerations_)
     a_ = accelerations_->at(t, steps_, inside_, q_, v_);
   evaluate(inside_);
@@ -127,6 +128,15 @@ void SteppedRun::evaluate(const LocalState &local)
 {
   for (std::size_t i = 0; i < signals_.size(); ++i)
     values_[i] = machine_.evaluate(signals_[i], q_, v_, a_, local);
+}
+
+/// The history is that of its end.
+void SteppedRun::look_behind_step(double t, Eigen::VectorXd on_step)
+{
+  const Eigen::VectorXd behind = machine_.events().save_history();
+  machine_.events().restore_history(on_step);
+  look_into_step(t, on_step);
+  machine_.events().restore_history(behind);
 }
 
 /// The last step reaches to t as well.  Behind an event its dense output is gone, and it is made anew.
@@ -139,17 +149,26 @@ bool SteppedRun::stays_in_step(double t)
     restore(there_);
     return false;
   }
-  const Eigen::VectorXd behind = machine_.events().save_history(), on_step = there_.history;
-  machine_.events().restore_history(on_step);
-  look_into_step(t, on_step);
-  machine_.events().restore_history(behind);
+  look_behind_step(t, there_.history);
   return true;
+}
+
+/// A step that goes over its events may go over the end, which is looked at within it; without a dense output the run
+/// ends at the instant it has come to.
+void SteppedRun::end_in_step()
+{
+  if (ended_.empty() || end_ > target_ + slack_ || end_ >= steps_.time() - slack_)
+    return;
+  if (steps_.step_begin() < steps_.time())
+    return look_behind_step(end_, on_step_);
+  end_         = ahead_ ? now_ : steps_.time();
+  there_.ended = ended_;
 }
 
 void SteppedRun::go_on_to(double t)
 {
   const NoTinyNumbers while_it_runs;
-  if (stays_in_step(t))
+  if (stays_in_step(ended_.empty() ? t : std::min(t, end_)))
     return;
   ahead_  = false;
   target_ = t;
@@ -159,6 +178,7 @@ void SteppedRun::go_on_to(double t)
     if (!ahead_)
       now_ = steps_.time();
   }
+  end_in_step();
   if (!ahead_)
     now_ = ended_.empty() ? steps_.time() : end_;
 }
@@ -192,19 +212,21 @@ std::vector<Event> SteppedRun::take_events()
   return taken;
 }
 
-MotionState SteppedRun::state()
+SteppedState SteppedRun::state()
 {
-  const Instant    &now   = steps_.instant();
-  const MotionState state = ahead_ ? there_ : MotionState{now.t, now.q, now.v, machine_.events().save_history()};
+  const Instant     &now = steps_.instant();
+  const SteppedState state =
+      ahead_ ? there_ : SteppedState{now.t, now.q, now.v, machine_.events().save_history(), ended()};
   restore(state);
   return state;
 }
 
-void SteppedRun::restore(const MotionState &state)
+void SteppedRun::restore(const SteppedState &state)
 {
   const NoTinyNumbers while_it_starts;
-  const MotionState   at = state; // it may be the own one
-  ended_.clear();
+  const SteppedState  at = state; // it may be the own one
+  ended_                 = at.ended;
+  end_                   = at.t;
   events_.erase(std::remove_if(events_.begin(), events_.end(), [&](const Event &e) { return e.t > at.t; }),
                 events_.end());
   steps_.begin_with(at.history, options_.events);

@@ -15,11 +15,12 @@
 namespace gestell::coupling
 {
 
-/// From which a motion goes on: q, v [n] and the history of all elements.
-struct MotionState
+/// From which a run goes on: q, v [n] and the history of all elements.
+struct SteppedState
 {
   double          t = 0.;
   Eigen::VectorXd q, v, history;
+  std::string     ended{}; ///< statement of the switch that ended the run at t; empty: it goes on
 };
 
 /**
@@ -48,7 +49,7 @@ public:
   /// @throws ConvergenceFailure; time() is then the last instant reached
   void go_on_to(double t);
   /// Statement of the switch that ended the run at time(); empty: it goes on.
-  std::string ended() const { return ahead_ ? "" : ended_; }
+  std::string ended() const { return now_ < end_ ? "" : ended_; }
   /// A load is another one from now on, in value or rate.
   void load_jumped();
 
@@ -57,15 +58,17 @@ public:
   const std::vector<std::string> &warnings() const { return warnings_; } ///< of the method, at the start
 
   /// The present state; the run itself goes on from it as one that restores it does: multistep formulas start anew.
-  MotionState state();
-  void        restore(const MotionState &state);
+  SteppedState state();
+  void         restore(const SteppedState &state);
 
 private:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
   void note(const Event &event);
   void look_at_step();
   void look_into_step(double t, const Eigen::VectorXd &history);
+  void look_behind_step(double t, Eigen::VectorXd on_step);
   bool stays_in_step(double t);
+  void end_in_step();
   void evaluate(const LocalState &local);
 
   Machine                     &machine_;
@@ -83,7 +86,8 @@ private:
   LoadedMotion                 loaded_;                         ///< by what is to come in the scene's run
   double                       now_ = 0., target_ = 0., slack_; ///< [s]
   bool                         ahead_ = false;                  ///< the last step went beyond now_
-  MotionState                  there_;                          ///< at now_, if it did
+  SteppedState                 there_;                          ///< at now_, if it did
+  Eigen::VectorXd              on_step_;                        ///< history that held on the last step
   std::vector<Event>           events_;                         ///< not taken yet
   std::string                  ended_;
   double                       end_ = 0.; ///< [s] where it ended

@@ -1,5 +1,6 @@
 #include "apps/output/exchange/zip_file.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <unistd.h>
@@ -13,6 +14,9 @@ namespace gestell::apps
 #ifdef GESTELL_MINIZIP
 namespace
 {
+
+constexpr std::size_t piece = std::size_t(1) << 30; ///< bytes that minizip takes at once, as an unsigned
+constexpr std::size_t plain = 0xffffffff;           ///< size from which an entry is one of zip64
 
 [[noreturn]] void fail_archive(const std::string &path)
 {
@@ -47,9 +51,11 @@ void ZipFile::add(const std::string &name, const std::string &bytes)
   zip_fileinfo about{};
   about.tmz_date.tm_year = 1980; // the first one an archive knows: contents alone count
   about.tmz_date.tm_mday = 1;
-  if (zipOpenNewFileInZip64(zip_, name.c_str(), &about, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
-                            Z_DEFAULT_COMPRESSION, 0) != ZIP_OK ||
-      zipWriteInFileInZip(zip_, bytes.data(), unsigned(bytes.size())) != ZIP_OK || zipCloseFileInZip(zip_) != ZIP_OK)
+  bool written = zipOpenNewFileInZip64(zip_, name.c_str(), &about, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
+                                       Z_DEFAULT_COMPRESSION, bytes.size() >= plain) == ZIP_OK;
+  for (std::size_t at = 0; written && at < bytes.size(); at += piece)
+    written = zipWriteInFileInZip(zip_, bytes.data() + at, unsigned(std::min(piece, bytes.size() - at))) == ZIP_OK;
+  if (!written || zipCloseFileInZip(zip_) != ZIP_OK)
     fail_archive(path_);
 }
 

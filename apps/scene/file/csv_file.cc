@@ -1,5 +1,6 @@
 #include "apps/scene/file/csv_file.h"
 
+#include "coupling/frame/number_in_file.h"
 #include "fem/values/trimmed.h"
 
 #include <algorithm>
@@ -82,8 +83,8 @@ CsvFile csv_of_text(const std::string &name, const std::string &text)
 double CsvFile::number(const Line &line, std::size_t column) const
 {
   const std::string &cell  = line.cells[column];
-  char              *end   = nullptr;
-  const double       value = std::strtod(cell.c_str(), &end);
+  double             value = 0.;
+  const char *const  end   = coupling::read_number(cell.c_str(), value);
   if (cell.empty() || *end != '\0' || !std::isfinite(value))
     throw std::invalid_argument(place(line.number) + "column '" + head[column] + "': got '" + cell +
                                 "'; it needs a number with a decimal point, such as 0.25");

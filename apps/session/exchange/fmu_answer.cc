@@ -2,8 +2,10 @@
 
 #include "apps/fmu/fmu_model.h"
 #include "apps/scene/file/written_scene.h"
+#include "apps/scene/read/frame/matrix_keys.h"
 #include "apps/version.h"
 #include "coupling/frame/frame_recipe.h"
+#include "coupling/frame/passing_folder.h"
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/integration/method_options.h"
 
@@ -15,36 +17,12 @@
 #include <iterator>
 #include <stdexcept>
 
-#include <unistd.h>
-
 namespace gestell::apps
 {
 namespace
 {
 
 namespace fs = std::filesystem;
-
-/// A folder that is there while it is needed.
-class PassingFolder
-{
-public:
-  PassingFolder() : path_(fs::temp_directory_path() / ("gestell-fmu-" + std::to_string(getpid())))
-  {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~PassingFolder()
-  {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  PassingFolder(const PassingFolder &) = delete;
-
-  const fs::path &path() const { return path_; }
-
-private:
-  fs::path path_;
-};
 
 std::string bytes_of_file(const fs::path &path)
 {
@@ -78,21 +56,30 @@ SceneNode text_node(const std::string &text)
   return node;
 }
 
-/// Files that values name go with the scene; the values then name them there.
-void take_files(SceneNode &node, std::map<std::string, std::string> &files)
+bool may_be_file(const Key &key)
 {
-  std::error_code ignored;
-  if (node.type == SceneNode::Type::text && node.text.find('.') != std::string::npos)
-    if (const fs::path file = fs::path(node.folder) / node.text; fs::is_regular_file(file, ignored))
+  return key.form == Key::Form::file ||
+         std::find(key.others.begin(), key.others.end(), Key::Form::file) != key.others.end();
+}
+
+/// Files that keys of a table name go with the scene; the keys then name them there.  Any other text stays what it is.
+void take_files(SceneNode &table, const std::vector<Key> &keys, std::map<std::string, std::string> &files)
+{
+  for (auto &[name, value] : table.entries)
+    if (const Key *key = find_key(keys, name); key && value.type == SceneNode::Type::text && may_be_file(*key))
     {
-      const std::string name = "files/" + std::to_string(files.size()) + "_" + file.filename().string();
-      files[name]            = bytes_of_file(file);
-      node.text              = name;
+      const fs::path    file  = fs::path(value.folder) / value.text;
+      const std::string taken = "files/" + std::to_string(files.size()) + "_" + file.filename().string();
+      files[taken]            = bytes_of_file(file);
+      value.text              = taken;
     }
-  for (SceneNode &element : node.elements)
-    take_files(element, files);
-  for (auto &entry : node.entries)
-    take_files(entry.second, files);
+}
+
+/// Bodies from CAD, which name files too, are refused; a frame that is reduced is one file already.
+void take_frame_files(SceneNode &root, std::map<std::string, std::string> &files)
+{
+  if (SceneNode *const frame = files.count("frame.h5") == 0 ? root.find("frame") : nullptr)
+    take_files(*frame, matrix_frame_keys(), files);
 }
 
 /// A name that C allows.
@@ -130,10 +117,10 @@ void take_frame(SceneNode &root, Session &session, FmuResources &resources, std:
   const FramePath path = frame_path(session.scene());
   if (path != FramePath::reduce && path != FramePath::from_file)
     return;
-  const PassingFolder folder;
-  const fs::path      file  = folder.path() / "frame.h5";
-  const auto          frame = path == FramePath::reduce ? session.reduced_frame().frame
-                                                        : coupling::read_reduced_frame(session.scene().frame.reduced_file);
+  const coupling::PassingFolder folder;
+  const fs::path                file  = folder.path() / "frame.h5";
+  const auto                    frame = path == FramePath::reduce ? session.reduced_frame().frame
+                                                                  : coupling::read_reduced_frame(session.scene().frame.reduced_file);
   coupling::write_reduced_frame(file.string(), frame);
   files["frame.h5"] = bytes_of_file(file);
   SceneNode of_frame;
@@ -207,12 +194,12 @@ FmuAnswer fmu_of(const SceneNode &root, Session &session)
   std::map<std::string, std::string> files;
   keep_signals_alone(flat);
   take_frame(flat, session, resources, files, answer.notes);
-  take_files(flat, files);
+  take_frame_files(flat, files);
   files["scene.toml"] = written_scene(flat);
   resources.guid      = guid_of(files);
   files["fmu.toml"]   = resources.text();
 
-  const PassingFolder folder;
+  const coupling::PassingFolder folder;
   for (const auto &[name, bytes] : files)
     write_bytes(folder.path() / name, bytes);
   try

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -41,6 +42,16 @@ inline double range_of(const CsvTable &table, const std::string &column)
   return most - least;
 }
 
+/// By how much two values of a signal differ, by its range; of one that is constant by its size.  Infinite where one of
+/// them is no finite number, so that no bound holds.
+inline double share_of_difference(double one, double other, double range)
+{
+  const double scale = range > 0. ? range : std::max(std::abs(one), std::abs(other));
+  if (!std::isfinite(one) || !std::isfinite(other) || !std::isfinite(range))
+    return std::numeric_limits<double>::infinity();
+  return scale > 0. ? std::abs(one - other) / scale : 0.;
+}
+
 /// The largest difference between an FMU that communicates at the rows of a history and that history, by the range of
 /// each signal.
 /// @param values  of parameters and inputs at the start
@@ -68,7 +79,7 @@ inline double difference_from_run(const Fmu &fmu, const std::filesystem::path &h
       if (const double before = table.number(row - 1, "t [s]"); instance.step(before, t - before) != fmi2OK)
         ADD_FAILURE() << t << ": " << instance.last_message();
     for (const auto &[name, column] : columns)
-      worst = std::max(worst, std::abs(instance.get(name) - table.number(row, column)) / ranges[name]);
+      worst = std::max(worst, share_of_difference(instance.get(name), table.number(row, column), ranges[name]));
     if (const auto jump = jumps.find(row); jump != jumps.end())
     {
       EXPECT_EQ(instance.set("F", jump->second), fmi2OK);

@@ -149,11 +149,11 @@ FmuInstance::~FmuInstance()
     fmu_.functions().of<void(fmi2Component)>("fmi2FreeInstance")(component_);
 }
 
-fmi2Status FmuInstance::start(const std::map<std::string, double> &values, double begin)
+fmi2Status FmuInstance::start(const std::map<std::string, double> &values, double begin, double stop)
 {
   const FmuFunctions &f = fmu_.functions();
-  EXPECT_EQ(f.of<fmi2Status(fmi2Component, int, double, double, int, double)>("fmi2SetupExperiment")(component_, 0, 0.,
-                                                                                                     begin, 0, 0.),
+  EXPECT_EQ(f.of<fmi2Status(fmi2Component, int, double, double, int, double)>("fmi2SetupExperiment")(
+                component_, 0, 0., begin, stop > 0., stop),
             fmi2OK);
   for (const auto &[name, value] : values)
     EXPECT_EQ(set(name, value), fmi2OK) << name;

@@ -73,7 +73,8 @@ public:
 
   bool alive() const { return component_ != nullptr; }
   /// From its start to where it steps, with these parameters and inputs.
-  fmi2Status start(const std::map<std::string, double> &values = {}, double begin = 0.);
+  /// @param stop  [s] beyond which no step goes; 0: none
+  fmi2Status start(const std::map<std::string, double> &values = {}, double begin = 0., double stop = 0.);
 
   double     get(const std::string &name) const;
   fmi2Status set(const std::string &name, double value) const;

@@ -293,6 +293,127 @@ TEST(Fmu, EndsWhereASwitchEndsTheRun)
   EXPECT_NEAR(one.get("x"), 5e-3, 1e-8);
   EXPECT_GT(one.last_time(), t);
   EXPECT_LT(one.last_time(), t + 1e-2);
+
+  // The end is part of its state, here and in another instance, and one from before leads out of it.
+  FmuInstance  other(*slider.fmu, "other");
+  const double ended = one.last_time(), x = one.get("x");
+  fmi2FMUstate kept = one.keep(), copied = nullptr;
+  ASSERT_EQ(other.from_bytes(one.bytes(kept), copied), fmi2OK) << other.last_message();
+  EXPECT_EQ(one.back_to(kept), fmi2OK);
+  EXPECT_EQ(other.back_to(copied), fmi2OK) << other.last_message();
+  for (const FmuInstance *instance : {&one, &other})
+  {
+    EXPECT_TRUE(instance->has_ended());
+    EXPECT_EQ(instance->step(ended, 1e-2), fmi2Error);
+    EXPECT_THAT(instance->last_message(), testing::HasSubstr("it is far"));
+    EXPECT_EQ(instance->last_time(), ended);
+    EXPECT_EQ(instance->get("x"), x);
+  }
+  EXPECT_EQ(one.reset(), fmi2OK);
+  EXPECT_FALSE(one.has_ended());
+  one.forget(kept);
+  other.forget(copied);
+}
+
+TEST(Fmu, EndsAlikeWhereEventsAreGoneOver)
+{
+  const Folder folder("fmu_end_over");
+  std::string  text = oscillator("one", 2., 800., 0.);
+  text += "[switch.far]\nwhen = \"mass.displacement\"\nabove = \"5 mm\"\nends = \"it is far\"\n";
+  const Exported slider(folder, "slider", folder.file("one.toml", text), "--set run.events=false");
+  FmuInstance    one(*slider.fmu);
+  ASSERT_EQ(one.start({{"F", 8.}}), fmi2OK);
+  double t = 0., before = 0.;
+  for (fmi2Status status = fmi2OK; status == fmi2OK && t < 0.2; t += 2e-5) // within the step of 0.05 ms
+  {
+    status = one.step(t, 2e-5);
+    EXPECT_GE(one.last_time(), before);
+    before = one.last_time();
+  }
+  EXPECT_TRUE(one.has_ended());
+  EXPECT_NEAR(one.get("x"), 5e-3, 1e-8); // its crossing is drawn straight within a step: x'' h^2/8 = 1e-9 m
+}
+
+TEST(Fmu, AStateKnowsItsFmuAndItsStopTime)
+{
+  const Folder   folder("fmu_own_states");
+  const Exported first(folder, "first", folder.file("first.toml", oscillator("first", 2., 800., 0.)));
+  const Exported second(folder, "second", folder.file("second.toml", oscillator("second", 2., 900., 0.)));
+  FmuInstance    one(*first.fmu), other(*second.fmu);
+  ASSERT_EQ(one.start({}, 0., 5e-3), fmi2OK);
+  ASSERT_EQ(other.start(), fmi2OK);
+  EXPECT_EQ(one.step(0., 4e-3), fmi2OK);
+  EXPECT_EQ(other.step(0., 1e-3), fmi2OK);
+  fmi2FMUstate      kept = one.keep(), foreign = nullptr;
+  const std::string bytes = one.bytes(kept);
+  EXPECT_EQ(other.from_bytes(bytes, foreign), fmi2OK);
+  EXPECT_EQ(other.back_to(foreign), fmi2Error);
+  EXPECT_THAT(other.last_message(), testing::HasSubstr("the state is that of another FMU"));
+  EXPECT_EQ(other.step(1e-3, 1e-3), fmi2OK) << other.last_message(); // nothing has happened to it
+  EXPECT_EQ(other.get("c"), 900.);
+
+  EXPECT_EQ(one.reset(), fmi2OK);
+  EXPECT_EQ(one.back_to(kept), fmi2OK) << one.last_message();
+  EXPECT_EQ(one.step(4e-3, 4e-3), fmi2Error);
+  EXPECT_THAT(one.last_message(), testing::HasSubstr("beyond the stop time 0.005 s"));
+  EXPECT_EQ(one.step(4e-3, 1e-3), fmi2OK);
+
+  // Each number of the motion: the last 8 bytes before the statement of its end, of which there is none, are history
+  // or v; the time and q lie before.
+  fmi2FMUstate      damaged = nullptr;
+  const double      nan = std::nan(""), t = 4e-3;
+  const std::string time(reinterpret_cast<const char *>(&t), sizeof t);
+  std::string       broken = bytes;
+  const auto        at     = broken.rfind(time);
+  ASSERT_NE(at, std::string::npos);
+  broken.replace(at, sizeof nan, reinterpret_cast<const char *>(&nan), sizeof nan);
+  EXPECT_EQ(one.from_bytes(broken, damaged), fmi2Error);
+  EXPECT_THAT(one.last_message(), testing::HasSubstr("not finite"));
+  EXPECT_EQ(one.from_bytes(bytes.substr(0, bytes.size() - 4), damaged), fmi2Error);
+  EXPECT_THAT(one.last_message(), testing::HasSubstr("no state of an FMU"));
+  one.forget(kept);
+  other.forget(foreign);
+}
+
+TEST(Fmu, NoValueThatIsNotFiniteIsWithinABound)
+{
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(share_of_difference(3., 1., 4.), 0.5);
+  EXPECT_EQ(share_of_difference(2., 2., 0.), 0.);
+  EXPECT_EQ(share_of_difference(0., 0., 0.), 0.);
+  EXPECT_EQ(share_of_difference(2., 1., 0.), 0.5);
+  for (const double odd : {nan, infinity})
+  {
+    EXPECT_EQ(share_of_difference(odd, 1., 1.), infinity);
+    EXPECT_EQ(share_of_difference(1., odd, 1.), infinity);
+    EXPECT_EQ(share_of_difference(1., 1., odd), infinity);
+  }
+}
+
+TEST(FmuExport, TakesFilesThatKeysNameAndNoOthers)
+{
+  const Folder folder("fmu_files");
+  const auto   beside = [&](const std::string &name, const std::string &text) { std::ofstream(folder / name) << text; };
+  beside("secret.txt", "not for others");
+  beside("m.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 3\n");
+  beside("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2e5\n");
+  std::string text = "description = \"secret.txt\"\n" + oscillator("one", 2., 800., 0.) +
+                     "[frame]\nmass = \"m.mtx\"\nstiffness = \"c.mtx\"\n"
+                     "[frame.interface.end]\nrows = { ux = 1 }\n";
+  const Exported    slider(folder, "slider", folder.file("one.toml", text));
+  const auto        resources = slider.fmu->folder() / "resources";
+  const std::string carried   = read(resources / "scene.toml");
+  EXPECT_THAT(carried, testing::HasSubstr("description = \"secret.txt\""));
+  int files = 0;
+  for (const auto &entry : std::filesystem::directory_iterator(resources / "files"))
+  {
+    EXPECT_EQ(entry.path().extension(), ".mtx") << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 2);
+  EXPECT_EQ(slider.fmu->head().at("description"), "secret.txt");
+  FmuInstance one(*slider.fmu);
+  EXPECT_EQ(one.start(), fmi2OK) << one.last_message();
 }
 
 TEST(Fmu, SaysWhatIsWrong)

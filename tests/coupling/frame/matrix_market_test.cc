@@ -114,6 +114,8 @@ TEST_F(MatrixMarket, ErrorsNameFileLineAndRemedy)
   says("\x80\x01 junk\n", "1", "'?? junk': expected the head line");
   says(head + "2 2 1\n1 1 1 1\n", "3", "row column value");
   says(head + "2 2 1\n1 one 1\n", "3", "row column value");
+  says(head + "2 2 1\n1 1 0x10\n", "3", "row column value");
+  says(head + "2 2 1\n1 1 1,5\n", "3", "row column value");
   says(head + "2 2 1\n1 1 1\n2 2 1\n", "4", "more entries");
   says("%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 2 1\n", "3", "lower triangle");
   says("%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n", "2", "square");

@@ -22,7 +22,8 @@ constexpr double mass = 2., spring = 800., wall = 2e5, gap = 8e-3; // kg, N/m, N
 /// A sprung mass that an input pushes, between stops.
 struct PushedMass
 {
-  explicit PushedMass(double play = gap)
+  /// @param limit  of the displacement [m], at which a switch ends the run; 0: none
+  explicit PushedMass(double play = gap, double limit = 0.)
   {
     MachineModel  model;
     const Measure x = slider(model, "x", mass);
@@ -30,6 +31,15 @@ struct PushedMass
     model.attach("stops", std::make_shared<mechanism::Clearance>(mechanism::Clearance::Parameters{play, wall, 0.}),
                  {x});
     model.attach("push", std::make_shared<mechanism::ProfileForce>(force), {x});
+    if (limit > 0.)
+    {
+      Switch far;
+      far.name   = "far";
+      far.signal = "x.displacement";
+      far.level  = limit;
+      far.ends   = "it is far";
+      model.add_switch(far);
+    }
     machine.emplace(std::move(model));
   }
 
@@ -102,7 +112,7 @@ TEST_P(SteppedRunBy, GoesBackToAState)
   PushedMass one;
   SteppedRun run(*one.machine, start(0., 1.), options(), one.signals());
   run.go_on_to(0.0501);
-  const MotionState state = run.state();
+  const SteppedState state = run.state();
   run.go_on_to(0.15);
   const std::vector<double> first = run.values();
   run.restore(state);
@@ -134,6 +144,49 @@ TEST(SteppedRun, EndsInsideAStepAndGoesOnFromThere)
     EXPECT_NEAR(run.values()[0], x, 1e-5 * 5. / spring);
   }
 }
+
+class EndedRun : public testing::TestWithParam<bool> // events are located, or gone over
+{
+};
+
+TEST_P(EndedRun, StaysWhereASwitchEndsItInItsStatesToo)
+{
+  // x = F/c (1 - cos w t) passes the limit at t_1, amid a piece of two thirds of a step as well as of 15 steps.
+  const double limit = 5e-3, w = std::sqrt(spring / mass), t_1 = std::acos(1. - limit * spring / 5.) / w;
+  RunOptions   options = run_of(bdf(2, step), end);
+  options.events       = GetParam();
+  for (const double piece : {step / 1.5, 15. * step})
+  {
+    PushedMass one(no_stops, limit), other(no_stops, limit);
+    SteppedRun run(*one.machine, start(0., 0.), options, one.signals());
+    double     before = 0.;
+    for (int i = 1; run.ended().empty() && i * piece < end; ++i)
+    {
+      run.go_on_to(i * piece);
+      EXPECT_GT(run.time(), before);
+      EXPECT_LE(run.time(), i * piece + 1e-9 * step);
+      before = run.time();
+    }
+    EXPECT_NE(run.ended(), "");
+    EXPECT_NEAR(run.time(), t_1, 1e-3 * step);         // w h = 2e-3: the phase errs by (w h)^2/3 of w t = 0.65
+    EXPECT_NEAR(run.values()[0], limit, 1e-6 * limit); // the crossing is drawn straight, within a step
+    const SteppedState state = run.state();
+    const std::string  ended = run.ended();
+    EXPECT_NE(ended, "");
+    run.go_on_to(end);
+    EXPECT_EQ(run.time(), state.t);
+    SteppedRun again(*other.machine, start(0., 0.), options, other.signals());
+    again.restore(state);
+    EXPECT_EQ(again.ended(), ended);
+    again.go_on_to(end);
+    EXPECT_EQ(again.time(), state.t);
+    again.restore({0., start(0., 0.).q, start(0., 0.).v, other.machine->events().save_history()});
+    EXPECT_EQ(again.ended(), "");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Events, EndedRun, testing::Bool(),
+                         [](const auto &info) { return info.param ? "located" : "gone_over"; });
 
 TEST(SteppedRun, ControlsTheErrorOfItsStepsWithinPieces)
 {

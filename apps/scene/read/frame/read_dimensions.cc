@@ -1,6 +1,7 @@
 #include "apps/scene/read/frame/read_dimensions.h"
 
 #include "coupling/frame/cache_folder.h"
+#include "coupling/frame/passing_folder.h"
 #include "coupling/frame/sha256.h"
 #include "coupling/frame/whole_file.h"
 #include "fem/values/nearest_name.h"
@@ -93,24 +94,8 @@ bool holds(const fs::path &file, const std::string &text)
 /// Of this process, and gone with it: where there is no cache of the user's own, or none to write into.
 const fs::path &own_folder()
 {
-  struct Folder
-  {
-    fs::path path;
-    Folder()
-    {
-      std::string name = (fs::temp_directory_path() / "gestell_XXXXXX").string();
-      if (!mkdtemp(name.data()))
-        throw std::runtime_error("no folder can be made for temporary files: " + name);
-      path = name;
-    }
-    ~Folder()
-    {
-      std::error_code none;
-      fs::remove_all(path, none);
-    }
-  };
-  static const Folder folder;
-  return folder.path;
+  static const coupling::PassingFolder folder;
+  return folder.path();
 }
 
 /// Written once, whole or not at all: other processes may want the same.

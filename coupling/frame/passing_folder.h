@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+namespace gestell::coupling
+{
+
+/// A new folder for temporary files, for this user alone, under a name that nobody can foresee; gone with its owner.
+class PassingFolder
+{
+public:
+  PassingFolder(); ///< @throws std::runtime_error with the reason, if none can be made
+  ~PassingFolder();
+  PassingFolder(const PassingFolder &)            = delete;
+  PassingFolder &operator=(const PassingFolder &) = delete;
+
+  const std::filesystem::path &path() const { return path_; }
+
+private:
+  std::filesystem::path path_;
+};
+
+} // namespace gestell::coupling
