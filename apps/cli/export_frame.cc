@@ -6,9 +6,9 @@
 #include "coupling/frame/petsc_binary.h"
 #include "coupling/frame/whole_file.h"
 #include "coupling/reduction/dense_frame.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -21,14 +21,6 @@ namespace
 {
 
 const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
-
-/// All digits.
-std::string digits(double x)
-{
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", x);
-  return text;
-}
 
 /// Files of one export.
 class Export
@@ -150,7 +142,7 @@ std::string numbered_table(const coupling::ReducedFrame &frame)
   {
     out << written_text(frame.interfaces[i].name) << ", " << i + 1;
     for (const double x : frame.interfaces[i].position)
-      out << ", " << digits(x);
+      out << ", " << exact_text(x);
     out << '\n';
   }
   return out.str();
@@ -163,10 +155,14 @@ std::string write_cards(Export &files, const coupling::ReducedFrame &frame, cons
   coupling::NodePlaces places;
   for (std::size_t i = 0; i < frame.interfaces.size(); ++i)
     places[long(i + 1)] = frame.interfaces[i].position;
-  files.cards({{"KAAX", frame.C}, {"MAAX", frame.M}, {"BAAX", frame.B}}, labels, places, remark);
+  const bool                             is_damped = !frame.B.isZero(0.);
+  std::map<std::string, Eigen::MatrixXd> matrices  = {{"KAAX", frame.C}, {"MAAX", frame.M}};
+  if (is_damped)
+    matrices["BAAX"] = frame.B;
+  files.cards(matrices, labels, places, remark);
   files.text("nodes.csv", numbered_table(frame));
   std::string keys = "mass = \"frame.pch\"\nstiffness = \"frame.pch\"\nnodes = \"nodes.csv\"\n";
-  return frame.B.isZero(0.) ? keys : keys + "damping = \"frame.pch\"\n";
+  return !is_damped ? keys : keys + "damping = \"frame.pch\"\n";
 }
 
 /// Interfaces with their rows, then the points of the skin.
@@ -178,7 +174,7 @@ std::string node_table(const coupling::ReducedFrame &frame)
   {
     out << written_text(interface.name);
     for (const double x : interface.position)
-      out << ", " << digits(x);
+      out << ", " << exact_text(x);
     for (int motion = 0; motion < 6; ++motion)
     {
       out << ", ";
@@ -190,7 +186,7 @@ std::string node_table(const coupling::ReducedFrame &frame)
   for (const auto &point : frame.points)
   {
     for (const double x : point)
-      out << ", " << digits(x);
+      out << ", " << exact_text(x);
     out << ", , , , , , \n";
   }
   return out.str();
@@ -222,7 +218,7 @@ std::string row_text(const Eigen::VectorXd &row)
 {
   std::string text = "[";
   for (Eigen::Index i = 0; i < row.size(); ++i)
-    text += (i > 0 ? ", " : "") + digits(row[i]);
+    text += (i > 0 ? ", " : "") + exact_text(row[i]);
   return text + "]";
 }
 
@@ -272,7 +268,7 @@ std::vector<std::string> export_frame(const std::string &folder, const coupling:
   }
   add("translations", coupling::unit_translations(frame));
   if (frame.mass > 0.)
-    scene += "total_mass = " + digits(frame.mass) + '\n';
+    scene += "total_mass = " + exact_text(frame.mass) + '\n';
   if (!on_cards)
   {
     files.text("nodes.csv", node_table(frame));

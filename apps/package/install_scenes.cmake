@@ -1,5 +1,14 @@
 # Writes scenes, studies, cases of reference and meshes of `top` into `share`, with the paths of meshes and tables as they lie there.
 set(staged "$ENV{DESTDIR}${share}") # as file(INSTALL) does by itself
+foreach(folder apps/scenes apps/studies apps/verification meshes tests/reference)
+  cmake_path(GET folder FILENAME name)
+  file(REAL_PATH "${top}/${folder}" source)
+  file(REAL_PATH "${staged}/${name}" target)
+  if(IS_SYMLINK "${staged}/${name}" OR source STREQUAL target)
+    message(FATAL_ERROR "${staged}/${name} leads to the sources, ${target}: installed scenes would overwrite them. "
+      "Give another prefix: cmake --install ... --prefix DIR, not that of a build")
+  endif()
+endforeach()
 file(INSTALL "${top}/meshes/" DESTINATION "${share}/meshes" PATTERN README.md EXCLUDE)
 file(GLOB_RECURSE files RELATIVE "${top}/apps" "${top}/apps/scenes/*" "${top}/apps/studies/*" "${top}/apps/verification/*")
 foreach(name IN LISTS files)

@@ -184,8 +184,17 @@ void bind_result(py::module_ &module)
                              "Derivatives of each output by each key, a dict of dicts in SI; None: not asked for.")
       .def_property_readonly("_responses", &responses_of)
       .def_property_readonly("_periodic",
-                             [](const PythonResult &result) { return periodic_values(*result.result().periodic); })
-      .def_property_readonly("_along", [](const PythonResult &result) { return along_values(*result.result().along); })
+                             [](const PythonResult &result) -> py::object
+                             {
+                               const auto &motions = result.result().periodic;
+                               return motions ? py::object(periodic_values(*motions)) : py::none();
+                             })
+      .def_property_readonly("_along",
+                             [](const PythonResult &result) -> py::object
+                             {
+                               const auto &along = result.result().along;
+                               return along ? py::object(along_values(*along)) : py::none();
+                             })
       .def_property_readonly("_summary", [](const PythonResult &result) { return apps::summary_json(result.result()); })
       .def("save", &save, "folder"_a, "Writes report.html, history.csv and all other files; returns their names.")
       .def("_repr_html_", &notebook_text);

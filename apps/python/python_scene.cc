@@ -81,12 +81,33 @@ void keep(Scene &scene, const RunChoice &choice)
     run.output_step = run.end - run.begin;
 }
 
+/// Marks the thread that makes a frame, while it lives.
+class MakingFrame
+{
+public:
+  MakingFrame()
+  {
+    if (here)
+      throw std::invalid_argument("progress asks for a frame while one is made, which waits for it; compute the other "
+                                  "frame before the run or after it");
+    here = true;
+  }
+  ~MakingFrame() { here = false; }
+  MakingFrame(const MakingFrame &) = delete;
+
+private:
+  static inline thread_local bool here = false;
+};
+
 /// The reduced frames of all scenes; two threads do not make the same.
 std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, const coupling::Progress &progress)
 {
   static apps::FrameShelf *const shelf = new apps::FrameShelf(true); // outlives what the interpreter ends last
   static std::mutex              alone;
-  const std::lock_guard          lock(alone);
+  if (!apps::FrameShelf::serves(scene))
+    return nullptr;
+  const MakingFrame     once;
+  const std::lock_guard lock(alone);
   return shelf->frame(scene, progress);
 }
 
@@ -107,8 +128,8 @@ void raise_failure(const std::shared_ptr<PythonResult> &result)
     raise_with(py::module_::import("_gestell").attr("ComputationFailed")(run->failure), result);
 }
 
-/// Computes without the lock of the interpreter.  Ctrl-C and what `progress` raises are obeyed at the latest when it is
-/// done, whatever came of it.
+/// Computes without the lock of the interpreter: `compute` has a scene of its own, as others may change theirs.  Ctrl-C
+/// and what `progress` raises are obeyed at the latest when it is done, whatever came of it.
 template <typename Compute>
 auto interruptibly(const Compute &compute, py::object progress = py::none())
 {
@@ -116,7 +137,7 @@ auto interruptibly(const Compute &compute, py::object progress = py::none())
   ToldProgress        told(std::move(progress), interruptible.asked());
   const auto          with_others = [&]
   {
-    const py::gil_scoped_release others_may_run;
+    const py::gil_scoped_release unlocked;
     return compute(told.watch());
   };
   std::optional<decltype(with_others())> result;
@@ -280,12 +301,12 @@ Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
 std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        Scene scene = choice.signals ? scene_with(*choice.signals) : this->scene();
+        Scene scene = choice.signals ? self.scene_with(*choice.signals) : self.scene();
         apps::require_run(scene);
         keep(scene, choice);
-        auto       session = this->session(std::move(scene), watch);
+        auto       session = self.session(std::move(scene), watch);
         const auto keys    = choice.sensitivities.empty() ? std::nullopt : std::optional(choice.sensitivities);
         auto       run     = session->run(keys, apps::SpectraAre::left_out);
         return std::make_shared<PythonResult>(std::move(session), std::move(run));
@@ -296,9 +317,9 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
 std::shared_ptr<PythonResult> PythonScene::modes(const apps::ModesOptions &options, py::object progress) const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        auto session = this->session(scene(), watch);
+        auto session = self.session(self.scene(), watch);
         auto modes   = session->modes(options);
         return std::make_shared<PythonResult>(std::move(session), std::move(modes));
       },
@@ -308,9 +329,9 @@ std::shared_ptr<PythonResult> PythonScene::modes(const apps::ModesOptions &optio
 std::shared_ptr<PythonResult> PythonScene::periodic(const apps::PeriodicRequest &request, py::object progress) const
 {
   const auto result = interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        auto session = this->session(scene(), watch);
+        auto session = self.session(self.scene(), watch);
         auto motions = session->periodic(request);
         return std::make_shared<PythonResult>(std::move(session), std::move(motions));
       },
@@ -326,9 +347,9 @@ std::shared_ptr<PythonResult> PythonScene::periodic(const apps::PeriodicRequest 
 std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOptions &options) const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        auto session = this->session(scene(), watch);
+        auto session = self.session(self.scene(), watch);
         auto answer  = session->frequency_response(options);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       });
@@ -337,9 +358,9 @@ std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOpt
 std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        const auto session = this->session(scene(), watch);
+        const auto session = self.session(self.scene(), watch);
         return std::make_shared<apps::StateSpaceModel>(
             apps::state_space_of(session->scene(), session->machine(), options));
       });
@@ -348,9 +369,9 @@ std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfO
 apps::StabilityStudy PythonScene::stability(double step) const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        const auto           session = this->session(scene(), watch);
+        const auto           session = self.session(self.scene(), watch);
         apps::StabilityStudy study;
         apps::lay_methods_over(session->scene(), session->machine(), step, apps::method_families(), study);
         return study;
@@ -360,12 +381,12 @@ apps::StabilityStudy PythonScene::stability(double step) const
 std::pair<apps::SizeResult, PythonScene> PythonScene::size(const SizeChoice &choice) const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        const Scene scene = this->scene();
+        const Scene scene = self.scene();
         const auto  sized = [&](const apps::ModelVariant &model)
         {
-          PythonScene other = *this;
+          PythonScene other = self;
           for (const auto &[key, value] : apps::sized_entries(scene, model))
           {
             apps::apply_override(other.root_, key + "=" + value);
@@ -398,9 +419,9 @@ std::pair<apps::SizeResult, PythonScene> PythonScene::size(const SizeChoice &cho
 std::shared_ptr<PythonFullFrame> PythonScene::full_frame() const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        auto full = std::make_shared<PythonFullFrame>(PythonFullFrame{assembled(scene(), watch.progress)});
+        auto full = std::make_shared<PythonFullFrame>(PythonFullFrame{assembled(self.scene(), watch.progress)});
         for (fem::SparseMatrix *A : {&full->frame.M, &full->frame.B, &full->frame.C})
           A->makeCompressed();
         return full;
@@ -410,9 +431,9 @@ std::shared_ptr<PythonFullFrame> PythonScene::full_frame() const
 std::shared_ptr<PythonFrame> PythonScene::frame() const
 {
   return interruptibly(
-      [&](const apps::Watch &watch)
+      [&, self = *this](const apps::Watch &watch)
       {
-        const Scene scene = this->scene();
+        const Scene scene = self.scene();
         auto        frame = shared_frame(scene, watch.progress);
         if (!frame)
           throw std::invalid_argument(

@@ -57,6 +57,7 @@ public:
 
 private:
   bool is(std::string_view keyword) const { return begins(trimmed(file_.line()), keyword); }
+  bool is_remark() const { return trimmed(file_.line()).substr(0, 2) == "**"; }
 
   /// Nodes from the remark, directions from the lines behind it.
   bool read_element()
@@ -70,13 +71,13 @@ private:
     while ((is_there = file_.next()))
     {
       const std::string_view line = trimmed(file_.line());
-      if (line.substr(0, 2) == "**")
+      if (is_remark())
       {
         if (capitals(line).find("ELEMENT NODES") != std::string::npos)
           in_nodes = true;
         else if (in_nodes)
           for (const std::string_view field : fields_of(line.substr(2)))
-            nodes.push_back(file_.whole(field, "the number of a node"));
+            nodes.push_back(file_.node(field));
         continue;
       }
       in_nodes = false;
@@ -142,8 +143,8 @@ private:
     std::vector<FileEntry> entries;
     std::size_t            row = 0, column = 0;
     bool                   is_there;
-    while ((is_there = file_.next()) && file_.line().substr(0, 1) != "*")
-      for (const std::string_view field : fields_of(file_.line()))
+    while ((is_there = file_.next()) && (is_remark() || file_.line().substr(0, 1) != "*"))
+      for (const std::string_view field : is_remark() ? std::vector<std::string_view>{} : fields_of(file_.line()))
       {
         if (row == n)
           file_.fail("there are more numbers than the lower triangle of " + std::to_string(n) + " rows has");

@@ -13,6 +13,15 @@ namespace
 constexpr const char *form              = "'row column value'";
 constexpr std::size_t shortest_diagonal = 6; // bytes of "1 1 1\n": every row has an entry
 
+/// A line of whole numbers, as large as all rows and columns, and behind it as many lines as its third says.
+bool is_head(std::string_view value, const std::vector<FileEntry> &entries)
+{
+  const auto &first    = entries.front();
+  const auto  is_small = [&](const FileEntry &e) { return e.row <= first.row && e.column <= first.column; };
+  return entries.size() > 1 && whole_of(value) == long(entries.size() - 1) &&
+         std::all_of(entries.begin(), entries.end(), is_small);
+}
+
 } // namespace
 
 LabelledMatrix read_indexed_matrix(const std::string &name)
@@ -21,8 +30,9 @@ LabelledMatrix read_indexed_matrix(const std::string &name)
   const long             most = long(file.size() / shortest_diagonal) + 1;
   std::vector<FileEntry> entries;
   entries.reserve(file.size() / 40);
-  long n     = 0;
-  bool below = false, above = false;
+  long        n     = 0;
+  bool        below = false, above = false;
+  std::string first_value;
   while (file.next())
   {
     const std::string_view line  = trimmed(file.line());
@@ -38,11 +48,17 @@ LabelledMatrix read_indexed_matrix(const std::string &name)
       file.fail("rows and columns count from 1, and a file of this length holds no more than " + std::to_string(most) +
                 ", each with an entry on the diagonal");
     entries.push_back({int(row - 1), int(column - 1), file.real(rest.substr(second), form), file.number()});
+    if (entries.size() == 1)
+      first_value = rest.substr(second);
     n = std::max({n, row, column});
     (row > column ? below : above) |= row != column;
   }
   if (entries.empty())
     file.fail_at_end(std::string("it has no entry; expected lines ") + form);
+  if (is_head(first_value, entries))
+    file.fail_at(entries.front().line,
+                 "is a head line 'rows columns entries', which this format has not; leave it out, "
+                 "or write '%%MatrixMarket matrix coordinate real symmetric' above it");
   const auto triangles = below && above ? Triangles::both : Triangles::one;
   return {assembled(file, std::move(entries), int(n), triangles, {})};
 }

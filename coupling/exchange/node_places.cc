@@ -3,8 +3,10 @@
 #include "coupling/exchange/bulk_cards.h"
 #include "coupling/exchange/coordinate_systems.h"
 #include "fem/values/inp_lines.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 
 namespace gestell::coupling
@@ -43,12 +45,17 @@ std::string elsewhere(long node)
   return "node " + std::to_string(node) + " has a place already, another one; keep one of them";
 }
 
+long number_of_system(const TextFile &file, std::string_view number)
+{
+  return number.empty() || number == "-1" ? 0 : file.whole(number, "the number of a coordinate system");
+}
+
 /// The system that CP or CD of a grid point names.
 const CoordinateSystems::System &system_of(const TextFile &file, const BulkCards &card,
                                            const CoordinateSystems &systems, std::string_view number,
                                            const std::string &what)
 {
-  const long id = number.empty() || number == "-1" ? 0 : file.whole(number, "the number of a coordinate system");
+  const long id = number_of_system(file, number);
   if (const auto *system = systems.find(id))
     return *system;
   file.fail_at(card.line(),
@@ -58,7 +65,7 @@ const CoordinateSystems::System &system_of(const TextFile &file, const BulkCards
                    "write the point in the basic system, and the matrices with CD = 0 there");
 }
 
-void read_grids(const std::string &name, Found &found)
+void read_grids(const std::string &name, UnknownPlaces unknown, Found &found)
 {
   constexpr std::size_t grid_id = 0, grid_cp = 1, grid_x = 2, grid_cd = 5;
   TextFile              file(name);
@@ -83,8 +90,12 @@ void read_grids(const std::string &name, Found &found)
       continue;
     const std::string_view cp = field[grid_cp].empty() ? std::string_view(usual_cp) : field[grid_cp],
                            cd = field[grid_cd].empty() ? std::string_view(usual_cd) : field[grid_cd];
-    const auto &of_place      = system_of(file, cards, systems, cp, "place (CP)"),
-               &of_motion     = system_of(file, cards, systems, cd, "motions (CD)");
+    const auto &of_motion     = system_of(file, cards, systems, cd, "motions (CD)");
+    if (&of_motion != systems.find(0))
+      found.turn(node, of_motion.axes);
+    if (unknown == UnknownPlaces::left_out && !systems.find(number_of_system(file, cp)))
+      continue;
+    const auto           &of_place = system_of(file, cards, systems, cp, "place (CP)");
     std::array<double, 3> x{};
     for (std::size_t d = 0; d < 3; ++d)
       if (!field[grid_x + d].empty()) // blank is 0
@@ -96,8 +107,6 @@ void read_grids(const std::string &name, Found &found)
     }
     if (found.contradicts(node, x))
       file.fail_at(cards.line(), elsewhere(node));
-    if (&of_motion != systems.find(0))
-      found.turn(node, of_motion.axes);
   }
 }
 
@@ -114,6 +123,7 @@ public:
       throw std::invalid_argument(name + ": cannot be read; it is the INPUT of another file, check its path");
     const auto refused = [&](const std::string &what)
     { return std::invalid_argument(name + ":" + std::to_string(lines.number()) + ": " + what); };
+    std::string keyword_before;
     while (lines.next())
     {
       if (lines.is_keyword())
@@ -122,7 +132,8 @@ public:
         if (keyword.name == "TRANSFORM")
           throw refused("*TRANSFORM turns the directions of nodes, and the rows of the matrices with them; only global "
                         "directions are taken, leave it out");
-        in_nodes = keyword.name == "NODE";
+        in_nodes       = keyword.name == "NODE";
+        keyword_before = keyword.name;
         if (in_nodes && keyword.has("SYSTEM") && keyword["SYSTEM"] != "R" && keyword["SYSTEM"] != "r")
           throw refused("nodes in a system other than rectangular are not taken; write their x, y, z");
         if (const std::string other = fem::input_of(keyword, name);
@@ -131,6 +142,8 @@ public:
       }
       else if (in_nodes)
         add(lines, refused);
+      else if (keyword_before == "SYSTEM" || keyword_before == "INSTANCE")
+        require_not_moved(keyword_before, lines, refused);
     }
   }
 
@@ -140,19 +153,32 @@ private:
   {
     const auto            fields = lines.fields();
     std::array<double, 3> x{};
-    long                  node;
-    try
-    {
-      node = std::stol(fields.at(0));
-      for (std::size_t d = 0; d < 3 && d + 1 < fields.size(); ++d)
-        x[d] = std::stod(fields[d + 1]);
-    }
-    catch (const std::exception &)
-    {
+    const auto            node = fields.empty() ? std::nullopt : whole_of(fields[0]);
+    if (!node)
       throw refused("expected the number of a node and its x, y, z");
-    }
-    if (found_.wants(node) && found_.contradicts(node, x))
-      throw refused(elsewhere(node));
+    for (std::size_t d = 0; d < 3 && d + 1 < fields.size(); ++d)
+      if (!fields[d + 1].empty()) // blank is 0
+      {
+        const auto coordinate = real_of(fields[d + 1]);
+        if (!coordinate || !std::isfinite(*coordinate))
+          throw refused("'" + fields[d + 1] + "' is no coordinate; expected the number of a node and its x, y, z");
+        x[d] = *coordinate;
+      }
+    if (found_.wants(*node) && found_.contradicts(*node, x))
+      throw refused(elsewhere(*node));
+  }
+
+  /// Lines behind *SYSTEM and *INSTANCE move and turn nodes, unless they are zero.
+  template <typename Refused>
+  static void require_not_moved(const std::string &keyword, const fem::InpLines &lines, const Refused &refused)
+  {
+    const auto fields  = lines.fields();
+    const auto is_zero = [](const std::string &field) { return field.empty() || real_of(field) == 0.; };
+    if (!std::all_of(fields.begin(), fields.end(), is_zero))
+      throw refused("*" + keyword +
+                    " moves or turns the nodes by this line; only places in the global system are "
+                    "taken: write the nodes there (Abaqus: a flat input file without parts), or give "
+                    "a table with the columns node, x, y, z");
   }
 
   Found &found_;
@@ -221,13 +247,13 @@ NodeKeyword node_keyword(const std::string &name)
 
 } // namespace
 
-ModelNodes read_model_nodes(const std::string &file, const std::set<long> &wanted)
+ModelNodes read_model_nodes(const std::string &file, const std::set<long> &wanted, UnknownPlaces unknown)
 {
   Found found(wanted);
   switch (node_keyword(file))
   {
   case NodeKeyword::grid:
-    read_grids(file, found);
+    read_grids(file, unknown, found);
     break;
   case NodeKeyword::node:
     InpNodes(found).read(file, false, 0);
@@ -239,6 +265,11 @@ ModelNodes read_model_nodes(const std::string &file, const std::set<long> &wante
     break;
   }
   return found.nodes();
+}
+
+std::string place_text(const std::array<double, 3> &x)
+{
+  return "[" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + "] m";
 }
 
 bool has_node_places(const std::string &file)

@@ -1,5 +1,6 @@
 #include "coupling/exchange/rigid_motion_check.h"
 
+#include "coupling/exchange/node_places.h"
 #include "fem/values/number_text.h"
 
 #include <Eigen/Geometry>
@@ -161,11 +162,6 @@ std::string share_text(double share)
   return short_text(share, 2);
 }
 
-std::string place_text(const Vector3d &x)
-{
-  return "[" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + "] m";
-}
-
 } // namespace
 
 RigidMotionCheck check_rigid_motions(const Sparse &M, const Sparse &C, const std::vector<RowLabel> &rows,
@@ -209,7 +205,7 @@ std::string statement_of(const RigidMotionCheck &check)
     for (int d = 0; d < 3; ++d)
       if (m[d] > 0.) // of a plane frame some have no rows
         text += (text.back() == ' ' ? "" : ", ") + rounded(m[d]) + " kg by " + "xyz"[d];
-  text += ", centre " + place_text(check.centre);
+  text += ", centre " + place_text({check.centre[0], check.centre[1], check.centre[2]});
   const std::string quiet = std::to_string(check.n_quiet) + " of " + std::to_string(check.n_rows) + " rows";
   if (check.n_quiet == 0)
     return text + "; all rows feel supports, so that the stiffness cannot tell whether places belong to rows";

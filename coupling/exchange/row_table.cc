@@ -20,7 +20,7 @@ RowLabel node_and_direction(const TextFile &file, std::string_view word)
   const auto dot = word.find('.');
   if (dot == std::string_view::npos)
     file.fail("expected node.direction, such as 12.3");
-  const long node      = file.whole(word.substr(0, dot), "the number of a node");
+  const long node      = file.node(word.substr(0, dot));
   const long direction = file.whole(word.substr(dot + 1), "a direction, 1 to 6");
   if (direction < 1 || direction > 6)
     file.fail("direction " + std::to_string(direction) + " is no motion: 1 to 3 are displacements, 4 to 6 rotations");
@@ -32,7 +32,7 @@ RowLabel node_and_motion(const TextFile &file, std::string_view node, std::strin
   const auto found = std::find(ansys_motions.begin(), ansys_motions.end(), capitals(motion));
   if (found == ansys_motions.end())
     file.fail("'" + std::string(motion) + "' is no motion of a frame: UX, UY, UZ, ROTX, ROTY and ROTZ are");
-  return {file.whole(node, "the number of a node"), int(found - ansys_motions.begin()) + 1};
+  return {file.node(node), int(found - ansys_motions.begin()) + 1};
 }
 
 void require_different(const TextFile &file, const std::vector<RowLabel> &rows)

@@ -107,31 +107,54 @@ void TextFile::fail_at_end(const std::string &what) const
 double TextFile::real(std::string_view field, const char *what) const
 {
   field = trimmed(field);
-  if (field.empty() || field.size() > longest_number)
+  if (field.empty())
     fail(std::string("expected ") + what);
+  const auto value = real_of(field);
+  if (!value)
+    fail("'" + std::string(field) + "' is no number; expected " + what);
+  if (!std::isfinite(*value))
+    fail("'" + std::string(field) + "' is not a finite number; the program that wrote it failed, or divided by zero");
+  return *value;
+}
+
+long TextFile::whole(std::string_view field, const char *what) const
+{
+  const auto value = whole_of(field);
+  if (!value)
+    fail("'" + std::string(trimmed(field)) + "' is no whole number; expected " + what);
+  return *value;
+}
+
+long TextFile::node(std::string_view field) const
+{
+  const long number = whole(field, "the number of a node");
+  if (number < 1)
+    fail("node " + std::to_string(number) + " is none: nodes count from 1; is the column another one?");
+  return number;
+}
+
+std::optional<double> real_of(std::string_view field)
+{
+  field = trimmed(field);
+  if (field.empty() || field.size() > longest_number)
+    return std::nullopt;
   char              number[2 * longest_number];
   const std::size_t n     = spelled_for_c(field, number);
   double            value = 0.;
   const auto [end, error] = std::from_chars(number, number + n, value);
   if (error == std::errc::result_out_of_range) // 1e-400 is 0, 1e400 no number
-    value = std::string_view(number, n).find("e-") != std::string_view::npos ? 0. : HUGE_VAL;
-  else if (error != std::errc() || end != number + n)
-    fail("'" + std::string(field) + "' is no number; expected " + what);
-  if (!std::isfinite(value))
-    fail("'" + std::string(field) + "' is not a finite number; the program that wrote it failed, or divided by zero");
-  return value;
+    return std::string_view(number, n).find("e-") != std::string_view::npos ? 0. : HUGE_VAL;
+  return error == std::errc() && end == number + n ? std::optional(value) : std::nullopt;
 }
 
-long TextFile::whole(std::string_view field, const char *what) const
+std::optional<long> whole_of(std::string_view field)
 {
   field = trimmed(field);
   if (!field.empty() && field[0] == '+')
     field.remove_prefix(1);
   long value              = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (field.empty() || error != std::errc() || end != field.data() + field.size())
-    fail("'" + std::string(field) + "' is no whole number; expected " + what);
-  return value;
+  return error == std::errc() && end == field.data() + field.size() ? std::optional(value) : std::nullopt;
 }
 
 std::string_view trimmed(std::string_view text)

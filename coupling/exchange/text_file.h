@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,7 @@ public:
   /// A finite number: of C, of Fortran (1.5D+03) or in Nastran's short form (1.5-3).  @param what  it is, for messages
   double real(std::string_view field, const char *what) const;
   long   whole(std::string_view field, const char *what) const;
+  long   node(std::string_view field) const; ///< the number of a node, from 1
 
 private:
   [[noreturn]] void fail(long number, std::string_view line, const std::string &what) const;
@@ -44,6 +46,11 @@ private:
   std::size_t      at_     = 0;
   long             number_ = 0;
 };
+
+/// A number of C, of Fortran or in Nastran's short form, infinite where it is beyond all doubles; none: it is no
+/// number.
+std::optional<double> real_of(std::string_view field);
+std::optional<long>   whole_of(std::string_view field); ///< likewise
 
 std::string_view trimmed(std::string_view text);                            ///< without blanks at its ends
 std::string      capitals(std::string_view text);                           ///< letters of ASCII

@@ -30,11 +30,30 @@ enum class Language
   abaqus
 };
 
+/// Whether gmsh reads a file as data (Common/OpenFile.cpp of 4.8: by extensions in small letters or capitals, else by
+/// its first bytes).  It runs all others as scripts.
+bool is_data(const std::filesystem::path &path)
+{
+  static const std::set<std::string> data      = {".BDF", ".BREP", ".BRP",  ".CGNS", ".DAT", ".DIFF",   ".FM",  ".IGES",
+                                                  ".IGS", ".MED",  ".MESH", ".MMED", ".NAS", ".NEU",    ".OBJ", ".OFF",
+                                                  ".P3D", ".PLY",  ".RLE",  ".RMED", ".SAT", ".STEP",   ".STL", ".STP",
+                                                  ".UNV", ".VRML", ".VTK",  ".WRL",  ".X_T", ".XMT_TXT"};
+  const std::string                  extension = path.extension().string();
+  const bool is_mixed = std::any_of(extension.begin(), extension.end(), [](char c) { return c >= 'a' && c <= 'z'; }) &&
+                        std::any_of(extension.begin(), extension.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+  return (!is_mixed && data.count(fem::in_capitals(extension)) > 0) || fem::begins_as_mesh(path.string());
+}
+
+/// Of a file that a script merges.
+Language merged_language(const std::filesystem::path &path)
+{
+  return is_data(path) ? Language::none : Language::gmsh;
+}
+
+/// Of the file of the frame itself, whose kind is known by its extension.
 Language language_of(const std::filesystem::path &path)
 {
-  const std::string extension = fem::in_capitals(path.extension().string());
-  const bool        script    = extension == ".GEO" || (extension == ".MSH" && !fem::begins_as_mesh(path.string()));
-  return script ? Language::gmsh : extension == ".INP" ? Language::abaqus : Language::none;
+  return fem::in_capitals(path.extension().string()) == ".INP" ? Language::abaqus : merged_language(path);
 }
 
 struct NamedFile
@@ -126,7 +145,7 @@ std::vector<NamedFile> named_in_script(const std::filesystem::path &path, std::s
       if (const fem::GeoToken *name = plain_name(tokens, i))
       {
         const std::filesystem::path target = path.parent_path() / name->text;
-        named.push_back({name->text, target, tokens[i].is("Include") ? Language::gmsh : language_of(target)});
+        named.push_back({name->text, target, tokens[i].is("Include") ? Language::gmsh : merged_language(target)});
       }
       else
         note(tokens[i].line, tokens[i].text + " names its file by a computed text");

@@ -16,8 +16,8 @@ struct SourceFiles
 };
 
 /// `cad` itself and all that it names, and that these name, relative to their own folders: of a script of gmsh (.geo,
-/// and a .msh that gmsh would run as one) as text in Include, Merge, MergeWithBoundingBox and ShapeFromFile, of a mesh
-/// of Abaqus (.inp) in *INCLUDE and INPUT=.  Extensions count in capitals and small letters.
+/// and whatever gmsh does not know as data and so runs as one) as text in Include, Merge, MergeWithBoundingBox and
+/// ShapeFromFile, of a mesh of Abaqus (.inp) in *INCLUDE and INPUT=.
 SourceFiles source_files(const std::string &cad);
 
 } // namespace gestell::coupling

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace gestell::apps
@@ -50,6 +51,19 @@ std::string lock_file(const std::string &key)
   return file.empty() ? "" : file + ".lock";
 }
 
+/// A file and its state: another one written in its place, or into it, has another.
+std::string key_of_file(const std::string &path)
+{
+  struct stat state = {};
+  if (stat(path.c_str(), &state) != 0)
+    return path; // that it cannot be read is told by its reader
+  std::string key = path;
+  for (const auto number : {long(state.st_dev), long(state.st_ino), long(state.st_size), long(state.st_mtim.tv_sec),
+                            long(state.st_mtim.tv_nsec), long(state.st_ctim.tv_sec), long(state.st_ctim.tv_nsec)})
+    key += ' ' + std::to_string(number);
+  return key;
+}
+
 /// What a machine needs of its frame, without what is only drawn unless that is wanted.
 std::shared_ptr<const coupling::ReducedFrame> shared(coupling::ReducedFrame frame, bool drawn)
 {
@@ -65,14 +79,20 @@ std::shared_ptr<const coupling::ReducedFrame> shared(coupling::ReducedFrame fram
 
 } // namespace
 
-std::shared_ptr<const coupling::ReducedFrame> FrameShelf::frame(const Scene &scene, const coupling::Progress &progress)
+bool FrameShelf::serves(const Scene &scene)
 {
   const FramePath path = frame_path(scene);
-  if (scene.reduction.superposition || (path != FramePath::reduce && path != FramePath::from_file))
+  return !scene.reduction.superposition && (path == FramePath::reduce || path == FramePath::from_file);
+}
+
+std::shared_ptr<const coupling::ReducedFrame> FrameShelf::frame(const Scene &scene, const coupling::Progress &progress)
+{
+  if (!serves(scene))
     return nullptr;
   const bool        drawn = drawn_ || scene.stress.given;
-  const bool        made  = path == FramePath::reduce;
-  const std::string key   = made ? coupling::content_key(frame_origin(scene).recipe) : scene.frame.reduced_file;
+  const bool        made  = frame_path(scene) == FramePath::reduce;
+  const std::string key =
+      made ? coupling::content_key(frame_origin(scene).recipe) : key_of_file(scene.frame.reduced_file);
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept &kept) { return kept.first == key; });
   if (found != kept_.end())
   {

@@ -22,7 +22,10 @@ public:
   /// @param drawn  results of runs are written: frames keep what is drawn of them
   explicit FrameShelf(bool drawn) : drawn_(drawn) {}
 
-  /// Null where the scene's machine is not built on a reduced frame, or not on that alone.
+  /// Whether the scene's machine is built on a reduced frame, and on that alone.
+  static bool serves(const Scene &scene);
+
+  /// Null for a scene that it does not serve.  A file of a frame that was written anew is read anew.
   std::shared_ptr<const coupling::ReducedFrame> frame(const Scene &scene, const coupling::Progress &progress);
 
   int n_reduced() const { return n_reduced_; } ///< by this process, not found in the cache

@@ -104,6 +104,19 @@ TEST(MatrixExportOnCards, ComesBackToTenDigitsWithMotionsAlongTheAxes)
   EXPECT_EQ(back.mass, frame.mass);
 }
 
+TEST(DmigExport, OfAFrameWithoutDampingHasNoneAndComesBackWithoutAWarning)
+{
+  const test::SceneFolder folder;
+  auto                    frame = frame_with_picture();
+  frame.B.setZero();
+  apps::export_frame(folder.path(""), frame, apps::matrix_format("dmig"), "a test");
+  EXPECT_EQ(text_of_file(folder.path("frame.pch")).find("BAAX"), std::string::npos);
+  const auto scene = apps::read_scene(folder.write("back.toml", text_of_file(folder.path("frame.toml"))));
+  for (const std::string &warning : scene.warnings)
+    EXPECT_EQ(warning.find("BAAX"), std::string::npos) << warning;
+  EXPECT_EQ(scene.frame.matrices.B.nonZeros(), 0);
+}
+
 TEST(ImportedFrame, IsProvedByCheckAndWarnedOfWithExitCodes)
 {
   const tests::Folder folder("imported");

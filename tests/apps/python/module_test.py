@@ -81,6 +81,30 @@ class Runs(unittest.TestCase):
         self.assertEqual([point["parameters.c_P"] for point, _ in alone], [8e8, 8e8, 9e8, 9e8, 10e8, 10e8])
         self.assertEqual(scene["parameters.c_P"], "900 kN/mm")
 
+    def test_have_no_values_of_what_was_not_computed(self):
+        result = short_press().run()
+        self.assertIsNone(result._along)
+        self.assertIsNone(result._periodic)
+        self.assertIsNone(result._responses)
+
+    def test_are_of_the_scene_as_it_was_when_they_began(self):
+        scene, done = short_press().set("run.end", "1 ms"), threading.Event()
+
+        def change():
+            k = 0
+            while not done.is_set():
+                scene.add("parameters", **{f"z{k % 2000}": k})
+                k += 1
+
+        changing = threading.Thread(target=change)
+        changing.start()
+        try:
+            for _ in range(30):
+                scene.run(peaks="F_P")
+        finally:
+            done.set()
+            changing.join()
+
     def test_end_on_interruption_with_what_they_have(self):
         threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt) as caught:
@@ -256,6 +280,56 @@ direction = [1, 0, 0]
 stiffness = "100 N/m"
 damping   = "3 N s/m"
 """
+
+
+CHAIN = """name = "chain"
+[frame]
+mass = [[2, 0], [0, 3]]
+stiffness = [[1000, -500], [-500, 800]]
+[frame.interface.a]
+rows = { ux = 1 }
+[reduction]
+method = "craig-bampton"
+modes = 1
+[run]
+method = "newmark"
+step = "1 ms"
+end = "10 ms"
+[output.signals]
+x = "frame.a.ux"
+"""
+
+
+class SharedFrames(unittest.TestCase):
+    def test_of_a_file_are_those_that_it_has_now(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+
+            def stiffness(of_first):
+                (folder / "cb.toml").write_text(CHAIN.replace("1000", str(of_first)))
+                subprocess.run([PROGRAM, "reduce", folder / "cb.toml", "-o", folder / "made", "--quiet"], check=True,
+                               stdout=subprocess.DEVNULL)
+                (next((folder / "made").glob("*.h5"))).replace(folder / "frame.h5")
+                table = CHAIN[CHAIN.index("[frame]"):CHAIN.index("[run]")]
+                scene = gestell.loads(CHAIN.replace(table, '[frame]\nreduced = "frame.h5"\n'), folder)
+                return scene.frame().C[0, 0]
+
+            self.assertNotEqual(stiffness(1000), stiffness(2000))
+
+    def test_cannot_be_asked_for_by_progress_while_one_is_made(self):
+        # Masses that no cache has.
+        scene, other = (gestell.loads(CHAIN.replace("2, 0", f"{2 + time.time_ns() % 1e9 / 1e9 + k}, 0")) for k in (0, 1))
+        told = []
+
+        def progress(phase, share):
+            told.append(phase)
+            other.frame()
+
+        with self.assertRaisesRegex(ValueError, "progress asks for a frame while one is made"):
+            scene.run(progress=progress)
+        self.assertEqual(len(told), 1)
+        other.frame()  # nothing is left locked
+        scene.run()
 
 
 class Frames(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "coupling/simulation/simulation.h"
+#include "fem/values/number_text.h"
 #include "tests/support/lumped_frame.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
@@ -215,9 +216,108 @@ TEST_F(ImportedFrame, OfNodesWithAxesOfTheirOwnIsTurnedToTheGlobalOnes)
   EXPECT_LT((MatrixXd(turned.M) - MatrixXd(known.M)).cwiseAbs().maxCoeff(), 1e-15 * MatrixXd(known.M).maxCoeff());
   for (int d = 0; d < 3; ++d)
     EXPECT_NEAR(turned.interfaces[0].position[d], known.interfaces[0].position[d], 1e-15);
+  // Places from elsewhere: the axes still are those on the cards, wherever these stand.
+  folder.write("nodes.csv", tests::node_table_text(held, "m", false));
+  for (const std::string nodes : {"nodes = 'nodes.csv'\n", "nodes = 'b.pch'\n"})
+  {
+    if (nodes == "nodes = 'b.pch'\n")
+    {
+      refused(on_cards + nodes, {"nodes", "node 12 counts its motions in another system in", "a.pch"});
+      continue;
+    }
+    const auto placed = read(on_cards + nodes).frame.matrices;
+    EXPECT_LT((MatrixXd(placed.C) - MatrixXd(known.C)).cwiseAbs().maxCoeff(), 1e-15 * MatrixXd(known.C).maxCoeff());
+  }
+  folder.write("K.pch", tests::dmig_text("KAAX", local.C, local.rows, tests::CardFields::free_));
+  const auto by_mass = read("mass = 'a.pch'\nstiffness = 'K.pch'\nnodes = 'nodes.csv'\n").frame.matrices;
+  EXPECT_LT((MatrixXd(by_mass.C) - MatrixXd(known.C)).cwiseAbs().maxCoeff(), 1e-15 * MatrixXd(known.C).maxCoeff());
+  folder.write("a.pch", systems + others + "GRID,12,5,0.1,-1.,1.2,6\n" + matrices);
+  refused(on_cards + "nodes = 'nodes.csv'\n", {"grid point 12", "CD", "no CORD2R"});
+  folder.write("a.pch", systems + others + "GRID,12,6,0.1,-1.,1.2,5\n" + matrices); // no matter where: the table tells
+  EXPECT_NO_THROW(read(on_cards + "nodes = 'nodes.csv'\n"));
   folder.write("a.pch", systems + "GRID,12,,0.,0.,0.,5\nDMIG,KAAX,0,6,2\nDMIG,KAAX,12,1,,12,1,1.\n"
                                   "DMIG,MAAX,0,6,2\nDMIG,MAAX,12,1,,12,1,1.\n");
   refused(on_cards, {"node 12 counts its motions along axes of its own", "node 12, uy has no row"});
+}
+
+TEST_F(ImportedFrame, HasOnePlaceOfEachNode)
+{
+  folder.write("a.pch", cards(held, tests::CardFields::free_));
+  folder.write("nodes.csv", tests::node_table_text(held, "m", false));
+  EXPECT_TRUE(read(on_cards + "nodes = 'nodes.csv'\n").warnings.empty());
+  folder.write("nodes.csv", tests::node_table_text(held, "mm", false)); // numbers of metres
+  const auto said = tests::refusal([&] { read(on_cards + "nodes = 'nodes.csv'\n"); });
+  expect(said, {"nodes", "node ", " is at [", ", but at [", "in other units"});
+}
+
+TEST_F(ImportedFrame, TakesMatricesOfTheSceneInSiBesideFilesInOtherUnits)
+{
+  const auto mm = held.in_units(1e-3, 1e3);
+  folder.write("a.pch", tests::grid_text(mm) + tests::dmig_text("KAAX", mm.C, mm.rows, tests::CardFields::free_));
+  folder.write("a.dof", tests::dof_text(held.rows));
+  std::string written = "[";
+  for (Eigen::Index i = 0; i < 24; ++i)
+  {
+    written += "[";
+    for (Eigen::Index j = 0; j < 24; ++j)
+      written += std::to_string(held.M(i, j)) + ",";
+    written += "],";
+  }
+  const auto frame = read("mass = " + written +
+                          "]\nstiffness = 'a.pch'\nrows = 'a.dof'\n"
+                          "file_units = { length = '1 mm', mass = '1 t' }\n")
+                         .frame.matrices;
+  EXPECT_NEAR(frame.mass, held.mass, 1e-5 * held.mass) << "six decimals";
+  folder.write("b.pch", cards(held, tests::CardFields::free_));
+  const auto known = read("mass = 'b.pch'\nstiffness = 'b.pch'\n").frame.matrices;
+  EXPECT_LT((MatrixXd(frame.C) - MatrixXd(known.C)).cwiseAbs().maxCoeff(), 1e-12 * MatrixXd(known.C).maxCoeff());
+}
+
+/// B = b b^T on the displacements of all nodes, of one damper; its rounded entries have negative eigenvalues.
+MatrixXd one_damper()
+{
+  Eigen::VectorXd b(24);
+  for (int i = 0; i < 24; ++i)
+    b[i] = std::sin(1. + 3. * i) + 1.3;
+  return b * b.transpose();
+}
+
+MatrixXd rounded_to(const MatrixXd &A, int digits)
+{
+  return A.unaryExpr([digits](double x) { return std::stod(rounded(x, digits)); });
+}
+
+TEST_F(ImportedFrame, TakesDampersThatTheirDigitsMakeSlightlyIndefinite)
+{
+  const auto with = [&](const MatrixXd &B, tests::CardFields fields)
+  {
+    return Import{"",
+                  {{"a.pch", cards(held, tests::CardFields::free_) + tests::dmig_text("BAAX", B, held.rows, fields)}},
+                  on_cards + "damping = 'a.pch'\n",
+                  0.};
+  };
+  const auto lowest = [](const MatrixXd &B)
+  {
+    const Eigen::VectorXd scale = B.diagonal().cwiseSqrt().cwiseInverse();
+    return Eigen::SelfAdjointEigenSolver<MatrixXd>(scale.asDiagonal() * B * scale.asDiagonal()).eigenvalues()[0];
+  };
+  const MatrixXd nine = rounded_to(one_damper(), 9), five = rounded_to(one_damper(), 5);
+  ASSERT_LT(lowest(nine), -1e-9) << "more than 1e-9, so that the number of rows must count";
+  EXPECT_TRUE(read(with(nine, tests::CardFields::free_)).warnings.empty());
+  ASSERT_LT(lowest(five), -1e-6);
+  EXPECT_TRUE(read(with(five, tests::CardFields::free_)).warnings.empty());
+  EXPECT_NO_THROW(read(with(one_damper(), tests::CardFields::small_)));
+  // Sixteen digits of what had five before: nothing explains them, and it may be no error.
+  MatrixXd doubtful = one_damper();
+  doubtful(0, 1) = doubtful(1, 0) = doubtful(0, 1) * (1. + 1e-6);
+  ASSERT_LT(lowest(doubtful), -2e-8);
+  const auto scene = read(with(doubtful, tests::CardFields::free_));
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  expect(scene.warnings[0], {"damping", "slightly negative energy", "fewer digits"});
+  MatrixXd wrong = one_damper();
+  wrong(0, 1) = wrong(1, 0) = wrong(0, 1) * 1.01;
+  const auto said           = tests::refusal([&] { read(with(wrong, tests::CardFields::free_)); });
+  expect(said, {"damping: is not positive semidefinite", "negative energy"});
 }
 
 TEST_F(ImportedFrame, ReducedToNodesAndModesKeepsItsModesAndItsWeight)
@@ -318,6 +418,8 @@ TEST_F(ImportedFrame, DampingIsThatOfTheFileWhereItIsAskedFor)
   ASSERT_EQ(left.warnings.size(), 1u);
   expect(left.warnings[0], {"BAAX", "left out", "damping ="});
   EXPECT_TRUE(read(on_cards + "damping = { ratio = 0.01 }\n").warnings.empty());
+  folder.write("a.pch", cards(held) + "DMIG,BAAX,0,6,2\n");
+  EXPECT_TRUE(read(on_cards).warnings.empty()) << "an empty matrix is no damping";
   folder.write("a.pch", cards(held) + tests::dmig_text("K4AAX", B, held.rows, tests::CardFields::free_));
   expect(read(on_cards).warnings.at(0), {"K4AAX", "structural damping", "half the loss factor"});
 }

@@ -88,6 +88,7 @@ TEST_F(Refused, TrianglesOfCalculix)
   expect("1 1 2.\n1 2 1.\n2 1 1.\n1 2 1.\n", {"a.txt:4", "second time"});
   expect("1 1 2.\n2 2 NaN\n", {"a.txt:2", "not a finite number"});
   expect("1 1 2.\n2 2 *****\n", {"a.txt:2", "is no number"});
+  expect("\n2 2 3\n1 1 2.\n1 2 1.\n2 2 2.\n", {"a.txt:2", "head line", "%%MatrixMarket"});
 }
 
 TEST_F(Refused, Substructures)
@@ -100,6 +101,7 @@ TEST_F(Refused, Substructures)
   expect("*USER ELEMENT,NODES=2,LINEAR\n1,2,3\n*MATRIX,TYPE=STIFFNESS\n1.\n", {"ELEMENT NODES"});
   expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** 1\n8\n*MATRIX,TYPE=MASS\n1.\n", {"direction 8"});
   expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** 1\n1,1\n*MATRIX,TYPE=MASS\n1.\n", {"twice"});
+  expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** -1\n1\n*MATRIX,TYPE=MASS\n1.\n", {"a.txt:3", "count from 1"});
   expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** 1\n1\n5,1\n*MATRIX,TYPE=MASS\n1.\n", {"nodes 1 to 1"});
 }
 
@@ -128,6 +130,9 @@ TEST_F(Refused, TablesOfRows)
   expect_rows("1.1\n1.1\n", {"node 1, ux", "row 1 and row 2"});
   expect_rows("1.7\n", {"direction 7"});
   expect_rows("1\n", {"node.direction"});
+  expect_rows("1 -5 UX\n", {"a.dof:1", "node -5", "count from 1"});
+  expect_rows("1 0 UX\n", {"count from 1"});
+  expect_rows("0.1\n", {"count from 1"});
   expect_rows("1 2 TEMP\n", {"'TEMP' is no motion", "ROTX"});
   expect_rows("1 2 UX\n3 2 UY\n", {"row 2 is missing"});
   expect_rows("1 2 UX\n1 2 UY\n", {"row 1 is there already"});
@@ -149,12 +154,22 @@ TEST_F(Refused, SystemsOfNodesOtherThanTheGlobalOne)
   expect_places("*NODE,SYSTEM=C\n1,0.,0.,0.\n", {"rectangular"});
   expect_places("*NODE\n1,0.,0.,0.\n*TRANSFORM,NSET=A\n1.,0.,0.,0.,1.,0.\n", {"model.txt:3", "TRANSFORM"});
   expect_places("*NODE\n1,a,0.,0.\n", {"model.txt:2", "x, y, z"});
+  for (const std::string node : {"1abc,0.,0.,0.", "1,0x10,0.,0.", "1,0.5junk,0.,0.", "1,nan,0.,0.", "1,1e400,0.,0."})
+    expect_places("*NODE\n" + node + "\n", {"model.txt:2", "x, y, z"});
+  expect_places("*SYSTEM\n100.,0.,0.\n*NODE\n1,0.,0.,0.\n", {"model.txt:2", "*SYSTEM moves", "global system"});
+  expect_places("*INSTANCE,NAME=I,PART=P\n5.,0.,0.\n*NODE\n1,0.,0.,0.\n", {"model.txt:2", "*INSTANCE moves"});
   expect_places("NBLOCK,6,SOLID\n(3i9,6e21.13e3)\n        1        0        0 0.0000000000000E+000 "
                 "0.0000000000000E+000 0.0000000000000E+000 3.0000000000000E+001\n",
                 {"turned", "NROTAT"});
   expect_places("NBLOCK,6\nnone\n", {"format of the nodes"});
   EXPECT_EQ(tests::refusal([&] { coupling::read_model_nodes(folder.write("m", "GRID,9,5,0.,0.,0.,7\n"), {1}); }), "")
       << "a node without rows may be in any system";
+  EXPECT_EQ(tests::refusal(
+                [&] {
+                  coupling::read_model_nodes(folder.write("m", "*SYSTEM\n*NODE\n1,0.,0.,0.\n*INSTANCE\n0.,0.\n"), {1});
+                }),
+            "")
+      << "nothing is moved";
 }
 
 /// A text with a few bytes changed, or cut off.

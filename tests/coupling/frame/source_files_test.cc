@@ -88,6 +88,25 @@ TEST_F(ContentKeyOfSeveralFiles, ReadsAScriptAsGmshDoes)
   EXPECT_FALSE(changes());
 }
 
+TEST_F(ContentKeyOfSeveralFiles, FollowsAScriptOfAnyExtension)
+{
+  for (const std::string merged : {"parts.geo_unrolled", "parts.opt", "parts.txt", "parts", "parts.Step", "parts.inp"})
+  {
+    write("frame.geo", "Merge \"" + merged + "\";\n");
+    write(merged, "Include \"sizes.inc\";\n");
+    write("sizes.inc", "h = 1;\n");
+    read_from("frame.geo");
+    write("sizes.inc", "h = 2;\n");
+    EXPECT_TRUE(changes()) << merged;
+    write(merged, "SystemCall \"date\";\n");
+    EXPECT_EQ(coupling::beyond_the_files(coupling::recipe_of(frame, options)), merged + ":1: has the word SystemCall");
+  }
+  write("frame.geo", "Merge \"column.step\"; Merge \"mesh.any\";\n");
+  write("column.step", "SystemCall \"date\";\n"); // data to gmsh, as is what begins as a mesh
+  write("mesh.any", "$MeshFormat\nSystemCall\n");
+  EXPECT_EQ(coupling::beyond_the_files(coupling::recipe_of(frame, options)), "");
+}
+
 TEST_F(ContentKeyOfSeveralFiles, SaysWhereMoreThanFilesDecides)
 {
   for (const std::string line : {"Include StrCat(\"a\", \".geo\");", "name = \"a.geo\"; Include Str(name);",

@@ -89,13 +89,13 @@ public:
     return matrix;
   }
 
-  /// Names of other matrices in the files that were read, by a test of their names.
+  /// The name of another matrix with entries in the files that were read, by a test of names.
   template <typename Is>
   std::string left_in_files(const Is &is) const
   {
     for (const auto &[path, matrices] : read_)
       for (const auto &[name, matrix] : matrices)
-        if (is(name))
+        if (is(name) && matrix.A.nonZeros() > 0 && matrix.A.coeffs().cwiseAbs().maxCoeff() > 0.)
           return name;
     return "";
   }
@@ -205,21 +205,33 @@ void unite(const SceneTable &frame, LabelledMatrix &M, LabelledMatrix &C, std::o
                                " of the stiffness have none: " + text_of_some(massless));
   const Eigen::VectorXd s      = scales(given.rows, units);
   const double          energy = units.force * units.length;
-  const auto            in_si  = [&](const LabelledMatrix &matrix, double factor)
+  const auto            in_si  = [&](const std::string &key, const LabelledMatrix &matrix, double factor)
   {
-    Sparse A = spread(matrix, given.rows);
-    for (int j = 0; j < A.outerSize() && !units.are_si(); ++j)
+    Sparse     A          = spread(matrix, given.rows);
+    const bool is_written = !frame.is_text(key); // in the scene itself, in SI
+    for (int j = 0; j < A.outerSize() && !units.are_si() && !is_written; ++j)
       for (Sparse::InnerIterator a(A, j); a; ++a)
         a.valueRef() *= factor * (s[a.row()] * s[j]);
     return A;
   };
-  given.M = in_si(M, units.mass * units.length * units.length);
-  given.C = in_si(C, energy);
+  given.M = in_si("mass", M, units.mass * units.length * units.length);
+  given.C = in_si("stiffness", C, energy);
   if (B)
-    given.B = in_si(*B, energy * units.time);
+    given.B = in_si("damping", *B, energy * units.time);
 }
 
-void check(const SceneTable &frame, const GivenMatrices &given)
+/// By which the entries of files may be off, as shares of them.
+struct Roundings
+{
+  double of_mass, of_damping;
+};
+
+double rounding_in(const SceneTable &frame, const std::string &key, const Sparse &A)
+{
+  return frame.is_text(key) ? rounding_of(A) : least_rounding;
+}
+
+void check(const SceneTable &frame, const GivenMatrices &given, const Roundings &rounding)
 {
   const auto magnitude = [&](const std::string &key, const Sparse &A)
   {
@@ -232,9 +244,9 @@ void check(const SceneTable &frame, const GivenMatrices &given)
   if (given.B)
   {
     magnitude("damping", *given.B);
-    check_semidefinite(frame, "damping", *given.B, given.rows);
+    check_semidefinite(frame, "damping", *given.B, rounding.of_damping, given.rows);
   }
-  check_mass(frame, given.M, given.C, given.rows);
+  check_mass(frame, given.M, rounding.of_mass, given.C, given.rows);
 }
 
 /// Damping that the files hold and the scene does not name.
@@ -253,6 +265,18 @@ void tell_left_damping(const SceneTable &frame, const MatrixFiles &files)
     frame.warn("stiffness", "the file has structural damping " + structural +
                                 ", a loss in each cycle that no motion in time has as a matrix; it is left out: give "
                                 "damping = { ratio = ... } at half the loss factor");
+}
+
+/// Files of matrices that hold nodes too, each once.
+std::vector<std::string> models_beside(const SceneTable &frame)
+{
+  std::vector<std::string> models;
+  for (const std::string key : {"stiffness", "mass", "damping"})
+    if (frame.has(key) && frame.is_text(key))
+      if (const std::string file = frame.file(key);
+          std::find(models.begin(), models.end(), file) == models.end() && coupling::has_node_places(file))
+        models.push_back(file);
+  return models;
 }
 
 } // namespace
@@ -319,6 +343,7 @@ GivenMatrices read_given_matrices(const SceneTable &frame)
   if (frame.has("damping") && !frame.is_table("damping"))
     B = files.read("damping", MatrixRole::damping, kind::damping_entry);
   require_named_alike(frame, M, C, B);
+  const Roundings rounding{rounding_in(frame, "mass", M.A), B ? rounding_in(frame, "damping", B->A) : 0.};
   if (is_named(C))
     unite(frame, M, C, B, units, given);
   else
@@ -335,10 +360,10 @@ GivenMatrices read_given_matrices(const SceneTable &frame)
       given.B = std::move(B->A);
     }
   }
-  check(frame, given);
+  check(frame, given, rounding);
   tell_left_damping(frame, files);
-  if (is_named(C) && frame.is_text("stiffness") && coupling::has_node_places(frame.file("stiffness")))
-    given.model = frame.file("stiffness");
+  if (is_named(C))
+    given.models = models_beside(frame);
   return given;
 }
 

@@ -18,7 +18,7 @@ struct GivenMatrices
   std::optional<Eigen::SparseMatrix<double>> B;           ///< of `damping` as a matrix
   std::vector<coupling::RowLabel>            rows{};      ///< [n], or empty: numbers alone
   double                                     length = 1.; ///< [m] that files of the other program count places in
-  std::string                                model{};     ///< file of the stiffness if it has places of nodes; ""
+  std::vector<std::string>                   models{};    ///< files of the matrices that have nodes as well
   std::vector<std::string>                   statements{};
 };
 
@@ -28,7 +28,8 @@ struct GivenMatrices
  *
  * Where the rows of all are known, theirs are those of the stiffness, then others of mass and damping; rows that a file
  * leaves out are zero.  Units: with l, m, t, f those of the file, a displacement counts in l, a rotation in rad, a
- * coordinate without a place in l sqrt(m), which leaves modes with unit mass such ones:
+ * coordinate without a place in l sqrt(m), which leaves modes with unit mass such ones; matrices written in the scene
+ * are in SI as they stand:
  *
  *     q_file = S q,   M = m l^2 S M_file S,   B = f l t S B_file S,   C = f l S C_file S,
  *     S_ii = 1/l, 1, 1 / (l sqrt(m)).

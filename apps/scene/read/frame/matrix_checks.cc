@@ -1,10 +1,11 @@
 #include "apps/scene/read/frame/matrix_checks.h"
 
+#include "fem/values/number_text.h"
+
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace gestell::apps
 {
@@ -14,16 +15,56 @@ namespace
 using coupling::RowLabel;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double symmetry_tolerance     = 1e-9; // of the largest entry: files written with 10 digits pass
-constexpr double semidefinite_tolerance = 1e-9; // of unit diagonal, likewise
-constexpr double largest_entry          = 1e100;
-constexpr double vanishing_mass         = 1e-30; // of the largest
+constexpr double symmetry_tolerance = 1e-9; // of the largest entry: files written with 10 digits pass
+constexpr double worst_rounding     = 5e-5; // of 5 digits, those of Nastran's small fields
+constexpr double beyond_doubt       = 100.; // times what rounding explains: its own program had fewer digits, no more
+constexpr double largest_entry      = 1e100;
+constexpr double vanishing_mass     = 1e-30; // of the largest
 
 std::string number_text(double x)
 {
-  std::ostringstream text;
-  text << x;
-  return text.str();
+  return rounded(x, 6);
+}
+
+/// Significant digits of the shortest decimal number that is x.
+int digits_of(double x)
+{
+  std::string text = exact_text(std::abs(x));
+  text.resize(std::min(text.find('e'), text.size()));
+  text.erase(std::remove(text.begin(), text.end(), '.'), text.end());
+  const auto first = text.find_first_not_of('0'), last = text.find_last_not_of('0');
+  return first == std::string::npos ? 0 : int(last - first) + 1;
+}
+
+/// D A D of unit diagonal; rows without an own entry are scaled as the one with the largest.
+Sparse at_unit_diagonal(const Sparse &A)
+{
+  const Eigen::VectorXd diagonal = A.diagonal();
+  const double          largest  = diagonal.maxCoeff() > 0. ? diagonal.maxCoeff() : 1.;
+  const Eigen::VectorXd scale =
+      diagonal.unaryExpr([largest](double m) { return 1. / std::sqrt(m > 0. ? m : largest); });
+  return scale.asDiagonal() * A * scale.asDiagonal();
+}
+
+double largest_row_sum(const Sparse &symmetric)
+{
+  double largest = 0.;
+  for (int j = 0; j < symmetric.outerSize(); ++j)
+  {
+    double sum = 0.;
+    for (Sparse::InnerIterator a(symmetric, j); a; ++a)
+      sum += std::abs(a.value());
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+/// No eigenvalue below -tolerance.
+bool is_semidefinite(const Sparse &A, double tolerance)
+{
+  Sparse unit(A.rows(), A.rows());
+  unit.setIdentity();
+  return Eigen::SimplicialLLT<Sparse>(A + tolerance * unit).info() == Eigen::Success;
 }
 
 bool has_one_triangle_only(const Sparse &A)
@@ -88,25 +129,37 @@ void require_positive_diagonal(const SceneTable &frame, const std::string &key, 
                                number_text(diagonal[lowest]) + " on the diagonal; it must be zero or positive");
 }
 
-void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix,
+double rounding_of(const Sparse &A)
+{
+  int most = 0;
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Sparse::InnerIterator a(A, j); a; ++a)
+      if (most = std::max(most, digits_of(a.value())); most >= 10)
+        return least_rounding;
+  return std::min(0.5 * std::pow(10., 1 - most), worst_rounding);
+}
+
+void check_semidefinite(const SceneTable &frame, const std::string &key, const Sparse &matrix, double rounding,
                         const std::vector<RowLabel> &rows)
 {
   require_positive_diagonal(frame, key, matrix, rows);
-  const Eigen::VectorXd diagonal = matrix.diagonal();
-  const double          largest  = diagonal.maxCoeff() > 0. ? diagonal.maxCoeff() : 1.;
-  const Eigen::VectorXd scale =
-      diagonal.unaryExpr([largest](double m) { return 1. / std::sqrt(m > 0. ? m : largest); });
-  Sparse unit(matrix.rows(), matrix.rows());
-  unit.setIdentity();
-  const Sparse shifted = Sparse(scale.asDiagonal() * matrix * scale.asDiagonal()) + semidefinite_tolerance * unit;
-  if (Eigen::SimplicialLLT<Sparse>(shifted).info() != Eigen::Success)
+  const Sparse A         = at_unit_diagonal(matrix);
+  const double explained = rounding * std::max(largest_row_sum(A), 1.);
+  if (is_semidefinite(A, explained))
+    return;
+  if (is_semidefinite(A, beyond_doubt * explained))
+    frame.warn(key,
+               "has a motion of slightly negative energy, beyond " + number_text(explained) +
+                   " at unit diagonal that rounding in its file explains; was it written with fewer digits before?");
+  else
     throw frame.error(key, "is not positive semidefinite: by its entries beside the diagonal some motion has negative "
                            "energy; check their signs and units");
 }
 
-void check_mass(const SceneTable &frame, const Sparse &M, const Sparse &C, const std::vector<RowLabel> &rows)
+void check_mass(const SceneTable &frame, const Sparse &M, double rounding, const Sparse &C,
+                const std::vector<RowLabel> &rows)
 {
-  check_semidefinite(frame, "mass", M, rows);
+  check_semidefinite(frame, "mass", M, rounding, rows);
   if (M.diagonal().maxCoeff() == 0.)
     throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
   const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows

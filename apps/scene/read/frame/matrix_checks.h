@@ -22,12 +22,22 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Eigen
 void check_magnitude(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A);
 void require_positive_diagonal(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
                                const std::vector<coupling::RowLabel> &rows);
-/// Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
-/// lumped masses are.  Scaled to unit diagonal it must have no eigenvalue below -1e-9.
+/// By how much an entry may be rounded, as a share of it: half a unit of ten digits and more.
+constexpr double least_rounding = 5e-10;
+/// The same of a matrix as its file has it, by the digits of the entry that has most; no less than that of ten digits
+/// and no more than that of five.
+double rounding_of(const Eigen::SparseMatrix<double> &A);
+/**
+ * Refuses a matrix by which some motion has negative energy; coordinates without an own entry may be, as rotations of
+ * lumped masses are.
+ *
+ * Scaled to unit diagonal, entries rounded by a share e move its eigenvalues by no more than e max_i sum_j |a_ij|
+ * (Gershgorin).  A matrix that is semidefinite within that is taken, up to a hundred times as much with a warning.
+ */
 void check_semidefinite(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
-                        const std::vector<coupling::RowLabel> &rows);
+                        double rounding, const std::vector<coupling::RowLabel> &rows);
 /// Besides, each row needs mass or stiffness.
-void check_mass(const SceneTable &frame, const Eigen::SparseMatrix<double> &M, const Eigen::SparseMatrix<double> &C,
-                const std::vector<coupling::RowLabel> &rows);
+void check_mass(const SceneTable &frame, const Eigen::SparseMatrix<double> &M, double rounding,
+                const Eigen::SparseMatrix<double> &C, const std::vector<coupling::RowLabel> &rows);
 
 } // namespace gestell::apps

@@ -2,6 +2,7 @@
 
 #include "apps/scene/read/frame/matrix_keys.h"
 #include "apps/scene/read/names.h"
+#include "coupling/exchange/node_places.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -14,6 +15,7 @@ namespace gestell::apps
 namespace
 {
 
+using coupling::place_text;
 using Owners = std::map<int, std::string>; ///< "top.uz" by rows from 1
 
 constexpr double one_place = 1e-6; ///< of the extent of the nodes
@@ -48,11 +50,6 @@ void read_rows(const SceneTable &table, Eigen::Index n, fem::Interface &interfac
 double distance(const Vector3 &a, const Vector3 &b)
 {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-std::string place_text(const Vector3 &x)
-{
-  return "[" + rounded(x[0]) + ", " + rounded(x[1]) + ", " + rounded(x[2]) + "] m";
 }
 
 /// Shortest side of what counts as one place [m].

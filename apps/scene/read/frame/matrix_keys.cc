@@ -61,12 +61,13 @@ const std::vector<Key> &matrix_frame_keys()
           "of Ansys")
           .by_default("of the matrices, if their format tells"),
       key::table("file_units", file_unit_keys(),
-                 "that the files of another program count in: matrices whose rows are known, and places of nodes")
+                 "that the files of another program count in: matrices whose rows are known, and places of nodes; "
+                 "matrices written in the scene are in SI")
           .by_default("kg, m, s, N"),
       key::plain("nodes", Key::Form::file,
                  "table of nodes (CSV): interfaces, positions, and what pictures show; or, where rows are known, the "
                  "model of another program (GRID, *NODE, NBLOCK)")
-          .by_default("GRID cards beside the stiffness"),
+          .by_default("GRID cards beside the matrices"),
       key::plain("triangles", Key::Form::file,
                  "table of three or four nodes in each line (from 1, in the order of `nodes`), for pictures")
           .by_default("none"),

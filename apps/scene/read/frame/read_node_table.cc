@@ -7,6 +7,7 @@
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,6 +20,8 @@ namespace
 
 const std::vector<std::string> columns{"name", "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz", "node"};
 constexpr std::size_t          first_position = 1, first_motion = 4, number_column = 10;
+constexpr double               same_place = 1e-3; // of the extent of the nodes: Nastran's short fields pass
+constexpr double               same_axes  = 1e-4; // likewise, of unit vectors
 
 /// Where each of `columns` stands in the table, and the length that positions are in.
 struct Layout
@@ -188,43 +191,108 @@ void require_places(const SceneTable &frame, const std::string &key, const std::
                                ", which have rows in the matrices; is it of another model?");
 }
 
+coupling::ModelNodes model_nodes(const std::string &path, const std::map<long, TableNode> &nodes, double length,
+                                 coupling::UnknownPlaces unknown)
+{
+  std::set<long> wanted;
+  for (const auto &[number, node] : nodes)
+    wanted.insert(number);
+  coupling::ModelNodes model = coupling::read_model_nodes(path, wanted, unknown);
+  for (auto &[number, x] : model.places)
+    for (double &coordinate : x)
+      coordinate *= length;
+  return model;
+}
+
+/// Largest distance of two places along an axis.
+double extent_of(const coupling::NodePlaces &places)
+{
+  double extent = 0.;
+  for (const auto &[number, x] : places)
+    for (std::size_t d = 0; d < 3; ++d)
+      extent = std::max(extent, std::abs(x[d] - places.begin()->second[d]));
+  return extent;
+}
+
+/// A node that two files name has one place in both, to the digits of short fields, and one system of motions.
+void require_same_nodes(const FrameNodes &nodes, const coupling::ModelNodes &model, const std::string &file)
+{
+  const double tolerance = same_place * std::max(extent_of(nodes.places), extent_of(model.places));
+  for (const auto &[number, x] : model.places)
+    if (const auto place = nodes.places.find(number); place != nodes.places.end())
+      for (std::size_t d = 0; d < 3; ++d)
+        if (std::abs(place->second[d] - x[d]) > tolerance)
+          throw std::invalid_argument("node " + std::to_string(number) + " is at " +
+                                      coupling::place_text(place->second) + ", but at " + coupling::place_text(x) +
+                                      " in " + file + "; is one of the files of another model, or in other units?");
+}
+
+/// Of nodes whose system of motions both tell.
+void require_same_axes(const FrameNodes &nodes, const coupling::ModelNodes &model, const std::string &file)
+{
+  const auto axes_in = [](const std::map<long, Eigen::Matrix3d> &axes, long number) -> Eigen::Matrix3d
+  { return axes.count(number) > 0 ? axes.at(number) : Eigen::Matrix3d::Identity(); };
+  for (const auto &[number, x] : model.places)
+    if (nodes.places.count(number) > 0 &&
+        (axes_in(nodes.axes, number) - axes_in(model.axes, number)).cwiseAbs().maxCoeff() > same_axes)
+      throw std::invalid_argument("node " + std::to_string(number) + " counts its motions in another system in " +
+                                  file + " (CD); keep one of them");
+}
+
+/// What `nodes` names: a table, or the model of another program, which tells axes too.
+bool read_named_nodes(const std::string &path, double length, std::map<long, TableNode> &nodes, FrameNodes &found)
+{
+  if (coupling::has_node_places(path))
+  {
+    coupling::ModelNodes model = model_nodes(path, nodes, length, coupling::UnknownPlaces::refused);
+    found.places               = std::move(model.places);
+    found.axes                 = std::move(model.axes);
+    return true;
+  }
+  const CsvFile table  = read_csv(path);
+  const Layout  layout = layout_of(table, length);
+  if (!layout.column[number_column])
+    throw std::invalid_argument(table.place(table.head_number) +
+                                "has no column 'node' with the numbers by which the rows are known");
+  place_by_numbers(table, layout, nodes, found.places);
+  return false;
+}
+
+/// From the files of matrices, which may hold nodes too: axes, and without `nodes` of the scene the places.
+void join_models(const GivenMatrices &given, const std::map<long, TableNode> &nodes, bool has_table, bool tells_axes,
+                 FrameNodes &found)
+{
+  const auto unknown = has_table ? coupling::UnknownPlaces::left_out : coupling::UnknownPlaces::refused;
+  for (const std::string &file : given.models)
+  {
+    const coupling::ModelNodes model = model_nodes(file, nodes, given.length, unknown);
+    require_same_nodes(found, model, file);
+    if (tells_axes)
+      require_same_axes(found, model, file);
+    found.axes.insert(model.axes.begin(), model.axes.end());
+    if (!has_table)
+      found.places.insert(model.places.begin(), model.places.end());
+    tells_axes = tells_axes || !has_table;
+  }
+}
+
 /// Of matrices whose rows are known.
 FrameNodes read_known_nodes(const SceneTable &frame, const GivenMatrices &given)
 {
   std::map<long, TableNode> nodes = nodes_of_rows(given.rows);
   FrameNodes                found;
   const bool                has_key = frame.has("nodes");
-  const std::string         path = has_key ? frame.file("nodes") : given.model, key = has_key ? "nodes" : "stiffness";
-  if (!path.empty())
-    try
-    {
-      if (!has_key || coupling::has_node_places(path))
-      {
-        std::set<long> wanted;
-        for (const auto &[number, node] : nodes)
-          wanted.insert(number);
-        coupling::ModelNodes model = coupling::read_model_nodes(path, wanted);
-        found.places               = std::move(model.places);
-        found.axes                 = std::move(model.axes);
-        for (auto &[number, x] : found.places)
-          for (double &coordinate : x)
-            coordinate *= given.length;
-      }
-      else
-      {
-        const CsvFile table  = read_csv(path);
-        const Layout  layout = layout_of(table, given.length);
-        if (!layout.column[number_column])
-          throw std::invalid_argument(table.place(table.head_number) +
-                                      "has no column 'node' with the numbers by which the rows are known");
-        place_by_numbers(table, layout, nodes, found.places);
-      }
-    }
-    catch (const std::invalid_argument &e)
-    {
-      throw frame.error(key, e.what());
-    }
-  if (!path.empty())
+  const std::string         key     = has_key ? "nodes" : "stiffness";
+  try
+  {
+    const bool tells_axes = has_key && read_named_nodes(frame.file("nodes"), given.length, nodes, found);
+    join_models(given, nodes, has_key, tells_axes, found);
+  }
+  catch (const std::invalid_argument &e)
+  {
+    throw frame.error(key, e.what());
+  }
+  if (has_key || !given.models.empty())
     require_places(frame, key, nodes, found.places);
   for (auto &[number, node] : nodes)
   {

@@ -36,7 +36,8 @@ struct FrameNodes
  * x, y, z with a unit of length in brackets (that of `file_units` without, m by default); ux ... rz the row of q, from
  * 1, that is this motion, negative where it counts against the axis, empty where there is none; `node` its number,
  * where rows are known by them.  `name` and motions may be left out.  Where rows are known it may be the model of
- * another program as well (read_node_places()), which the stiffness' own file may be without the key.
+ * another program as well (read_model_nodes()).  Axes of nodes, and without the key their places, are read from the
+ * files of the matrices, where these have nodes; a node that two files name must have one place in both.
  *
  * @param n  rows of the matrices.
  */
