@@ -1,6 +1,5 @@
 #include "apps/output/report/story_report.h"
 
-#include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -20,16 +19,15 @@ std::string milliseconds(double t)
   return short_text(1e3 * t, 4) + " ms";
 }
 
-std::string load_html(const LoadDuration &load, const Result &result)
+std::string load_html(const LoadDuration &load)
 {
   const DisplayUnit unit = display_unit(load.unit, std::abs(load.peak));
   HtmlTable table({"#mode", "#f [Hz]", "#T [ms]", "#duration/T", "#rise/T", "#fall/T", "#left of a step", "#energy [J]",
                    "", "strain energy in"});
   for (const LoadOnMode &on : load.modes)
-    table.add({std::to_string(on.mode + 1), short_text(on.frequency_hz, 4), short_text(1e3 / on.frequency_hz, 4),
+    table.add({mode_number(on), short_text(on.frequency_hz, 4), short_text(1e3 / on.frequency_hz, 4),
                short_text(on.duration, 3), short_text(on.rise, 3), peak(short_text(on.fall, 3), on.fall < 0.25),
-               short_text(on.fall_factor, 3), energy_text(on.energy, load), excitation_words(on),
-               result.energy_shares ? strain_text(*result.energy_shares, std::size_t(on.mode)) : ""});
+               short_text(on.fall_factor, 3), energy_text(on.energy, load), excitation_words(on), on.strain});
   return "<p><strong>" + escape_xml(load.signal) + "</strong> (" + escape_xml(load.element) + ") acts from " +
          short_text(load.begin, 6) + " s on, where it comes above 1 % of its peak, and begins to fall, below 90 %, " +
          milliseconds(load.t_fall - load.begin) +
@@ -39,8 +37,10 @@ std::string load_html(const LoadDuration &load, const Result &result)
          " s and falls within " + milliseconds(load.fall) + "." +
          (load.is_coarse() ? " " + coarse_rows_words(load) + "." : "") +
          " A fall within a quarter of a period acts on that mode like a step. The energy is what the fall leaves in "
-         "the mode, undamped and linear, where the modes are found.</p>\n" +
-         table.html();
+         "the mode, undamped and linear, of the machine as it stands where the fall begins (" +
+         escape_xml(modes_place_words(load)) +
+         "); a mode is numbered where its shape there is that of a mode in the table of modes.</p>\n" +
+         (table.is_empty() ? "" : table.html());
 }
 
 std::string plays_html(const std::vector<PlayEstimate> &plays)
@@ -80,7 +80,7 @@ std::string story_section(const Result &result)
   if (!result.story->loads.empty())
     html += "<h3>Loads against the periods</h3>";
   for (const LoadDuration &load : result.story->loads)
-    html += load_html(load, result);
+    html += load_html(load);
   return section("story", "The run told by its events", html + plays_html(result.story->plays));
 }
 

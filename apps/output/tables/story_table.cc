@@ -26,9 +26,12 @@ Json load_json(const LoadDuration &load)
                {"fall", load.fall},
                {"row_step", load.row_step},
                {"is_coarse", load.is_coarse()},
+               {"t_modes", load.unknown.empty() ? Json(load.t_modes) : Json()},
+               {"place", load.place},
+               {"no_modes_because", load.unknown},
                {"modes", Json::array()}};
   for (const LoadOnMode &on : load.modes)
-    json["modes"].push_back({{"mode", on.mode + 1},
+    json["modes"].push_back({{"mode", on.mode < 0 ? Json() : Json(on.mode + 1)},
                              {"frequency_hz", on.frequency_hz},
                              {"duration_over_period", on.duration},
                              {"rise_over_period", on.rise},
@@ -54,10 +57,11 @@ void add_load(const LoadDuration &load, std::ostream &text)
   text << load.signal << " acts from " << short_text(load.begin, 6) << " to " << short_text(load.end, 6)
        << " s (above 1 % of its peak), " << short_text(1e3 * (load.t_fall - load.begin), 4)
        << " ms until it begins to fall (below 90 %), and falls within " << short_text(1e3 * load.fall, 4) << " ms\n"
-       << (load.is_coarse() ? "  " + coarse_rows_words(load) + "\n" : "")
-       << "  mode   f [Hz]   duration/T   rise/T   fall/T   left of a step   energy [J]\n";
+       << (load.is_coarse() ? "  " + coarse_rows_words(load) + "\n" : "") << "  " << modes_place_words(load) << '\n';
+  if (!load.modes.empty())
+    text << "  mode   f [Hz]   duration/T   rise/T   fall/T   left of a step   energy [J]\n";
   for (const LoadOnMode &on : load.modes)
-    text << std::setw(6) << on.mode + 1 << std::setw(9) << short_text(on.frequency_hz, 4) << std::setw(13)
+    text << std::setw(6) << mode_number(on) << std::setw(9) << short_text(on.frequency_hz, 4) << std::setw(13)
          << short_text(on.duration, 3) << std::setw(9) << short_text(on.rise, 3) << std::setw(9)
          << short_text(on.fall, 3) << std::setw(17) << short_text(on.fall_factor, 3) << std::setw(13)
          << energy_text(on.energy, load) << "   " << excitation_words(on) << '\n';
@@ -67,10 +71,26 @@ void add_load(const LoadDuration &load, std::ostream &text)
 
 std::string energy_text(double energy, const LoadDuration &load)
 {
+  if (!std::isfinite(energy))
+    return "-";
   double largest = 0.;
   for (const LoadOnMode &on : load.modes)
     largest = std::max(largest, on.energy);
   return energy < 1e-6 * largest ? "0" : short_text(energy, 3);
+}
+
+std::string mode_number(const LoadOnMode &on)
+{
+  return on.mode < 0 ? "-" : std::to_string(on.mode + 1);
+}
+
+std::string modes_place_words(const LoadDuration &load)
+{
+  if (!load.unknown.empty())
+    return "which modes it excites is not known: " + load.unknown;
+  const std::string where =
+      "modes at " + short_text(load.t_modes, 6) + " s" + (load.place.empty() ? "" : ", " + load.place);
+  return load.modes.empty() ? where + ": none with a period that the load could excite" : where;
 }
 
 Json story_json(const RunStory &story)

@@ -17,7 +17,13 @@ std::string excitation_words(const LoadOnMode &on);
 /// That times of a load are read from rows too far apart, and the way out.
 std::string coarse_rows_words(const LoadDuration &load);
 
-/// An energy [J] left in a mode as it is told: rounding beside the largest of that load is 0.
+/// "modes at 0.2391 s, crank 160.2 deg", where it falls; or why there are none.
+std::string modes_place_words(const LoadDuration &load);
+
+/// The number of a mode among those of the scene; "-": its shape is that of none.
+std::string mode_number(const LoadOnMode &on);
+
+/// An energy [J] left in a mode as it is told: rounding beside the largest of that load is 0; "-": not known.
 std::string energy_text(double energy, const LoadDuration &load);
 
 /// For a terminal: the loads against the periods, and the plays.

@@ -10,11 +10,12 @@ namespace gestell::apps
 /// A force that acts for a time, beside the period T of a mode.
 struct LoadOnMode
 {
-  int    mode         = 0;                    ///< from 0 on, of the coupled machine
-  double frequency_hz = 0.;                   ///< undamped, 1/T
-  double duration = 0., rise = 0., fall = 0.; ///< each over T
-  double fall_factor = 0.;                    ///< amplitude the fall leaves, over that of a sudden one
-  double energy      = std::numeric_limits<double>::quiet_NaN(); ///< [J] that the fall leaves in the mode
+  int         mode         = -1; ///< from 0 on, as the modes of the scene are numbered; -1: none of them
+  double      frequency_hz = 0.; ///< undamped, 1/T
+  double      duration = 0., rise = 0., fall = 0.; ///< each over T
+  double      fall_factor = 0.;                    ///< amplitude the fall leaves, over that of a sudden one
+  double      energy      = std::numeric_limits<double>::quiet_NaN(); ///< [J] that the fall leaves in the mode
+  std::string strain{};                                               ///< where its strain energy lies
 };
 
 /// A technological force from its first contact to its fall.
@@ -25,7 +26,9 @@ struct LoadDuration
   double      peak = 0., t_peak = 0.;            ///< with its sign
   double      rise = 0., t_fall = 0., fall = 0.; ///< [s] to 0.9 of the peak; from there down, see load_duration()
   double      row_step = 0.;                     ///< [s] largest distance of the rows these are read from
-  std::vector<LoadOnMode> modes;
+  std::vector<LoadOnMode> modes;                 ///< of the machine as it stands where the force begins to fall
+  double                  t_modes = 0.;          ///< [s] when it stands there
+  std::string             place, unknown;        ///< "crank 160.2 deg"; why there are no modes, empty: there are
 
   /// Whether rows are too far apart: fewer than ten over the time it acts, or fewer than four over its fall.
   bool is_coarse() const { return 10. * row_step > t_fall - begin || 4. * row_step > fall; }

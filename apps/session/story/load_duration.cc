@@ -69,23 +69,48 @@ double moved(const coupling::ElementPlacement &placement, const coupling::Mode &
   return u;
 }
 
-LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &placement, const Result &result,
+LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &placement, const ModesThere &there,
                    std::size_t j)
 {
-  const coupling::Mode &mode = result.coupled_modes[j];
+  const coupling::Mode &mode = there.modes[j];
   const double          f    = mode.frequency_hz;
-  LoadOnMode            on{int(j), f, (load.t_fall - load.begin) * f, load.rise * f, load.fall * f, 0.};
+  LoadOnMode            on{there.numbers[j], f, (load.t_fall - load.begin) * f, load.rise * f, load.fall * f, 0.};
   on.fall_factor = fall_factor(on.fall);
   on.energy      = 0.5 * std::pow(on.fall_factor * moved(placement, mode) * load.peak / (2. * M_PI * f), 2);
+  on.strain      = there.strain(j);
   return on;
 }
 
-void add_modes(const coupling::ElementPlacement &placement, const Result &result, LoadDuration &load)
+void add_modes(const coupling::ElementPlacement &placement, const ModesThere &there, int most, LoadDuration &load)
 {
-  for (std::size_t j = 0; j < result.coupled_modes.size() && load.modes.size() < most_modes; ++j)
-    if (const double f = result.coupled_modes[j].frequency_hz;
+  load.t_modes = there.t;
+  load.place   = there.place;
+  load.unknown = there.unknown;
+  for (std::size_t j = 0; j < std::min(there.modes.size(), std::size_t(most)) && load.modes.size() < most_modes; ++j)
+    if (const double f = there.modes[j].frequency_hz;
         f * slow * (load.t_fall - load.begin) > 1. && f * load.fall < fast)
-      load.modes.push_back(on_mode(load, placement, result, j));
+      load.modes.push_back(on_mode(load, placement, there, j));
+}
+
+/// The state kept nearest to the begin of the fall, in it or a tenth of the load's duration away; none: q is empty.
+coupling::KeptState state_at_fall(const LoadDuration &load, const coupling::RunResult &run)
+{
+  const double        reach = std::max(load.fall, 0.1 * (load.t_fall - load.begin));
+  coupling::KeptState nearest;
+  double              away = reach;
+  const auto          take = [&](double t, const Eigen::VectorXd &q)
+  {
+    if (q.size() == 0 || std::abs(t - load.t_fall) > away)
+      return;
+    away    = std::abs(t - load.t_fall);
+    nearest = {t, q};
+  };
+  for (const auto &states : run.states.around)
+    for (const coupling::KeptState &state : states)
+      take(state.t, state.q);
+  for (std::size_t i = 0; i < run.picture_states.size(); ++i)
+    take(run.picture_times[i], run.picture_states[i]);
+  return nearest;
 }
 
 /// Samples of a signal: rows, and between them the values on both sides of located events, where a tool breaks through.
@@ -185,7 +210,7 @@ std::optional<LoadDuration> load_duration(const std::vector<double> &t, const st
 }
 
 std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine,
-                                         const Result &result)
+                                         const Result &result, ModesOfRun &modes)
 {
   std::vector<LoadDuration> loads;
   for (std::size_t s = 0; s < signals.size(); ++s)
@@ -202,7 +227,10 @@ std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &si
       load->signal  = signal.name;
       load->element = placement.name;
       load->unit    = signal.unit;
-      add_modes(placement, result, *load);
+      if (const coupling::KeptState state = state_at_fall(*load, *result.run); state.q.size() == machine.size())
+        add_modes(placement, modes.at(state), modes.most(), *load);
+      else
+        load->unknown = "the run kept no state near its fall";
       loads.push_back(*load);
     }
   }

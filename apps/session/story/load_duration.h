@@ -2,6 +2,7 @@
 
 #include "apps/output/values/run_story.h"
 #include "apps/session/prepared_machine.h"
+#include "apps/session/story/modes_there.h"
 
 #include <optional>
 #include <vector>
@@ -34,8 +35,9 @@ bool is_tool(const mechanism::Element &element);
  */
 double fall_factor(double fall_over_period);
 
-/// Of every signal that is the force of an element without stiffness (a tool), with the modes it acts on.
+/// Of every signal that is the force of an element without stiffness (a tool), with the modes it acts on: those of the
+/// machine as it stands where the force begins to fall, of a state kept there.
 std::vector<LoadDuration> load_durations(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine,
-                                         const Result &result);
+                                         const Result &result, ModesOfRun &modes);
 
 } // namespace gestell::apps

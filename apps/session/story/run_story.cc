@@ -28,6 +28,8 @@ constexpr double      nothing     = 1e-6; ///< of the largest rate at events, or
 constexpr double      jumps       = 1e-3; ///< of the largest force
 constexpr double      near_mode   = 0.25; ///< relative difference of frequencies up to which a swing is a mode's own
 constexpr double      carries     = 0.5;  ///< share of a swing that a mode makes to carry it
+constexpr double      overdone    = 1.2;  ///< share from which on other modes work against it
+constexpr double      missed      = 0.2;  ///< of a swing, by the sum over all modes
 constexpr double      no_momentum = 1e-3; ///< of the largest force times the time it acts
 
 /// In the unit in which a signal reads well at its largest.
@@ -48,22 +50,12 @@ std::string spoken(std::string kind)
   return kind;
 }
 
-/// The part with most of a mode's strain energy: "rod by 75 %".
-std::string strains_most(const Result &result, std::size_t mode)
-{
-  if (!result.energy_shares || result.energy_shares->strain.rows() == 0)
-    return "";
-  Eigen::Index most  = 0;
-  const double share = result.energy_shares->strain.col(Eigen::Index(mode)).maxCoeff(&most);
-  return share > 0. ? result.energy_shares->springs[std::size_t(most)] + " by " + short_text(100. * share, 3) + " %"
-                    : "";
-}
-
 class Story
 {
 public:
-  Story(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine, const Result &result)
-      : signals_(signals), machine_(machine), result_(result), rows_(*result.run)
+  Story(const std::vector<coupling::Signal> &signals, const coupling::Machine &machine, const Result &result,
+        ModesOfRun &modes)
+      : signals_(signals), machine_(machine), result_(result), modes_(modes), rows_(*result.run)
   {
   }
 
@@ -91,12 +83,18 @@ private:
   void        add_extreme(std::size_t s, bool largest);
   std::string carried_by(std::size_t s, double t, bool largest) const;
   std::string makers_of(std::size_t s, const Swing &swing, bool largest) const;
-  std::size_t row_before(double t) const;
-  bool        belongs_to(std::size_t s, const std::string &object) const;
+  std::string mode_of(std::size_t s, const Swing &swing, const std::vector<const coupling::KeptState *> &path,
+                      const ModesThere &there) const;
+  std::string followed(std::size_t s, const Swing &swing) const;
+  bool        is_tools(std::size_t s) const;
+  const std::vector<coupling::KeptState> *states_about(std::size_t s, bool largest) const;
+  std::size_t                             row_before(double t) const;
+  bool                                    belongs_to(std::size_t s, const std::string &object) const;
 
   const std::vector<coupling::Signal> &signals_;
   const coupling::Machine             &machine_;
   const Result                        &result_;
+  ModesOfRun                          &modes_;
   HistoryRows                          rows_;
   std::vector<StorySentence>           sentences_;
 };
@@ -253,15 +251,22 @@ void Story::add_events()
       continue;
     std::string text = event_text(e);
     if (const int more = all[key] - told[key]; told[key] == told_twice && more > 0)
-      text += "; so " + std::to_string(more) + (more == 1 ? " more time" : " more times");
+      text += "; likewise " + std::to_string(more) + (more == 1 ? " more time" : " more times");
     sentences_.push_back({events[e].t, text, false});
   }
+}
+
+/// Whether it is the force of a tool.
+bool Story::is_tools(std::size_t s) const
+{
+  const int element = signals_[s].element;
+  return element >= 0 && is_tool(*machine_.model().elements()[std::size_t(element)].element);
 }
 
 /// The vibration about an extreme, and what makes it.
 std::string Story::carried_by(std::size_t s, double t, bool largest) const
 {
-  if (signals_[s].element >= 0 && is_tool(*machine_.model().elements()[std::size_t(signals_[s].element)].element))
+  if (is_tools(s))
     return ", a force of its law, no vibration";
   std::vector<double> time, y;
   for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -278,37 +283,66 @@ std::string Story::carried_by(std::size_t s, double t, bool largest) const
          makers_of(s, swing, largest);
 }
 
-/// Which modes make half a swing, and whether it is free vibration of one.
-std::string Story::makers_of(std::size_t s, const Swing &swing, bool largest) const
+/// The force of a tool that makes most of a swing and of its extreme; empty: none.
+std::string Story::followed(std::size_t s, const Swing &swing) const
+{
+  const std::size_t turn = row_before(swing.turn), beside = row_before(swing.beside);
+  const auto        alike = [](double tool, double F) { return tool / F >= 0.5 && tool / F <= 2.; };
+  for (std::size_t k = 0; k < signals_.size(); ++k)
+  {
+    if (k == s || signals_[k].unit != signals_[s].unit || !is_tools(k))
+      continue;
+    const double F = rows_.at(turn, s + 1), F_0 = rows_.at(beside, s + 1), tool = rows_.at(turn, k + 1),
+                 tool_0 = rows_.at(beside, k + 1), sign = tool * F < 0. ? -1. : 1.;
+    if (alike(sign * tool, F) && alike(sign * (tool - tool_0), F - F_0))
+      return signals_[k].name;
+  }
+  return "";
+}
+
+/// The states kept around an extreme; null: none.
+const std::vector<coupling::KeptState> *Story::states_about(std::size_t s, bool largest) const
 {
   const auto &around = result_.run->states.around;
   const auto  wanted = swing_extremes(signals_, 1); // all of them; those kept are the first ones
-  const auto  own =
-      std::find_if(wanted.begin(), wanted.end(),
-                   [&](const coupling::SignalExtreme &one) { return one.signal == int(s) && one.largest == largest; });
-  if (result_.coupled_modes.empty() || own == wanted.end() || std::size_t(own - wanted.begin()) >= around.size())
+  for (std::size_t i = 0; i < std::min(wanted.size(), around.size()); ++i)
+    if (wanted[i].signal == int(s) && wanted[i].largest == largest)
+      return &around[i];
+  return nullptr;
+}
+
+/// What makes half a swing, and whether it is free vibration of a mode.
+std::string Story::makers_of(std::size_t s, const Swing &swing, bool largest) const
+{
+  if (const std::string tool = followed(s, swing); !tool.empty())
+    return ", follows " + tool;
+  const auto *states = states_about(s, largest);
+  if (!states || result_.coupled_modes.empty())
     return "";
-  const auto &states = around[std::size_t(own - wanted.begin())];
-  const auto *from   = state_near(states, swing.beside, of_swing * swing.half),
-             *to     = state_near(states, swing.turn, of_swing * swing.half);
-  if (!from || !to || from->q.size() != machine_.size())
+  const auto path = states_of_swing(*states, swing.beside, swing.turn, of_swing * swing.half);
+  if (path.empty() || path.back()->q.size() != machine_.size())
     return ", longer than states were kept for";
-  bool                  of_force = false;
-  const Eigen::VectorXd shares   = swing_shares(signals_[s], machine_, result_, *from, *to, of_force);
-  Eigen::Index          most     = 0;
-  const double          share    = shares.maxCoeff(&most);
-  if (!(share > 0.))
-    return ", which no mode makes";
-  const coupling::Mode &mode   = result_.coupled_modes[std::size_t(most)];
-  const std::string     strain = strains_most(result_, std::size_t(most));
-  const std::string     name   = "mode " + std::to_string(most + 1) + " at " + short_text(mode.frequency_hz, 4) + " Hz";
-  const std::string     makes  = percent(share) + " of " + (of_force ? "it" : "its energy");
-  if (share < carries)
-    return ", which no mode makes alone: " + name + " " + makes;
-  const bool vibrates = std::abs(std::log(mode.frequency_hz * 2. * swing.half)) < near_mode;
-  return (vibrates ? ", carried by " + name + ", which makes " + makes
-                   : ", not its own vibration: " + name + ", half a period of " +
-                         milliseconds(0.5 / mode.frequency_hz) + ", makes " + makes) +
+  const ModesThere &there = modes_.at(*path.back());
+  return there.modes.empty() ? "" : mode_of(s, swing, path, there);
+}
+
+std::string Story::mode_of(std::size_t s, const Swing &swing, const std::vector<const coupling::KeptState *> &path,
+                           const ModesThere &there) const
+{
+  const double          change = rows_.at(row_before(swing.turn), s + 1) - rows_.at(row_before(swing.beside), s + 1);
+  const Eigen::VectorXd shares = swing_changes(signals_[s], machine_, there.modes, path) / change;
+  if (shares.cwiseAbs().sum() < 1e-3)
+    return ", which positions do not tell";
+  if (!(std::abs(shares.sum() - 1.) <= missed))
+    return "";
+  Eigen::Index      most  = 0;
+  const double      share = shares.maxCoeff(&most), f = there.modes[std::size_t(most)].frequency_hz;
+  const std::string strain = there.strain(std::size_t(most));
+  if (share < carries || share > overdone)
+    return ", which no mode makes alone";
+  if (!(std::abs(std::log(f * 2. * swing.half)) < near_mode))
+    return ", no free vibration of a mode";
+  return ", carried by " + there.name(std::size_t(most)) + ", which makes " + percent(share) + " of its change" +
          (strain.empty() ? "" : " and strains the " + strain);
 }
 
@@ -338,9 +372,9 @@ void Story::add_extremes()
 } // namespace
 
 std::vector<StorySentence> story_sentences(const std::vector<coupling::Signal> &signals,
-                                           const coupling::Machine &machine, const Result &result)
+                                           const coupling::Machine &machine, const Result &result, ModesOfRun &modes)
 {
-  return Story(signals, machine, result).told();
+  return Story(signals, machine, result, modes).told();
 }
 
 void add_story(Session &session, Result &result)
@@ -358,10 +392,11 @@ void add_story(Session &session, Result &result)
         state.q = session.machine().project(state.q);
         state.v = session.machine().project(state.v);
       }
-  RunStory story;
+  RunStory   story;
+  ModesOfRun modes(scene, machine, result);
   machine.events().follow_history(false); // forces by the motion, whatever branch the run ended in
-  story.loads     = load_durations(signals, machine, result);
-  story.sentences = story_sentences(signals, machine, result);
+  story.loads     = load_durations(signals, machine, result, modes);
+  story.sentences = story_sentences(signals, machine, result, modes);
   story.plays     = play_estimates(signals, machine, modes_configuration(scene, machine), result);
   result.story    = std::move(story);
   result.run->states.around.clear();

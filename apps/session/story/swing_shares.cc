@@ -2,7 +2,6 @@
 
 #include "apps/session/stages/main_peak.h"
 #include "coupling/machine/configuration/dense_matrices.h"
-#include "fem/values/two_pi.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,39 +13,37 @@ namespace
 {
 
 constexpr double most_memory = 64e6, kept_states = 600.; ///< bytes; states around an extreme
-constexpr double little  = 1e-7;                         ///< largest motion of a quotient [m or rad]
-constexpr double at_rest = 1e-6;                         ///< [Hz]
+constexpr long   most_parts = 32;                        ///< of a swing
 
-/// F at q, by the motion alone.
-class ForceAt
+/// F at q with the velocities half way between two states, by the motion alone.
+class ForceBetween
 {
 public:
-  ForceAt(const coupling::Signal &signal, const coupling::Machine &machine, const coupling::KeptState &state)
-      : signal_(signal), machine_(machine), state_(state), zero_(Eigen::VectorXd::Zero(state.q.size()))
+  ForceBetween(const coupling::Signal &signal, const coupling::Machine &machine)
+      : signal_(signal), machine_(machine), zero_(Eigen::VectorXd::Zero(machine.size()))
   {
     local_.resize(machine);
   }
 
+  void between(const coupling::KeptState &a, const coupling::KeptState &b)
+  {
+    t_ = 0.5 * (a.t + b.t);
+    v_ = 0.5 * (a.v + b.v);
+  }
+
   double operator()(const Eigen::VectorXd &q)
   {
-    machine_.gather(state_.t, q, state_.v, zero_, local_);
-    return machine_.evaluate(signal_, q, state_.v, local_);
+    machine_.gather(t_, q, v_, zero_, local_);
+    return machine_.evaluate(signal_, q, v_, local_);
   }
 
 private:
-  const coupling::Signal    &signal_;
-  const coupling::Machine   &machine_;
-  const coupling::KeptState &state_;
-  Eigen::VectorXd            zero_;
-  coupling::LocalState       local_;
+  const coupling::Signal  &signal_;
+  const coupling::Machine &machine_;
+  double                   t_ = 0.;
+  Eigen::VectorXd          v_, zero_;
+  coupling::LocalState     local_;
 };
-
-/// dF/dq . v, towards less of the motion, on the branch that holds there.
-double derivative(ForceAt &force, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double sign)
-{
-  const double step = sign * little / v.cwiseAbs().maxCoeff();
-  return (force(q) - force(q - step * v)) / step;
-}
 
 } // namespace
 
@@ -78,25 +75,41 @@ const coupling::KeptState *state_near(const std::vector<coupling::KeptState> &st
   return nearest;
 }
 
-Eigen::VectorXd swing_shares(const coupling::Signal &signal, const coupling::Machine &machine, const Result &result,
-                             const coupling::KeptState &q_0, const coupling::KeptState &q_1, bool &of_force)
+std::vector<const coupling::KeptState *> states_of_swing(const std::vector<coupling::KeptState> &states, double from,
+                                                         double to, double reach)
 {
-  const auto           &modes = result.coupled_modes;
-  const Eigen::VectorXd moved = coupling::dense_mass(machine) * (q_1.q - q_0.q);
-  Eigen::VectorXd       c = Eigen::VectorXd::Zero(Eigen::Index(modes.size())), energy = c;
-  ForceAt               force(signal, machine, q_1);
-  for (std::size_t j = 0; j < modes.size(); ++j)
+  const auto *first = state_near(states, std::min(from, to), reach),
+             *last  = state_near(states, std::max(from, to), reach);
+  if (!first || !last || last <= first)
+    return {};
+  const auto                               n = last - first, stride = (n + most_parts - 1) / most_parts;
+  std::vector<const coupling::KeptState *> path;
+  for (const auto *state = first; state < last; state += stride)
+    path.push_back(state);
+  path.push_back(last);
+  if (from > to)
+    std::reverse(path.begin(), path.end());
+  return path;
+}
+
+Eigen::VectorXd swing_changes(const coupling::Signal &signal, const coupling::Machine &machine,
+                              const std::vector<coupling::Mode>              &modes,
+                              const std::vector<const coupling::KeptState *> &path)
+{
+  const Eigen::MatrixXd M = coupling::dense_mass(machine);
+  Eigen::VectorXd       c = Eigen::VectorXd::Zero(Eigen::Index(modes.size()));
+  ForceBetween          force(signal, machine);
+  for (std::size_t k = 0; k + 1 < path.size(); ++k)
   {
-    if (modes[j].frequency_hz < at_rest)
-      continue;
-    const double eta        = modes[j].shape.dot(moved);
-    c[Eigen::Index(j)]      = std::abs(eta * derivative(force, q_1.q, modes[j].shape, eta < 0. ? -1. : 1.));
-    energy[Eigen::Index(j)] = std::pow(two_pi * modes[j].frequency_hz * eta, 2);
+    const Eigen::VectorXd moved = M * (path[k + 1]->q - path[k]->q), middle = 0.5 * (path[k]->q + path[k + 1]->q);
+    force.between(*path[k], *path[k + 1]);
+    for (std::size_t j = 0; j < modes.size(); ++j)
+    {
+      const Eigen::VectorXd half = 0.5 * modes[j].shape.dot(moved) * modes[j].shape;
+      c[Eigen::Index(j)] += force(middle + half) - force(middle - half);
+    }
   }
-  of_force = c.sum() > 0.;
-  if (!of_force)
-    c = energy;
-  return c.sum() > 0. ? Eigen::VectorXd(c / c.sum()) : c;
+  return c;
 }
 
 } // namespace gestell::apps

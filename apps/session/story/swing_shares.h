@@ -2,6 +2,7 @@
 
 #include "apps/output/values/result.h"
 #include "coupling/machine/machine.h"
+#include "coupling/modes/modes.h"
 
 #include <Eigen/Core>
 
@@ -17,18 +18,20 @@ std::vector<coupling::SignalExtreme> swing_extremes(const std::vector<coupling::
 /// The state of that instant, or the nearest one within `reach` [s]; null: none.
 const coupling::KeptState *state_near(const std::vector<coupling::KeptState> &states, double t, double reach);
 
+/// The states from one turning point to the other, in that order and some thirty at most; empty: not all kept.
+std::vector<const coupling::KeptState *> states_of_swing(const std::vector<coupling::KeptState> &states, double from,
+                                                         double to, double reach);
+
 /**
- * What each mode of result.coupled_modes makes of half a swing of a force, between the turning points q_0 and q_1: by
- * eta = V^T M (q_1 - q_0) and the derivative of the force at q_1,
+ * What each mode makes of the change of a force along a path q_0, ..., q_n, by its motion from state to state,
  *
- *     c_j = eta_j dF/dq . v_j,     share_j = |c_j| / sum |c_k|,
+ *     c_j = sum_k F(q_m + eta v_j/2) - F(q_m - eta v_j/2),   eta = v_j^T M (q_{k+1} - q_k),   q_m = (q_k + q_{k+1})/2,
  *
- * of forces that positions do not tell, as those of ideal joints, by strain energy, c_j = (omega_j eta_j)^2.  Modes
- * without frequency make none.
- *
- * @param of_force  becomes whether they are those of the force
+ * with its sign [unit of F].  Where the modes span the motion their sum is F(q_n) - F(q_0) but for what velocities,
+ * time and multipliers of joints make of it.
  */
-Eigen::VectorXd swing_shares(const coupling::Signal &signal, const coupling::Machine &machine, const Result &result,
-                             const coupling::KeptState &q_0, const coupling::KeptState &q_1, bool &of_force);
+Eigen::VectorXd swing_changes(const coupling::Signal &signal, const coupling::Machine &machine,
+                              const std::vector<coupling::Mode>              &modes,
+                              const std::vector<const coupling::KeptState *> &path);
 
 } // namespace gestell::apps

@@ -282,6 +282,25 @@ TEST(CsvField, IsQuotedWhereItMustBeWithItsQuotesDoubled)
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
+// What is not known is no zero: neither an energy, nor a number of a mode, nor modes where no state was kept.
+TEST(StoryTable, SaysWhatIsNotKnown)
+{
+  RunStory story;
+  story.loads.resize(1);
+  LoadDuration &load = story.loads.front();
+  load.signal        = "F";
+  load.modes.push_back({-1, 10., 1., 0.1, 0.1, 1.});
+  const std::string energy = energy_text(load.modes.front().energy, load);
+  EXPECT_EQ(energy, "-");
+  EXPECT_TRUE(story_json(story)["loads"][0]["modes"][0]["energy"].is_null());
+  EXPECT_TRUE(story_json(story)["loads"][0]["modes"][0]["mode"].is_null());
+  load.modes.clear();
+  load.unknown = "the run kept no state near its fall";
+  EXPECT_NE(story_text(story).find("not known: the run kept no state"), std::string::npos);
+  EXPECT_EQ(story_text(story).find("energy [J]"), std::string::npos); // no head of a table without rows
+  EXPECT_TRUE(story_json(story)["loads"][0]["t_modes"].is_null());
+}
+
 TEST(StoryTable, RoundingBesideTheLargestEnergyIsZero)
 {
   LoadDuration load;
