@@ -57,6 +57,8 @@ std::string SceneTable::place(const std::string &key) const
 
 std::invalid_argument SceneTable::error(const std::string &what) const
 {
+  if (const auto unknown = unknown_key())
+    return *unknown;
   return std::invalid_argument(place() + ": " + what);
 }
 
@@ -91,6 +93,8 @@ const SceneNode &SceneTable::demand(const std::string &key, const std::string &w
   const SceneNode *value = look_up(key);
   if (value)
     return *value;
+  if (const auto undeclared = unknown_key())
+    throw *undeclared;
   std::vector<std::string> unknown;
   for (const auto &entry : node_->entries)
     if (!node_->asked.count(entry.first))

@@ -6,13 +6,20 @@ namespace gestell::apps
 namespace
 {
 
+std::invalid_argument unknown(const SceneNode::Entry &entry, const std::string &path,
+                              const std::vector<std::string> &known)
+{
+  const auto &[key, value] = entry;
+  return std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" + key +
+                               "'" + suggestion(key, known));
+}
+
 void refuse_unknown(const SceneNode &table, const std::string &path)
 {
   for (const auto &[key, value] : table.entries)
   {
     if (!value.used)
-      throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
-                                  key + "'" + suggestion(key, {table.asked.begin(), table.asked.end()}));
+      throw unknown({key, value}, path, {table.asked.begin(), table.asked.end()});
     // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
     const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
     if (value.type == SceneNode::Type::table && (!value.asked.empty() || value.entries.empty()))
@@ -24,6 +31,20 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
 }
 
 } // namespace
+
+std::optional<std::invalid_argument> SceneTable::unknown_key() const
+{
+  if (!keys_ || open_)
+    return {};
+  std::vector<std::string> absent; // one of them is meant
+  for (const Key &key : *keys_)
+    if (!node_->find(key.name))
+      absent.push_back(key.name);
+  for (const SceneNode::Entry &entry : node_->entries)
+    if (!entry.second.used && !find_key(*keys_, entry.first))
+      return unknown(entry, path_, absent);
+  return {};
+}
 
 void SceneTable::finish() const
 {
