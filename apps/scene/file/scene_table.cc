@@ -1,5 +1,6 @@
 #include "apps/scene/file/scene_table.h"
 
+#include "apps/scene/file/unknown_keys.h"
 #include "apps/scene/file/written_text.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -57,7 +58,7 @@ std::string SceneTable::place(const std::string &key) const
 
 std::invalid_argument SceneTable::error(const std::string &what) const
 {
-  if (const auto unknown = unknown_key())
+  if (const auto unknown = keys_ && !open_ ? unknown_key(*node_, *keys_, path_) : std::nullopt)
     return *unknown;
   return std::invalid_argument(place() + ": " + what);
 }
@@ -93,7 +94,7 @@ const SceneNode &SceneTable::demand(const std::string &key, const std::string &w
   const SceneNode *value = look_up(key);
   if (value)
     return *value;
-  if (const auto undeclared = unknown_key())
+  if (const auto undeclared = keys_ && !open_ ? unknown_key(*node_, *keys_, path_) : std::nullopt)
     throw *undeclared;
   std::vector<std::string> unknown;
   for (const auto &entry : node_->entries)

@@ -120,11 +120,9 @@ private:
   /// @throws std::logic_error for a key that a table with declared ones has not.
   const SceneNode *look_up(const std::string &key) const;
   const Key       &declaration(const std::string &key) const;
-  /// What no declaration knows, told before what is missing: it may be its misspelling.
-  std::optional<std::invalid_argument> unknown_key() const;
-  const SceneNode                     &demand(const std::string &key, const std::string &what) const;
-  std::string                          path_of(const std::string &key) const;
-  double                               evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const;
+  const SceneNode &demand(const std::string &key, const std::string &what) const;
+  std::string      path_of(const std::string &key) const;
+  double           evaluate(const std::string &key, const SceneNode &value, const Kind &kind) const;
   /// A value or a formula of `variables` of that kind.
   mechanism::Formula expression(const std::string &key, const SceneNode &value, const std::vector<Variable> &variables,
                                 const Kind &kind) const;

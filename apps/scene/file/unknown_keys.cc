@@ -1,3 +1,5 @@
+#include "apps/scene/file/unknown_keys.h"
+
 #include "apps/scene/file/scene_table.h"
 #include "fem/values/nearest_name.h"
 
@@ -32,17 +34,16 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
 
 } // namespace
 
-std::optional<std::invalid_argument> SceneTable::unknown_key() const
+std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
+                                                 const std::string &path)
 {
-  if (!keys_ || open_)
-    return {};
   std::vector<std::string> absent; // one of them is meant
-  for (const Key &key : *keys_)
-    if (!node_->find(key.name))
+  for (const Key &key : declared)
+    if (!table.find(key.name))
       absent.push_back(key.name);
-  for (const SceneNode::Entry &entry : node_->entries)
-    if (!entry.second.used && !find_key(*keys_, entry.first))
-      return unknown(entry, path_, absent);
+  for (const SceneNode::Entry &entry : table.entries)
+    if (!entry.second.used && !find_key(declared, entry.first))
+      return unknown(entry, path, absent);
   return {};
 }
 

@@ -182,7 +182,8 @@ void add_bearings(const std::vector<Bearing> &bearings, const VectorXd &q, const
         further(on_carrier, further);
       }
   };
-  for (const std::vector<ActingForce> between = all; const ActingForce &force : between)
+  const std::vector<ActingForce> between = all;
+  for (const ActingForce &force : between)
     pass_on(force, pass_on);
 }
 

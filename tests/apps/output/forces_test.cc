@@ -208,10 +208,12 @@ TEST_P(ForcesOnTheFrame, AreWhatItsMassesSpringsAndDampersAnswer)
 
 TEST(ForcesOnTheGround, StandThereWhereItIsThePartner)
 {
-  const Session     session(shipped("press_minimal.toml"), {"element.guide.to=ground", "element.sheet.to=ground"});
-  coupling::Machine machine = apps::build_machine(session.scene());
-  const auto        forces  = apps::forces_in_space(session.scene(), machine);
-  Eigen::VectorXd   q = Eigen::VectorXd::Zero(machine.size()), v = q, p(machine.model().n_measures());
+  const apps::Scene scene =
+      apps::read_scene(shipped("press_minimal.toml"), {"element.guide.to=ground", "element.sheet.to=ground"});
+  coupling::Machine machine = apps::build_machine(scene);
+  const auto        forces  = apps::forces_in_space(scene, machine);
+  Eigen::VectorXd   q = Eigen::VectorXd::Zero(machine.size()), v = q,
+                  p = Eigen::VectorXd::Ones(machine.forces().directions().cols());
   for (Eigen::Index i = 0; i < p.size(); ++i)
     p[i] = double(i + 1);
   std::map<std::string, Vector3d> rest;
@@ -232,13 +234,14 @@ TEST(ForcesOnTheGround, StandThereWhereItIsThePartner)
 // A place on a crank that a frame bears: its bearing passes the force on.
 TEST(ForcesOnARotor, ComeToTheFrameThroughItsBearing)
 {
-  const Session     session(shipped("press_minimal.toml"),
-                            {"element.tie={ type = \"spring-damper\", from = \"crank\", to = \"ground\", at_from = [0, 0, "
-                                 "\"2.7 m\"], at_to = [1, 0, 2], direction = [1, 0, 0], stiffness = \"1 N/mm\" }"});
-  coupling::Machine machine = apps::build_machine(session.scene());
-  const auto        forces  = apps::forces_in_space(session.scene(), machine);
-  Eigen::VectorXd   q = Eigen::VectorXd::Zero(machine.size()), v = q, p(machine.model().n_measures());
-  p.setOnes();
+  const apps::Scene scene =
+      apps::read_scene(shipped("press_minimal.toml"),
+                       {"element.tie={ type = \"spring-damper\", from = \"crank\", to = \"ground\", at_from = [0, 0, "
+                        "\"2.7 m\"], at_to = [1, 0, 2], direction = [1, 0, 0], stiffness = \"1 N/mm\" }"});
+  coupling::Machine machine = apps::build_machine(scene);
+  const auto        forces  = apps::forces_in_space(scene, machine);
+  Eigen::VectorXd   q = Eigen::VectorXd::Zero(machine.size()), v = q,
+                  p = Eigen::VectorXd::Ones(machine.forces().directions().cols());
   Vector3d on_crank = Vector3d::Zero(), on_crown = Vector3d::Zero(), on_ground = Vector3d::Zero();
   for (const apps::ActingForce &force : forces(0., q, v, p))
     if (force.name == "tie")
