@@ -1,5 +1,7 @@
 #include "apps/cli/cache_commands.h"
 
+#include "apps/cli/command_answers.h"
+#include "apps/cli/json_answer.h"
 #include "apps/session/prepared_machine.h"
 #include "coupling/frame/cache_folder.h"
 #include "coupling/frame/frame_cache.h"
@@ -147,6 +149,21 @@ void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe
     std::cout << "    the order of supports, interfaces or cuts\n";
 }
 
+CacheExplanation explained(const std::string &scene, const std::string &key, const coupling::Recipe &recipe,
+                           const std::vector<CacheEntry> &entries, const std::string &defect)
+{
+  CacheExplanation found{scene, key, {}, defect};
+  for (const CacheEntry &entry : entries)
+    if (entry.key == key)
+      found.own = entry;
+  if (found.own && defect.empty())
+    return found;
+  found.nearest = nearest_entry(entries, recipe);
+  if (found.nearest)
+    found.differences = differences(found.nearest->origin.recipe, recipe);
+  return found;
+}
+
 /// In what the recipes of these frames differ, by the names of ingredients in the order of the first.
 std::vector<std::string> distinguishing(const std::vector<const CacheEntry *> &entries)
 {
@@ -191,6 +208,8 @@ void list_cache(const ReduceCommandOptions &options)
   std::uintmax_t bytes   = 0;
   for (const CacheEntry &entry : entries)
     bytes += entry.bytes;
+  if (answers_in_json())
+    answer_with(cache_answer(entries));
   std::cout << coupling::cache_folder() << ": " << count_text(entries.size(), "file") << ", "
             << size_text(double(bytes)) << '\n';
   if (entries.empty())
@@ -227,6 +246,8 @@ void explain_cache(const Scene &scene)
   const auto        entries = coupling::cache_entries();
   const auto        own     = std::find_if(entries.begin(), entries.end(), [&](const auto &e) { return e.key == key; });
   const std::string defect  = own == entries.end() ? "" : coupling::content_defect(*own);
+  if (answers_in_json())
+    answer_with(explanation_answer(explained(scene.file, key, recipe, entries, defect)));
   std::cout << scene.file << ": frame " << short_key(key);
   if (own == entries.end())
     std::cout << " is not in the cache " << coupling::cache_folder() << "; it would be made\n";

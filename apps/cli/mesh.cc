@@ -1,4 +1,6 @@
 #include "apps/cli/command.h"
+#include "apps/cli/command_answers.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/output/faces/faces_page.h"
 #include "apps/output/paraview/face_surface.h"
@@ -194,6 +196,8 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
   const auto   report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
                                                        { progress.show(phase, share); });
   progress.done();
+  if (answers_in_json())
+    answer_with(mesh_answer(report));
 
   std::cout << std::setprecision(6) << options.input << ": " << report.solids.size() << " solid(s), volume "
             << report.volume << " m^3, " << report.mass << " kg " << weighed(frame.material.rho) << '\n';

@@ -1,6 +1,8 @@
 #include "apps/cli/cache_commands.h"
 #include "apps/cli/command.h"
+#include "apps/cli/command_answers.h"
 #include "apps/cli/export_frame.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/report/frame_text.h"
@@ -129,6 +131,8 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     ProgressLine progress(options.quiet);
     const auto   partition = scene_to_reduce(options, {progress.callback()}).partition();
     progress.done();
+    if (answers_in_json())
+      answer_with(partition_answer(partition));
     print_partition(partition);
     return exit_done;
   }
@@ -160,6 +164,8 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     for (const std::string &file : export_frame(
              folder, frame, format, "Reduced frame of " + scene.file + ", by gestell " + version + "; kg, m, N"))
       std::cout << "written: " << file << '\n';
+  if (answers_in_json())
+    answer_with(frame_answer(answer));
   print_frame(answer);
   for (const auto &[phase, seconds] : session.wall_seconds())
     std::cout << "  " << std::setprecision(3) << std::setw(8) << seconds << " s  " << phase << '\n';

@@ -1,6 +1,8 @@
 #include "apps/atlas/scene_stability.h"
 #include "apps/cli/atlas.h"
 #include "apps/cli/command.h"
+#include "apps/cli/command_answers.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/report/stability_report.h"
@@ -95,6 +97,8 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
       write_file(folder / "charts" / ("stability-" + chart.name + "-" + ratio_name(zeta) + ".svg"), chart.svg);
   write_file(folder / "stability.html", stability_page(study));
 
+  if (answers_in_json())
+    answer_with(stability_answer(study));
   std::cout << stability_text(study) << "maps: " << (folder / "stability.html").string() << '\n';
   return exit_done;
 }

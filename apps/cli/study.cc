@@ -1,5 +1,7 @@
 #include "apps/cli/command.h"
+#include "apps/cli/command_answers.h"
 #include "apps/cli/interruption.h"
+#include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/team.h"
 #include "apps/output/result_folder.h"
@@ -90,6 +92,8 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   progress.done();
   if (!speaks)
     return answer.interrupted ? exit_interrupted : exit_done;
+  if (answers_in_json())
+    answer_with(study_answer(answer, nullptr));
   print_rows(answer, study, call);
   if (answer.interrupted)
     return exit_interrupted;
@@ -103,6 +107,8 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   const StudyFindings findings = StudyAnalysis(study, analysis, runner, call).of(answer);
   if (findings.optimum && !interruption())
     runner.settle(levels_of(findings), call.stop);
+  if (answers_in_json())
+    answer_with(study_answer(answer, &findings));
   write_findings(call.folder, study, runner.variants(), findings);
   for (const std::string &warning : findings.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';

@@ -6,6 +6,8 @@
 #include "apps/scene/build/carried_bodies.h"
 #include "coupling/reduction/dense_frame.h"
 
+#include <regex>
+
 namespace gestell::apps
 {
 namespace
@@ -63,13 +65,14 @@ void fill(coupling::MachineModel &machine, const Scene &scene)
     placed(place(spring.name),
            [&]
            {
-             machine.add_linear(spring.name, measure_of(spring.u, machine),
+             machine.add_linear(spring.name, measures_of({spring.u}, machine).front(),
                                 {spring.stiffness, spring.damping, spring.preload, spring.rest}, spring.force_unit);
            });
   for (const auto &load : scene.loads)
     placed(place(load.name),
-           [&] {
-             machine.add_load(load.name, measure_of(load.u, machine), load.constant, load.oscillations,
+           [&]
+           {
+             machine.add_load(load.name, measures_of({load.u}, machine).front(), load.constant, load.oscillations,
                               load.force_unit);
            });
   for (const auto &point : scene.places)
@@ -92,9 +95,7 @@ void fill(coupling::MachineModel &machine, const Scene &scene)
                attach_between(machine, element);
                return;
              }
-             std::vector<coupling::Measure> measures;
-             for (const auto &motion : element.measures)
-               measures.push_back(measure_of(motion, machine));
+             auto measures = measures_of(element.measures, machine);
              for (const auto &lag : element.lags)
                measures.push_back({{machine.add_lag(lag.name, lag.time_constant), 1.}});
              machine.attach(element.name, element.element, measures, element.kind);
@@ -163,12 +164,28 @@ coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame)
   return machine_on(scene, std::move(frame));
 }
 
+namespace
+{
+
+/// Of an interface, whose frame has no such motion.
+void require_motion(const coupling::Signal &signal, const std::string &path)
+{
+  static const std::regex motion(R"(-?frame\..+\.[ur][xyz](_rate|_acceleration)?)");
+  if (signal.on_q.empty() && signal.on_v.empty() && signal.on_a.empty() && std::regex_match(path, motion))
+    throw std::invalid_argument("signal \"" + signal.name + "\": '" + path +
+                                "' is always zero, for the frame has no such motion at this interface; name another "
+                                "one, or leave the signal out");
+}
+
+} // namespace
+
 std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine)
 {
   std::vector<coupling::Signal> signals;
   for (const auto &request : scene.signals)
   {
     signals.push_back(placed(request.place, [&] { return machine.signal(request.name, request.path); }));
+    placed(request.place, [&] { require_motion(signals.back(), request.path); });
     signals.back().from = request.from;
   }
   return signals;

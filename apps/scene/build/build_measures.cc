@@ -1,8 +1,11 @@
 #include "apps/scene/build/build_measures.h"
 
+#include "fem/values/number_text.h"
 #include "mechanism/elements/follower_load.h"
 #include "mechanism/joints/measure_joint.h"
 #include "mechanism/transmitted_element.h"
+
+#include <algorithm>
 
 namespace gestell::apps
 {
@@ -49,6 +52,54 @@ mechanism::RelativeMeasure mesh_of(const MeshRequest &request, const mechanism::
   return mesh;
 }
 
+std::string triple(const Vector3 &a)
+{
+  return "[" + rounded(a[0]) + ", " + rounded(a[1]) + ", " + rounded(a[2]) + "]";
+}
+
+/// "; it has ux, uy, uz", and what turns in place of a single node.
+std::string motions_left(const coupling::Marker &marker, bool rotation)
+{
+  std::string has;
+  for (int i = 0; i < 6; ++i)
+    if (!(i < 3 ? marker.translation[i] : marker.rotation[i - 3]).empty())
+      has += std::string(has.empty() ? "" : ", ") + (i < 3 ? "u" : "r") + "xyz"[i % 3];
+  const bool is_interface = marker.name.rfind("frame.", 0) == 0;
+  return (is_interface ? "; of the frame it has " + (has.empty() ? "no motion" : has) : "") + "; name another motion" +
+         (is_interface && rotation ? ", or an interface that turns: one on a surface, not on a single node" : "");
+}
+
+std::invalid_argument no_motion(const MotionTerm &term, const coupling::MachineModel &machine)
+{
+  return std::invalid_argument("acts on a motion that the machine has not: \"" + term.marker + "\" does not " +
+                               (term.rotation ? "turn about " : "move along ") + triple(term.axis) +
+                               ", nor does its partner" +
+                               motions_left(machine.marker(term.marker), term.rotation));
+}
+
+/// Of places whose motion is small, so that what does not move now never will.
+bool is_linear(const mechanism::Placement &place)
+{
+  return place.n_measures() == 0 || (!place.turns() && place.is_linear(place.n_measures() - 1));
+}
+
+void require_motion(const MeasureRequest &request, const Built<PlacedMeasure> &built)
+{
+  bool moves = std::any_of(built.measures.begin(), built.measures.end(), [](const auto &u) { return !u.empty(); });
+  if (request.form == mechanism::RelativeMeasure::Form::along && is_linear(built.measure.first) &&
+      is_linear(built.measure.second))
+  {
+    const double zero[CombinedMeasure::max_measures] = {};
+    double       gradient[CombinedMeasure::max_measures];
+    CombinedMeasure(built.measure).evaluate(zero, zero, gradient);
+    moves = std::any_of(gradient, gradient + built.measures.size(), [](double slope) { return slope != 0.; });
+  }
+  if (!moves)
+    throw std::invalid_argument("neither \"" + request.first.marker + "\" nor \"" + request.second.marker +
+                                "\" moves along what is asked for, so that it is always zero; name other places or "
+                                "another direction");
+}
+
 Built<PlacedMeasure> build_placed(coupling::MachineModel &machine, const MeasureRequest &request)
 {
   const auto                 first = placed(machine, request.first), second = placed(machine, request.second);
@@ -62,7 +113,9 @@ Built<PlacedMeasure> build_placed(coupling::MachineModel &machine, const Measure
   auto measures = first.measures;
   measures.insert(measures.end(), second.measures.begin(), second.measures.end());
   draw_places(machine, request.first, request.second);
-  return {{first.placement, second.placement, measure}, measures};
+  const Built<PlacedMeasure> built{{first.placement, second.placement, measure}, measures};
+  require_motion(request, built);
+  return built;
 }
 
 Built<PlacedMeasure> build_term(coupling::MachineModel &machine, const TermRequest &term)
@@ -71,12 +124,7 @@ Built<PlacedMeasure> build_term(coupling::MachineModel &machine, const TermReque
     return build_placed(machine, *term.placed);
   const auto u = measure_of(term.motion, machine);
   if (u.empty())
-  {
-    const MotionTerm &motion = term.motion.front();
-    throw std::invalid_argument("\"" + motion.marker + "\" does not " +
-                                (motion.rotation ? "turn about" : "move along") +
-                                " the axis that is asked for, nor does its partner; name another motion");
-  }
+    throw no_motion(term.motion.front(), machine);
   return {PlacedMeasure::linear(), {u}};
 }
 
@@ -123,6 +171,18 @@ coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machin
     u                  = u + term.weight * (term.rotation ? marker.about(term.axis) : marker.along(term.axis));
   }
   return u;
+}
+
+std::vector<coupling::Measure> measures_of(const std::vector<MotionMeasure> &motions,
+                                           const coupling::MachineModel     &machine)
+{
+  std::vector<coupling::Measure> measures;
+  for (const MotionMeasure &motion : motions)
+    measures.push_back(measure_of(motion, machine));
+  const bool idle = std::all_of(measures.begin(), measures.end(), [](const auto &u) { return u.empty(); });
+  if (idle && !motions.empty() && !motions.front().empty())
+    throw no_motion(motions.front().front(), machine);
+  return measures;
 }
 
 Vector3 point_of(const coupling::MachineModel &machine, const PlaceRequest &place)

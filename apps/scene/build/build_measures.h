@@ -8,6 +8,10 @@ namespace gestell::apps
 
 coupling::Measure measure_of(const MotionMeasure &motion, const coupling::MachineModel &machine);
 
+/// Of an element.  @throws std::invalid_argument if all of them are always zero, as a rotation of a single node is
+std::vector<coupling::Measure> measures_of(const std::vector<MotionMeasure> &motions,
+                                           const coupling::MachineModel     &machine);
+
 inline mechanism::Vector3d vector(const Vector3 &a)
 {
   return {a[0], a[1], a[2]};

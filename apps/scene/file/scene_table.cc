@@ -1,5 +1,6 @@
 #include "apps/scene/file/scene_table.h"
 
+#include "apps/scene/file/unknown_keys.h"
 #include "apps/scene/file/written_text.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -57,6 +58,8 @@ std::string SceneTable::place(const std::string &key) const
 
 std::invalid_argument SceneTable::error(const std::string &what) const
 {
+  if (const auto unknown = keys_ && !open_ ? unknown_key(*node_, *keys_, path_) : std::nullopt)
+    return *unknown;
   return std::invalid_argument(place() + ": " + what);
 }
 
@@ -91,6 +94,8 @@ const SceneNode &SceneTable::demand(const std::string &key, const std::string &w
   const SceneNode *value = look_up(key);
   if (value)
     return *value;
+  if (const auto undeclared = keys_ && !open_ ? unknown_key(*node_, *keys_, path_) : std::nullopt)
+    throw *undeclared;
   std::vector<std::string> unknown;
   for (const auto &entry : node_->entries)
     if (!node_->asked.count(entry.first))

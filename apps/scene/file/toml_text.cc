@@ -1,10 +1,12 @@
 #include "apps/scene/file/toml_text.h"
 
 #include "apps/scene/file/toml_hint.h"
+#include "fem/values/number_text.h"
 
 #include <toml.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -100,6 +102,18 @@ std::vector<const toml::table::value_type *> in_order(const toml::table &table)
   return entries;
 }
 
+/// The very characters of a real number, so that who passes them on loses no digit; without "_", which formulas lack.
+std::string written_number(const toml::value &value)
+{
+  const auto        location = value.location();
+  const std::string line     = location.line_str();
+  const std::size_t from     = std::min<std::size_t>(location.column() - 1, line.size());
+  const std::string text     = line.substr(from, location.region());
+  char             *end      = nullptr;
+  const bool        is_it    = !text.empty() && std::strtod(text.c_str(), &end) == value.as_floating() && *end == '\0';
+  return is_it ? text : exact_text(value.as_floating());
+}
+
 SceneNode converted(const toml::value &value, const Place &place, const std::string &folder)
 {
   SceneNode node;
@@ -129,14 +143,10 @@ SceneNode converted(const toml::value &value, const Place &place, const std::str
     node.text   = std::to_string(value.as_integer());
     break;
   case toml::value_t::floating:
-  {
     node.type   = Type::real;
     node.number = value.as_floating();
-    std::ostringstream out;
-    out << node.number;
-    node.text = out.str();
+    node.text   = written_number(value);
     break;
-  }
   case toml::value_t::boolean:
     node.type    = Type::boolean;
     node.boolean = value.as_boolean();

@@ -1,3 +1,5 @@
+#include "apps/scene/file/unknown_keys.h"
+
 #include "apps/scene/file/scene_table.h"
 #include "fem/values/nearest_name.h"
 
@@ -6,13 +8,20 @@ namespace gestell::apps
 namespace
 {
 
+std::invalid_argument unknown(const SceneNode::Entry &entry, const std::string &path,
+                              const std::vector<std::string> &known)
+{
+  const auto &[key, value] = entry;
+  return std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" + key +
+                               "'" + suggestion(key, known));
+}
+
 void refuse_unknown(const SceneNode &table, const std::string &path)
 {
   for (const auto &[key, value] : table.entries)
   {
     if (!value.used)
-      throw std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" +
-                                  key + "'" + suggestion(key, {table.asked.begin(), table.asked.end()}));
+      throw unknown({key, value}, path, {table.asked.begin(), table.asked.end()});
     // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
     const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
     if (value.type == SceneNode::Type::table && (!value.asked.empty() || value.entries.empty()))
@@ -24,6 +33,19 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
 }
 
 } // namespace
+
+std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
+                                                 const std::string &path)
+{
+  std::vector<std::string> absent; // one of them is meant
+  for (const Key &key : declared)
+    if (!table.find(key.name))
+      absent.push_back(key.name);
+  for (const SceneNode::Entry &entry : table.entries)
+    if (!entry.second.used && !find_key(declared, entry.first))
+      return unknown(entry, path, absent);
+  return {};
+}
 
 void SceneTable::finish() const
 {

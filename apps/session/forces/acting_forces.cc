@@ -154,6 +154,39 @@ void add_between(const ForceBetween &between, const VectorXd &q, const VectorXd 
   all.push_back(acting(between.name, between.second.body, between.second.at, q, bodies, second));
 }
 
+/// All of a force on the body but the torque about the axis it turns about, or the force along the one it slides along;
+/// about the body's own place.
+Wrench passed_on(const Bearing &bearing, const ActingForce &force, const VectorXd &q)
+{
+  const Vector3d arm = force.at + force.displacement - position(bearing.of_body, q);
+  Wrench         passed{force.force, force.torque + arm.cross(force.force), 0};
+  Vector3d      &own = bearing.turns ? passed.torque : passed.force;
+  own -= bearing.axis.dot(own) * bearing.axis;
+  return passed;
+}
+
+/// What bearings and guides do to the two they join, behind what acts on a body between places.
+void add_bearings(const std::vector<Bearing> &bearings, const VectorXd &q, const VectorXd &bodies,
+                  std::vector<ActingForce> &all)
+{
+  const auto pass_on = [&](const ActingForce &force, const auto &further) -> void
+  {
+    for (const Bearing &bearing : bearings)
+      if (bearing.body == force.body)
+      {
+        const Wrench passed = passed_on(bearing, force, q);
+        all.push_back(acting(force.name, bearing.body, bearing.of_body, q, bodies,
+                             {-passed.force, -passed.torque, passed.translations}));
+        const ActingForce on_carrier = acting(force.name, bearing.carrier, bearing.of_carrier, q, bodies, passed);
+        all.push_back(on_carrier);
+        further(on_carrier, further);
+      }
+  };
+  const std::vector<ActingForce> between = all;
+  for (const ActingForce &force : between)
+    pass_on(force, pass_on);
+}
+
 } // namespace
 
 ActingForces::ActingForces(const Scene &scene, const coupling::Machine &machine)
@@ -167,6 +200,7 @@ std::vector<ActingForce> ActingForces::at(double t, const VectorXd &q, const Vec
   const VectorXd           bodies = without_frame(q, machine_.model().n_frame());
   for (const ForceBetween &between : places_.between)
     add_between(between, q, bodies, p, all);
+  add_bearings(places_.bearings, q, bodies, all);
   coupling::LocalState local;
   local.resize(machine_);
   local.t = t;

@@ -11,7 +11,10 @@ namespace gestell::apps
 namespace
 {
 
+using coupling::BodyKind;
 using coupling::MachineModel;
+using coupling::PlacedPoint;
+using Eigen::Vector3d;
 
 std::set<int> moved_by(const coupling::PlacedPoint &place)
 {
@@ -28,6 +31,23 @@ std::vector<int> without(const std::set<int> &all, const std::set<int> &others)
   std::vector<int> own;
   std::set_difference(all.begin(), all.end(), others.begin(), others.end(), std::back_inserter(own));
   return own;
+}
+
+constexpr double negligible = 1e-12; ///< of a direction
+
+bool turns(const MotionMeasure &motion)
+{
+  return std::all_of(motion.begin(), motion.end(), [](const MotionTerm &term) { return term.rotation; });
+}
+
+bool is_carried(const BodyRequest &body)
+{
+  return body.kind == BodyKind::rotor || body.kind == BodyKind::slider;
+}
+
+std::string carrier_of(const BodyRequest &body)
+{
+  return body.carrier.empty() ? "ground" : body.carrier;
 }
 
 /// Gathers the places while it goes through the measures of the machine.
@@ -50,20 +70,29 @@ public:
       add_signal(spring.name, spring.u, -1.);
     for (const LoadRequest &load : scene_.loads)
       add_signal(load.name, load.u, 1.);
+    for (const BodyRequest &body : scene_.bodies)
+      if (is_carried(body))
+        add_bearing(body);
     return std::move(places_);
   }
 
 private:
-  void       add(const coupling::ElementPlacement &element);
-  void       add_joint(const JointRequest &joint, const coupling::ElementPlacement &element);
-  void       add_element(const ElementRequest &request, const coupling::ElementPlacement &element);
-  void       add_measure(const MeasureRequest &request, const coupling::ElementPlacement &element);
-  int        add_term(const TermRequest &term, const coupling::ElementPlacement &element, int from);
-  void       add_motion(const std::string &name, const MotionMeasure &motion, int measure);
-  void       add_signal(const std::string &name, const MotionMeasure &motion, double sign);
-  void       add_between(const std::string &name, const PlaceRequest &from, const PlaceRequest &to,
-                         const coupling::ElementPlacement &element, int begin, int end, bool is_load = false);
-  ForceAlong along(const std::string &name, const MotionTerm &term) const;
+  void add(const coupling::ElementPlacement &element);
+  void add_joint(const JointRequest &joint, const coupling::ElementPlacement &element);
+  void add_element(const ElementRequest &request, const coupling::ElementPlacement &element);
+  void add_measure(const MeasureRequest &request, const coupling::ElementPlacement &element);
+  int  add_term(const TermRequest &term, const coupling::ElementPlacement &element, int from);
+  void add_motion(const std::string &name, const MotionMeasure &motion, int measure, bool turns_alone);
+  void add_signal(const std::string &name, const MotionMeasure &motion, double sign);
+  void add_between(const std::string &name, const PlaceRequest &from, const PlaceRequest &to,
+                   const coupling::ElementPlacement &element, int begin, int end, bool is_load = false);
+  void add_bearing(const BodyRequest &body);
+
+  PlacedPoint place(const std::string &marker) const { return placed(model_, {marker, std::nullopt}); }
+  ForceAlong  along(const std::string &name, const std::string &body, const Vector3d &direction, bool turns) const;
+  std::vector<ForceAlong> shared(const std::string &name, const std::string &body, const Vector3d &direction,
+                                 bool turns) const;
+  std::vector<ForceAlong> all_along(const std::string &name, const MotionMeasure &motion, bool turns_alone) const;
 
   const Scene             &scene_;
   const coupling::Machine &machine_;
@@ -112,8 +141,11 @@ void Places::add_element(const ElementRequest &request, const coupling::ElementP
   else if (request.pair)
     add_between(request.name, request.pair->from, request.pair->to, element, 0, n);
   else
+  {
+    const bool turns_alone = std::all_of(request.measures.begin(), request.measures.end(), turns);
     for (std::size_t i = 0; i < request.measures.size(); ++i)
-      add_motion(request.name, request.measures[i], next_ + int(i));
+      add_motion(request.name, request.measures[i], next_ + int(i), turns_alone);
+  }
 }
 
 void Places::add_measure(const MeasureRequest &request, const coupling::ElementPlacement &element)
@@ -135,7 +167,7 @@ int Places::add_term(const TermRequest &term, const coupling::ElementPlacement &
 {
   if (!term.placed)
   {
-    add_motion(element.name, term.motion, next_ + from);
+    add_motion(element.name, term.motion, next_ + from, turns(term.motion));
     return from + 1;
   }
   const int end = from + int(placed(model_, term.placed->first).measures.size() +
@@ -144,33 +176,85 @@ int Places::add_term(const TermRequest &term, const coupling::ElementPlacement &
   return end;
 }
 
-ForceAlong Places::along(const std::string &name, const MotionTerm &term) const
+void Places::add_bearing(const BodyRequest &body)
+{
+  const std::string carrier = carrier_of(body);
+  places_.bearings.push_back(
+      {body.name, carrier, place(body.name), place(carrier), vector(body.axis), body.kind == BodyKind::rotor});
+}
+
+ForceAlong Places::along(const std::string &name, const std::string &body, const Vector3d &direction, bool turns) const
 {
   ForceAlong along;
   along.name      = name;
-  along.body      = term.marker;
-  along.at        = placed(model_, {term.marker, std::nullopt});
-  along.direction = term.weight * vector(term.axis).normalized();
-  along.turns     = term.rotation;
+  along.body      = body;
+  along.at        = place(body);
+  along.direction = direction;
+  along.turns     = turns;
   return along;
 }
 
-void Places::add_motion(const std::string &name, const MotionMeasure &motion, int measure)
+/// A rotor turns about its axis and a slider moves along it; all other motions are those of its carrier.
+std::vector<ForceAlong> Places::shared(const std::string &name, const std::string &body, const Vector3d &direction,
+                                       bool turns) const
 {
+  const auto request = named(scene_.bodies, body);
+  if (request == scene_.bodies.end() || !is_carried(*request))
+    return {along(name, body, direction, turns)};
+  const Vector3d axis   = vector(request->axis);
+  const bool     is_own = turns == (request->kind == BodyKind::rotor);
+  const Vector3d own = is_own ? Vector3d(axis.dot(direction) * axis) : Vector3d::Zero(), rest = direction - own;
+  std::vector<ForceAlong> all;
+  if (own.norm() > negligible * direction.norm())
+    all.push_back(along(name, body, own, turns));
+  if (rest.norm() > negligible * direction.norm())
+    for (ForceAlong &part : shared(name, carrier_of(*request), rest, turns))
+      all.push_back(std::move(part));
+  return all;
+}
+
+/// With the ground where the terms do not bear each other.  A torque beside forces, as of a connecting rod, is borne by
+/// their levers.
+std::vector<ForceAlong> Places::all_along(const std::string &name, const MotionMeasure &motion, bool turns_alone) const
+{
+  std::vector<ForceAlong> all;
+  Vector3d                force = Vector3d::Zero(), torque = Vector3d::Zero();
   for (const MotionTerm &term : motion)
   {
-    places_.along.push_back(along(name, term));
-    places_.along.back().measure = measure;
+    const Vector3d direction = term.weight * vector(term.axis).normalized();
+    (term.rotation ? torque : force) += direction;
+    for (ForceAlong &part : shared(name, term.marker, direction, term.rotation))
+      all.push_back(std::move(part));
+  }
+  const auto on_ground = [&](const Vector3d &rest, bool turns)
+  {
+    if (rest.norm() < negligible)
+      return;
+    all.push_back(along(name, "ground", -rest, turns));
+    all.back().at = placed(model_, {"ground", point_of(model_, {motion.front().marker, std::nullopt})});
+  };
+  on_ground(force, false);
+  if (turns_alone)
+    on_ground(torque, true);
+  return all;
+}
+
+void Places::add_motion(const std::string &name, const MotionMeasure &motion, int measure, bool turns_alone)
+{
+  for (ForceAlong &part : all_along(name, motion, turns_alone))
+  {
+    part.measure = measure;
+    places_.along.push_back(std::move(part));
   }
 }
 
 void Places::add_signal(const std::string &name, const MotionMeasure &motion, double sign)
 {
-  for (const MotionTerm &term : motion)
+  for (ForceAlong &part : all_along(name, motion, turns(motion)))
   {
-    places_.along.push_back(along(name, term));
-    places_.along.back().signal = machine_.signal(name, name + ".force");
-    places_.along.back().sign   = sign;
+    part.signal = machine_.signal(name, name + ".force");
+    part.sign   = sign;
+    places_.along.push_back(std::move(part));
   }
 }
 

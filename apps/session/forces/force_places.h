@@ -30,7 +30,8 @@ struct ForceBetween
   bool                           is_coupling = false; ///< of two coordinates, which bearings elsewhere take part in
 };
 
-/// A force or torque along a fixed direction, of an element that acts on motions of markers.
+/// A force or torque along a fixed direction, of an element that acts on motions of markers: on the body whose
+/// coordinate the motion is, so on the carrier for a bearing's translation, and on the ground where it is the partner.
 struct ForceAlong
 {
   std::string           name, body;
@@ -42,10 +43,20 @@ struct ForceAlong
   double                sign = 1.;      ///< with which the signal acts on the measure
 };
 
+/// Where a rotor or a slider passes on to its carrier what it has no motion for.
+struct Bearing
+{
+  std::string           body, carrier;
+  coupling::PlacedPoint of_body, of_carrier;
+  Eigen::Vector3d       axis  = Eigen::Vector3d::Zero(); ///< unit vector
+  bool                  turns = false;                   ///< about the axis; else it slides along it
+};
+
 struct ForcePlaces
 {
   std::vector<ForceBetween> between;
   std::vector<ForceAlong>   along;
+  std::vector<Bearing>      bearings;
 };
 
 /// Of all elements, joints, springs and loads of a scene's machine.  What keeps the directors of a body rigid is no

@@ -80,8 +80,34 @@ TEST(JsonAnswer, IsGivenByEveryCommandThatComputes)
   EXPECT_TRUE(document("modes " + press)["answer"]["frequencies_hz"].is_object() ||
               document("modes " + press)["answer"]["frequencies_hz"].is_array());
   EXPECT_FALSE(document("frf " + press + " --from frame.crown.uz --to frame.crown.uz")["answer"].is_null());
+  const Json stability = document("stability " + press)["answer"];
+  EXPECT_EQ(stability["unstable_intervals"][0]["method"].is_string(), true);
+  EXPECT_GT(stability["modes"].size(), 3u);
+  EXPECT_GT(stability["methods"].size(), 3u);
   EXPECT_FALSE(document("stability --quiet -o '" + folder.results().string() + "'")["text"].empty());
-  EXPECT_EQ(document("reduce --list")["command"], "reduce");
+  const Json list = document("reduce --list");
+  EXPECT_TRUE(list["answer"]["frames"].is_array());
+  EXPECT_NE(list["text"][0].get<std::string>().find(": " + std::to_string(list["answer"]["frames"].size()) + " file"),
+            std::string::npos);
+}
+
+TEST(JsonAnswer, OfAStudyHasTheRowsOfItsRuns)
+{
+  const Folder      folder("json_study");
+  const std::string study  = "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml'\n"
+                             "[variables.c_P]\nfrom = '720 kN/mm'\nto = '1080 kN/mm'\n"
+                             "[outputs]\nF = 'signals.F_P.max'\n"
+                             "[design]\ntype = 'Sobol'\nruns = 4\n";
+  const Json        answer = document("study " + folder.file("study.toml", study) + folder.option())["answer"];
+  EXPECT_EQ(answer["made"], 4);
+  EXPECT_EQ(answer["units"]["F"], "N");
+  for (const Json &run : answer["runs"])
+  {
+    EXPECT_EQ(run["status"], "done");
+    EXPECT_GT(run["outputs"]["F"], 5e5);
+    EXPECT_GE(run["levels"]["c_P"], 720.);
+    EXPECT_LE(run["levels"]["c_P"], 1080.);
+  }
 }
 
 } // namespace gestell::tests

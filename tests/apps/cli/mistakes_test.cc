@@ -61,6 +61,28 @@ const std::vector<Mistake> of_the_press = {
     {"UnknownUnit", {{"\"80 mm\"", "\"80 milimeter\""}}, {"80 milimeter", "unknown unit 'milimeter'"}},
     {"UnitsThatDoNotFit", {{"\"80 mm\"", "\"80 kg\""}}, {"2*r - z_BDC", "both must be of one kind"}},
     {"MisspeltKey", {{"breakdown_torque  =", "breakdown_torqe ="}}, {"breakdown_torqe", "'breakdown_torque'"}},
+    {"MisspeltKeyBesideWhatIsMissing",
+     {{"step   = \"10 us\"", "stp = \"10 us\""}},
+     {"run: unknown key 'stp'", "'step'"}},
+    {"TorqueOnAMassThatDoesNotTurn",
+     {{"[element.sheet]", "[element.shake]\ntype = \"force\"\nfrom = \"frame.crown\"\nabout = [0, 1, 0]\n"
+                          "constant = \"1 N m\"\n[element.sheet]"}},
+     {"element.shake", "\"frame.crown\" does not turn about [0, 1, 0]", "it has uz; name another motion"}},
+    {"ProfileAcrossAMassThatIsHeld",
+     {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
+                          "function = \"10 N * sin(t / (1 s))\"\n[element.sheet]"}},
+     {"element.shake", "\"frame.crown\" does not move along [1, 0, 0]", "it has uz"}},
+    {"SpringAcrossAMassThatIsHeld",
+     {{"[element.sheet]", "[element.shake]\ntype = \"spring-damper\"\nfrom = \"frame.crown\"\nto = \"frame.table\"\n"
+                          "direction = [0, 1, 0]\nstiffness = \"1 N/mm\"\n[element.sheet]"}},
+     {"element.shake", "does not move along [0, 1, 0]", "name another motion"}},
+    {"MeasureAcrossAMassThatIsHeld",
+     {{"[element.sheet]", "[measure.lean]\ntype = \"along\"\nfrom = \"frame.crown\"\nto = \"frame.table\"\n"
+                          "direction = [1, 0, 0]\n[element.sheet]"}},
+     {"measure.lean", "frame.crown", "always zero"}},
+    {"SignalOfAMotionThatIsHeld",
+     {{"\"-frame.crown.uz\"", "\"frame.crown.rx\""}},
+     {"'frame.crown.rx' is always zero", "the frame has no such motion", "name another"}},
     {"MisspeltTable", {{"[output.signals]", "[outputs.signals]"}}, {"outputs", "did you mean 'output'"}},
     {"ForgottenQuotes", {{"\"80 mm\"", "80 mm"}}, {"in quotes: \"80 mm\""}},
     {"QuoteNotClosed", {{"\"3200 kg\"", "\"3200 kg"}}, {"a quote is opened here and not closed"}},

@@ -223,7 +223,7 @@ TEST(TableForce, RefusesWhatMakesNoSense)
       "number of rows = 1");
   expect_complaint(with(scene, "against = \"time\"", "against = \"speed\""), "there is no 'speed'");
   expect_complaint(with(scene, "against = \"time\"", ""), "the key 'against' is missing");
-  expect_complaint(with(scene, "table =", "tabel ="), "the key 'table' is missing");
+  expect_complaint(with(scene, "table =", "tabel ="), "unknown key 'tabel'; did you mean 'table'");
 }
 
 } // namespace

@@ -76,7 +76,7 @@ TEST(ForceElement, RefusesWhatMakesNoSense)
   expect_complaint(with(scene, "frequency = \"5 Hz\"", "frequency = 0"), "element.push.harmonics[1].frequency");
   expect_complaint(with(scene, "frequency = \"5 Hz\"", "frequency = \"5 rad/s\""), "needs a frequency");
   expect_complaint(with(scene, "amplitude = \"9 N m\"", "amplitude = \"9 N\""), "needs a torque");
-  expect_complaint(with(scene, "amplitude = 7", "amplitud = 7"), "'amplitude' is missing");
+  expect_complaint(with(scene, "amplitude = 7", "amplitud = 7"), "unknown key 'amplitud'; did you mean 'amplitude'");
   expect_complaint(with(scene, "amplitude = 7,", "amplitude = 7, delay = 3,"), "unknown key 'delay'");
   expect_complaint(with(scene, "harmonics = [{ amplitude = \"9 N m\", frequency = \"1 Hz\", phase = \"90 deg\" }]", ""),
                    "needs 'constant' or 'harmonics'");

@@ -49,11 +49,16 @@ public:
     std::atomic<bool>            stop     = pauses == 0;
     const auto                   progress = [&](double) { stop = --pauses == 0; };
     coupling::RunCheckpoints     checkpoints;
-    checkpoints.from  = state_;
-    checkpoints.keep  = [this](const std::string &state) { state_ = state; };
-    checkpoints.every = 0.;
-    return coupling::simulate(prepared.machine, start, scene_.run.options,
-                              apps::scene_signals(scene_, prepared.machine), progress, &stop, nullptr, &checkpoints);
+    checkpoints.from             = state_;
+    checkpoints.keep             = [this](const std::string &state) { state_ = state; };
+    checkpoints.every            = 0.;
+    coupling::RunOptions options = scene_.run.options;
+    options.picture_step         = (options.end - options.begin) / 50.;
+    for (const bool largest : {true, false}) // as the report asks for them
+      options.states.around.push_back({0, largest});
+    options.states.extremes = options.states.around;
+    return coupling::simulate(prepared.machine, start, options, apps::scene_signals(scene_, prepared.machine), progress,
+                              &stop, nullptr, &checkpoints);
   }
 
   void begin_anew() { state_.clear(); }
@@ -62,6 +67,18 @@ private:
   apps::Scene scene_;
   std::string state_;
 };
+
+void expect_same(const std::vector<coupling::KeptState> &run, const std::vector<coupling::KeptState> &whole)
+{
+  ASSERT_EQ(run.size(), whole.size());
+  for (std::size_t i = 0; i < run.size(); ++i)
+  {
+    EXPECT_EQ(run[i].t, whole[i].t);
+    EXPECT_EQ(run[i].q, whole[i].q);
+    EXPECT_EQ(run[i].v, whole[i].v);
+    EXPECT_EQ(run[i].p, whole[i].p);
+  }
+}
 
 void expect_same(const coupling::RunResult &run, const coupling::RunResult &whole)
 {
@@ -84,6 +101,13 @@ void expect_same(const coupling::RunResult &run, const coupling::RunResult &whol
   EXPECT_EQ(run.work.newton, whole.work.newton);
   EXPECT_EQ(run.work.factorisations, whole.work.factorisations);
   EXPECT_EQ(run.picture_times, whole.picture_times);
+  EXPECT_EQ(run.picture_states, whole.picture_states);
+  EXPECT_EQ(run.picture_velocities, whole.picture_velocities);
+  EXPECT_EQ(run.picture_forces, whole.picture_forces);
+  ASSERT_EQ(run.states.around.size(), whole.states.around.size());
+  for (std::size_t i = 0; i < run.states.around.size(); ++i)
+    expect_same(run.states.around[i], whole.states.around[i]);
+  expect_same(run.states.extremes, whole.states.extremes);
   EXPECT_EQ(run.warnings, whole.warnings);
   EXPECT_EQ(run.failure, whole.failure);
 }

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "apps/output/report/stability_report.h"
+#include "apps/session/session.h"
+#include "apps/study/report/study_findings.h"
+#include "apps/study/runs/study_answer.h"
+#include "coupling/frame/frame_cache.h"
+#include "coupling/plugin/mesh_report.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Whether the cache holds the frame of a scene, and what the nearest one of other origin differs in.
+struct CacheExplanation
+{
+  std::string                         scene, key;
+  std::optional<coupling::CacheEntry> own{};    ///< file of this key
+  std::string                         defect{}; ///< why it cannot be used; "": it can, if it is there
+  std::optional<coupling::CacheEntry> nearest{};
+  std::vector<coupling::Difference>   differences{}; ///< kept, asked
+};
+
+/// Answers of commands as JSON text, for answer_with(); lengths, areas and all else in SI units, docs/json.md.
+
+std::string cache_answer(const std::vector<coupling::CacheEntry> &entries);
+std::string explanation_answer(const CacheExplanation &explanation);
+std::string frame_answer(const FrameAnswer &answer);
+std::string partition_answer(const Partition &partition);
+std::string mesh_answer(const coupling::MeshReport &report);
+std::string stability_answer(const StabilityStudy &study);
+/// @param findings  null: runs are missing, or none ended well
+std::string study_answer(const StudyAnswer &answer, const StudyFindings *findings);
+
+} // namespace gestell::apps
