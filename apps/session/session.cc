@@ -1,5 +1,6 @@
 #include "apps/session/session.h"
 
+#include "apps/output/text/settings_text.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
@@ -26,31 +27,11 @@
 
 #include <algorithm>
 #include <ctime>
-#include <sstream>
 
 namespace gestell::apps
 {
 namespace
 {
-
-std::string settings_text(const coupling::RunOptions &run)
-{
-  const coupling::MethodOptions &method = run.method;
-  std::ostringstream             text;
-  text << coupling::method_name(method) << ", ";
-  if (method.tolerance > 0.)
-  {
-    text << "step controlled to a tolerance of " << method.tolerance;
-    if (method.step > 0.)
-      text << ", at most " << method.step << " s";
-  }
-  else
-    text << "fixed step " << method.step << " s";
-  text << ", from " << run.begin << " s to " << run.end << " s; "
-       << (run.events ? "events located, the integration restarts at each of them"
-                      : "events are stepped over and reported afterwards");
-  return text.str();
-}
 
 /// Pictures show the companion of an unreduced frame.
 void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &run)
@@ -435,7 +416,7 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
     run.states.around = swing_extremes(signals, machine_->machine.size());
   const auto now = progress();
   now("integration", 0.);
-  const auto share       = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
   std::optional<coupling::RunCheckpoints> checkpoints;
   if (checkpoints_)
     checkpoints = run_checkpoints(*checkpoints_, read_scene_file(path_, overrides_), machine_->machine, initial);

@@ -2,8 +2,8 @@
 #include "coupling/integration/system/state_archive.h"
 #include "coupling/simulation/run_state.h"
 
+#include "coupling/simulation/forces_on_measures.h"
 #include "coupling/simulation/run_result.h"
-#include "coupling/simulation/states_around.h"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "coupling/simulation/states_around.h"
 
 #include "coupling/integration/system/state_archive.h"
+#include "coupling/simulation/forces_on_measures.h"
 #include "coupling/simulation/run_state.h"
 
 #include <algorithm>
@@ -18,12 +19,6 @@ constexpr std::size_t reach    = 96;   ///< states of a scale on either side of 
 constexpr double      rounded  = 1e-9; ///< of a spacing
 
 } // namespace
-
-void forces_on_measures(const Machine &machine, const LocalState &local, Eigen::VectorXd &p)
-{
-  p = local.p;
-  machine.forces().force(local, p);
-}
 
 StatesAround::StatesAround(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
                            const std::vector<SignalSummary> &signals, KeptStates &kept)

@@ -13,10 +13,6 @@ namespace gestell::coupling
 
 class StateArchive;
 
-/// Forces p [n_u] on the measures of all elements at a motion: of laws by their values, of joints and of what sticks as
-/// the motion carries them.
-void forces_on_measures(const Machine &machine, const LocalState &local, Eigen::VectorXd &p);
-
 /**
  * Keeps the states around extremes of signals, of which only the end of a run knows where they are: on three scales,
  * each eight times as coarse as the one before, the last ones in a ring, and of these as many on both sides of an
