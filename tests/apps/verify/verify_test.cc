@@ -91,11 +91,15 @@ TEST(Verify, AnExpectedCellWithoutAValueDoesNotCountAColumnOfThemFails)
 
 TEST(Verify, AnObtainedCellWithoutAValueFails)
 {
-  const Cases cases("{ table = 'modes.csv', columns = { 'frequency [Hz]' = 'f', 'refined frequency [Hz]' = 'finer' }, "
-                    "expected = { file = 'exact.csv' }, relative = 1 }",
-                    "compute = 'modes'\n");
-  cases.folder.file("exact.csv", "f,finer\n3.18,3.2\n");
-  expect_answer(cases.verified(), 3, {"obtained nothing, expected '3.2'"});
+  const Cases cases("{ table = 'solutions.csv', columns = { 'period ratio' = 'ratio', parameter = 'p' }, expected = { "
+                    "file = 'exact.csv' } }",
+                    "compute = 'periodic'\nwith = { period = '0.5 s' }\n");
+  cases.folder.file("scene.toml", oscillator + "[element.damper]\ntype = 'spring-damper'\nfrom = 'mass'\n"
+                                               "stiffness = 0\ndamping = '4 N s/m'\n"
+                                               "[element.load]\ntype = 'force'\nfrom = 'mass'\n"
+                                               "harmonics = [{ amplitude = '1 N', frequency = '2 Hz' }]\n");
+  cases.folder.file("exact.csv", "ratio,p\n1,3\n");
+  expect_answer(cases.verified(), 3, {"parameter, row 1: obtained nothing, expected '3'"}); // told with `along` alone
 }
 
 TEST(Verify, AnExpectedColumnMayBeAFormulaOfColumns)
