@@ -1,6 +1,7 @@
 #include "apps/session/option_value.h"
 
 #include "apps/scene/language/parse_quantity.h"
+#include "coupling/frame/number_in_file.h"
 
 #include <cstdlib>
 #include <stdexcept>
@@ -14,9 +15,8 @@ double option_value(const std::string &option, const std::string &text, const Ki
   {
     const Quantity quantity = parse_quantity(
         text, [](const std::string &) { return std::nullopt; }, {}, &kind);
-    char *end = nullptr;
-    std::strtod(text.c_str(), &end);
-    if (!text.empty() && *end == '\0') // plain numbers are SI
+    double plain = 0.;
+    if (!text.empty() && *coupling::read_number(text.c_str(), plain) == '\0') // plain numbers are SI
       return quantity.value;
     return value_as(quantity, kind, text);
   }

@@ -3,6 +3,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/repeating_machine.h"
 #include "coupling/frame/frame_recipe.h"
+#include "coupling/frame/number_in_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -22,8 +23,8 @@ namespace
 /// A number and the unit behind it.
 double split(const std::string &option, const std::string &text, std::string &unit)
 {
-  char        *end   = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
+  double            value = 0.;
+  const char *const end   = coupling::read_number(text.c_str(), value);
   if (end == text.c_str())
     throw std::invalid_argument(option + " " + text + ": needs a number, with its unit if it has one: \"800 1/min\"");
   unit = end;

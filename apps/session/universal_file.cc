@@ -1,5 +1,6 @@
 #include "apps/session/universal_file.h"
 
+#include "coupling/frame/number_in_file.h"
 #include "fem/values/trimmed.h"
 
 #include <algorithm>
@@ -74,9 +75,10 @@ std::vector<double> numbers(const DataSet &set, std::size_t first, std::size_t l
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == 'D' || c == 'd'; }, 'E');
     const char *at = text.c_str();
-    for (char *end = nullptr;; at = end)
+    for (const char *end = nullptr;; at = end)
     {
-      const double value = std::strtod(at, &end);
+      double value = 0.;
+      end          = coupling::read_number(at, value);
       if (end == at)
         break;
       if (!std::isfinite(value))

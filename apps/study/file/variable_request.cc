@@ -1,5 +1,6 @@
 #include "apps/study/file/variable_request.h"
 
+#include "coupling/frame/number_in_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -28,11 +29,10 @@ NumberWithUnit number_with_unit(const SceneNode &value)
     return {true, value.number, ""};
   if (value.type != ValueType::text)
     return {};
-  char          *end = nullptr;
-  NumberWithUnit number;
-  number.value     = std::strtod(value.text.c_str(), &end);
-  number.is_number = end != value.text.c_str();
-  number.unit      = end;
+  NumberWithUnit    number;
+  const char *const end = coupling::read_number(value.text.c_str(), number.value);
+  number.is_number      = end != value.text.c_str();
+  number.unit           = end;
   number.unit.erase(0, std::min(number.unit.find_first_not_of(' '), number.unit.size()));
   return number;
 }

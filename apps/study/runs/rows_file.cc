@@ -1,6 +1,7 @@
 #include "apps/study/runs/rows_file.h"
 
 #include "apps/output/text/csv.h"
+#include "coupling/frame/number_in_file.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -48,8 +49,8 @@ std::vector<std::string> cells_of(const std::string &line)
 
 double number_of(const std::string &text)
 {
-  char        *end   = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
+  double            value = 0.;
+  const char *const end   = coupling::read_number(text.c_str(), value);
   if (text.empty())
     return std::numeric_limits<double>::quiet_NaN();
   if (*end != '\0')

@@ -358,8 +358,7 @@ TEST(Fmu, AStateKnowsItsFmuAndItsStopTime)
   EXPECT_THAT(one.last_message(), testing::HasSubstr("beyond the stop time 0.005 s"));
   EXPECT_EQ(one.step(4e-3, 1e-3), fmi2OK);
 
-  // Each number of the motion: the last 8 bytes before the statement of its end, of which there is none, are history
-  // or v; the time and q lie before.
+  // The motion begins with its time.
   fmi2FMUstate      damaged = nullptr;
   const double      nan = std::nan(""), t = 4e-3;
   const std::string time(reinterpret_cast<const char *>(&t), sizeof t);
