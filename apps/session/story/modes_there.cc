@@ -65,7 +65,10 @@ std::string ModesThere::strain(std::size_t mode) const
     return "";
   Eigen::Index most  = 0;
   const double share = shares.strain.col(Eigen::Index(mode)).maxCoeff(&most);
-  return share > 0. ? shares.springs[std::size_t(most)] + " by " + short_text(100. * share, 3) + " %" : "";
+  if (!(share > 0.))
+    return "";
+  const std::string &spring = shares.springs[std::size_t(most)];
+  return share > 1. ? spring : spring + " by " + short_text(100. * share, 3) + " %"; // turning forces may be negative
 }
 
 ModesOfRun::ModesOfRun(const Scene &scene, const coupling::Machine &machine, const Result &result)

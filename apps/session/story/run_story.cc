@@ -28,8 +28,9 @@ constexpr double      nothing     = 1e-6; ///< of the largest rate at events, or
 constexpr double      jumps       = 1e-3; ///< of the largest force
 constexpr double      near_mode   = 0.25; ///< relative difference of frequencies up to which a swing is a mode's own
 constexpr double      carries     = 0.5;  ///< share of a swing that a mode makes to carry it
-constexpr double      overdone    = 1.2;  ///< share from which on other modes work against it
-constexpr double      missed      = 0.2;  ///< of a swing, by the sum over all modes
+constexpr double      beside_it = 0.1; ///< of the largest amount: a turning point so far from an extreme is another one
+constexpr double      overdone  = 1.2; ///< share from which on other modes work against it
+constexpr double      missed    = 0.2; ///< of a swing, by the sum over all modes
 constexpr double      no_momentum = 1e-3; ///< of the largest force times the time it acts
 
 /// In the unit in which a signal reads well at its largest.
@@ -266,6 +267,7 @@ bool Story::is_tools(std::size_t s) const
 /// The vibration about an extreme, and what makes it.
 std::string Story::carried_by(std::size_t s, double t, bool largest) const
 {
+  const double x = largest ? result_.run->signals[s].max : result_.run->signals[s].min;
   if (is_tools(s))
     return ", a force of its law, no vibration";
   std::vector<double> time, y;
@@ -275,7 +277,7 @@ std::string Story::carried_by(std::size_t s, double t, bool largest) const
     y.push_back(rows_.at(i, s + 1));
   }
   const Swing swing = swing_at(time, y, t);
-  if (!(swing.half > 0.))
+  if (!(swing.half > 0.) || std::abs(rows_.at(row_before(swing.turn), s + 1) - x) > beside_it * size_of(s))
     return ", on which it does not turn back";
   if (!fine_between(t - 0.5 * swing.half, t + 0.5 * swing.half, of_swing))
     return ", the rows too far apart to tell a swing";

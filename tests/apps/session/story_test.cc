@@ -258,6 +258,8 @@ TEST(Story, NamesNoModeForForcesThatPositionsDoNotTell)
   const apps::Result joints = told(shipped("crank_press_joints.toml"));
   ASSERT_TRUE(joints.story);
   EXPECT_THAT(sentences_of(joints), ::testing::Not(::testing::HasSubstr("carried by")));
+  EXPECT_THAT(first_with(joints, "F_B is smallest"), ::testing::EndsWith("follows F_u"));
+  EXPECT_THAT(first_with(joints, "F_B is largest"), ::testing::Not(::testing::HasSubstr("F_u"))); // long after the cut
 }
 
 // Twelve pictures and more to a period of the vibration that makes the main peak, few of them elsewhere.
