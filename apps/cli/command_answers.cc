@@ -14,11 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-Json numbers(const Eigen::VectorXd &values)
-{
-  return std::vector<double>(values.data(), values.data() + values.size());
-}
-
 Json told(const coupling::CacheEntry &entry)
 {
   Json json = {{"key", entry.key}, {"file", entry.file}, {"bytes", entry.bytes}, {"last_used_s", entry.last_used}};

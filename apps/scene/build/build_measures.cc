@@ -73,8 +73,7 @@ std::invalid_argument no_motion(const MotionTerm &term, const coupling::MachineM
 {
   return std::invalid_argument("acts on a motion that the machine has not: \"" + term.marker + "\" does not " +
                                (term.rotation ? "turn about " : "move along ") + triple(term.axis) +
-                               ", nor does its partner" +
-                               motions_left(machine.marker(term.marker), term.rotation));
+                               ", nor does its partner" + motions_left(machine.marker(term.marker), term.rotation));
 }
 
 /// Of places whose motion is small, so that what does not move now never will.
