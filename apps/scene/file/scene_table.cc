@@ -445,4 +445,9 @@ std::vector<SceneTable> SceneTable::table_array(const std::string &key) const
   return result;
 }
 
+void SceneTable::finish() const
+{
+  refuse_unknown(*node_, path_);
+}
+
 } // namespace gestell::apps

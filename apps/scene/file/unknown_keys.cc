@@ -1,6 +1,6 @@
 #include "apps/scene/file/unknown_keys.h"
 
-#include "apps/scene/file/scene_table.h"
+#include "apps/scene/file/written_text.h"
 #include "fem/values/nearest_name.h"
 
 namespace gestell::apps
@@ -15,6 +15,8 @@ std::invalid_argument unknown(const SceneNode::Entry &entry, const std::string &
   return std::invalid_argument(value.place.text() + ": " + (path.empty() ? "" : path + ": ") + "unknown key '" + key +
                                "'" + suggestion(key, known));
 }
+
+} // namespace
 
 void refuse_unknown(const SceneNode &table, const std::string &path)
 {
@@ -32,8 +34,6 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
   }
 }
 
-} // namespace
-
 std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
                                                  const std::string &path)
 {
@@ -45,11 +45,6 @@ std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const s
     if (!entry.second.used && !find_key(declared, entry.first))
       return unknown(entry, path, absent);
   return {};
-}
-
-void SceneTable::finish() const
-{
-  refuse_unknown(*node_, path_);
 }
 
 } // namespace gestell::apps

@@ -16,4 +16,8 @@ namespace gestell::apps
 std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
                                                  const std::string &path);
 
+/// Refuses what nobody has asked for in the table and in those below it that were looked into.
+/// @throws std::invalid_argument with the place and the nearest key
+void refuse_unknown(const SceneNode &table, const std::string &path);
+
 } // namespace gestell::apps

@@ -88,4 +88,18 @@ inline double difference_from_run(const Fmu &fmu, const std::filesystem::path &h
   return worst;
 }
 
+/// m x'' + b x' + c x = F on a slider, integrated much finer than it communicates.
+inline std::string oscillator(const std::string &name, double mass, double stiffness, double start)
+{
+  return "name = \"" + name + "\"\n[parameters]\nM = \"" + std::to_string(mass) + " kg\"\nc = \"" +
+         std::to_string(stiffness) +
+         " N/m\"\n[body.mass]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"M\"\n"
+         "[element.spring]\ntype = \"spring-damper\"\nfrom = \"mass\"\nstiffness = \"c\"\ndamping = \"2 N s/m\"\n"
+         "[element.push]\ntype = \"force profile\"\nfrom = \"mass\"\nprofile = { input = \"F\" }\n"
+         "[start]\nrule = \"given\"\nq = { mass = " +
+         std::to_string(start) +
+         " }\n[run]\nmethod = \"newmark\"\nstep = \"0.05 ms\"\nend = \"0.4 s\"\n"
+         "[output.signals]\nx = \"mass.displacement\"\nv = \"mass.velocity\"\n";
+}
+
 } // namespace gestell::tests
