@@ -76,8 +76,6 @@ void SceneTable::warn(const std::string &key, const std::string &what) const
     warnings_->push_back(warning);
 }
 
-// --- looking up
-
 const SceneNode *SceneTable::look_up(const std::string &key) const
 {
   if (keys_ && !open_)
@@ -94,8 +92,6 @@ const SceneNode &SceneTable::demand(const std::string &key, const std::string &w
   const SceneNode *value = look_up(key);
   if (value)
     return *value;
-  if (const auto undeclared = keys_ && !open_ ? unknown_key(*node_, *keys_, path_) : std::nullopt)
-    throw *undeclared;
   std::vector<std::string> unknown;
   for (const auto &entry : node_->entries)
     if (!node_->asked.count(entry.first))
