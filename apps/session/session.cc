@@ -187,7 +187,7 @@ PreparedMachine &Session::machine()
   check();
   if (!machine_)
   {
-    machine_ = prepare_machine(scene_, progress());
+    machine_ = std::make_shared<PreparedMachine>(prepare_machine(scene_, progress()));
     keep_stable_step(*machine_, scene_.run);
   }
   return *machine_;
@@ -195,7 +195,7 @@ PreparedMachine &Session::machine()
 
 void Session::use_frame(const coupling::ReducedFrame &frame)
 {
-  machine_ = prepare_machine_on(scene_, frame);
+  machine_ = std::make_shared<PreparedMachine>(prepare_machine_on(scene_, frame));
 }
 
 FrameAnswer Session::reduced_frame()
@@ -435,6 +435,9 @@ Result Session::finished(Result result)
 {
   times_.end();
   result.wall_s = times_.seconds();
+  if (result.scenery.forces)
+    result.scenery.forces = [machine = machine_, forces = std::move(result.scenery.forces)](const auto &...state)
+    { return forces(state...); };
   return result;
 }
 

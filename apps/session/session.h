@@ -116,7 +116,7 @@ private:
   std::optional<SceneNode>         entries_;
   Watch                            watch_;
   PhaseTimes                       times_;
-  std::optional<PreparedMachine>   machine_;
+  std::shared_ptr<PreparedMachine> machine_; ///< shared with results, which tell its forces when they are written
   bool                             checked_ = false, swings_ = false;
   std::optional<CheckpointRequest> checkpoints_;
   std::unique_ptr<Session>         begin_; ///< of a branch: results draw its machine

@@ -341,7 +341,7 @@ void Recorder::finish()
 void Recorder::exchange(StateArchive &archive)
 {
   archive(result_.signals, result_.rows, result_.event_values, result_.energy, result_.picture_times,
-          result_.picture_states, result_.picture_velocities);
+          result_.picture_states, result_.picture_velocities, result_.picture_forces);
   archive(keeper_, around_, energy_, guard_, between_, a_, extremes_, behind_, pending_, length_, settled_, next_row_,
           next_picture_, close_until_, close_budget_);
 }

@@ -98,7 +98,9 @@ Eigen::VectorXd swing_changes(const coupling::Signal &signal, const coupling::Ma
 {
   const Eigen::MatrixXd M = coupling::dense_mass(machine);
   Eigen::VectorXd       c = Eigen::VectorXd::Zero(Eigen::Index(modes.size()));
-  ForceBetween          force(signal, machine);
+  if (signal.reads_acceleration())
+    return c; // a force that inertia takes part in
+  ForceBetween force(signal, machine);
   for (std::size_t k = 0; k + 1 < path.size(); ++k)
   {
     const Eigen::VectorXd moved = M * (path[k + 1]->q - path[k]->q), middle = 0.5 * (path[k]->q + path[k + 1]->q);

@@ -70,7 +70,7 @@ const std::vector<Mistake> of_the_press = {
      {"element.shake", "\"frame.crown\" does not turn about [0, 1, 0]", "it has uz; name another motion"}},
     {"ProfileAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"force profile\"\nfrom = \"frame.crown\"\ndirection = [1, 0, 0]\n"
-                          "function = \"10 N * sin(t / (1 s))\"\n[element.sheet]"}},
+                          "profile = \"10 N*sin(t/s)\"\n[element.sheet]"}},
      {"element.shake", "\"frame.crown\" does not move along [1, 0, 0]", "it has uz"}},
     {"SpringAcrossAMassThatIsHeld",
      {{"[element.sheet]", "[element.shake]\ntype = \"spring-damper\"\nfrom = \"frame.crown\"\nto = \"frame.table\"\n"

@@ -153,7 +153,7 @@ TEST(SceneFrame, MistakesAreReportedWithPlaceAndRemedy)
        "scene.toml:16: frame.support.feet.directions", "no direction 'w'"},
       {"radius = \"120 mm\"", "radius = \"120 kg\"", "scene.toml:7: frame.surface.\"bearing left\".cylinder.radius",
        "length"},
-      {"cylinder =", "cylindre =", "scene.toml:6: frame.surface.\"bearing left\"", "'cylinder'"},
+      {"cylinder =", "cylindre =", "scene.toml:7: frame.surface.\"bearing left\"", "'cylinder'"},
       {"ratio = 0.02", "ratio = 2", "scene.toml:5: frame.damping.ratio", "0.01"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }]", "damping.rayleigh", "needs two"},
       {"ratio = 0.02", "rayleigh = [{ frequency = 20, ratio = 0.01 }, { frequency = 40, ratio = 0.09 }]",

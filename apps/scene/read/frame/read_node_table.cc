@@ -20,8 +20,9 @@ namespace
 
 const std::vector<std::string> columns{"name", "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz", "node"};
 constexpr std::size_t          first_position = 1, first_motion = 4, number_column = 10;
-constexpr double               same_place = 1e-3; // of the extent of the nodes: Nastran's short fields pass
-constexpr double               same_axes  = 1e-4; // likewise, of unit vectors
+constexpr double               rounded_field = 1e-6; // of a number: long fields pass, short ones where nodes lie apart
+constexpr double               same_place    = 1e-3; // of the extent of the nodes: Nastran's short fields pass
+constexpr double               same_axes     = 1e-4; // likewise, of unit vectors
 
 /// Where each of `columns` stands in the table, and the length that positions are in.
 struct Layout
@@ -204,14 +205,18 @@ coupling::ModelNodes model_nodes(const std::string &path, const std::map<long, T
   return model;
 }
 
-/// Largest distance of two places along an axis.
+/// Largest distance of two places along an axis, or of a place from the origin where that counts: short fields round
+/// by the size of the numbers that they hold.
 double extent_of(const coupling::NodePlaces &places)
 {
-  double extent = 0.;
+  double extent = 0., farthest = 0.;
   for (const auto &[number, x] : places)
     for (std::size_t d = 0; d < 3; ++d)
-      extent = std::max(extent, std::abs(x[d] - places.begin()->second[d]));
-  return extent;
+    {
+      extent   = std::max(extent, std::abs(x[d] - places.begin()->second[d]));
+      farthest = std::max(farthest, std::abs(x[d]));
+    }
+  return std::max(extent, rounded_field / same_place * farthest);
 }
 
 /// A node that two files name has one place in both, to the digits of short fields, and one system of motions.
