@@ -18,7 +18,7 @@ namespace gestell::python
 class ToldProgress
 {
 public:
-  /// @param call  None: nobody is told
+  /// @param call  called with phase and share; None: progress is not reported
   /// @param asked  of Ctrl-C
   ToldProgress(pybind11::object call, const std::atomic<bool> &asked) : call_(std::move(call)), asked_(asked) {}
 

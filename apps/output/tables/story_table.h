@@ -23,7 +23,7 @@ std::string modes_place_words(const LoadDuration &load);
 /// The number of a mode among those of the scene; "-": its shape is that of none.
 std::string mode_number(const LoadOnMode &on);
 
-/// An energy [J] left in a mode as it is told: rounding beside the largest of that load is 0; "-": not known.
+/// Energy left in a mode, as text [J]: 0 where it is rounding beside the largest of the load, "-" where not known.
 std::string energy_text(double energy, const LoadDuration &load);
 
 /// For a terminal: the loads against the periods, and the plays.

@@ -23,7 +23,7 @@ struct FmuInterface
   std::size_t size() const { return parameters.size() + inputs.size() + outputs.size(); }
 };
 
-/// What modelDescription.xml tells of a machine.
+/// The content of modelDescription.xml.
 struct FmuDescription
 {
   std::string  name, description, identifier, guid, version;

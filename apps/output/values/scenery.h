@@ -51,7 +51,7 @@ struct Scenery
   std::vector<DrawnPart>                                     parts; ///< bodies without one are drawn by their sizes
 
   /// Forces at t [s], q, q' [n] with the forces p [n_u] on the measures of all elements, always the same ones in one
-  /// order; empty: nobody tells them.
+  /// order; empty: not known.
   std::function<std::vector<ActingForce>(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                                          const Eigen::VectorXd &p)>
       forces;

@@ -16,7 +16,7 @@ namespace gestell::apps
 std::optional<std::invalid_argument> unknown_key(const SceneNode &table, const std::vector<Key> &declared,
                                                  const std::string &path);
 
-/// Refuses what nobody has asked for in the table and in those below it that were looked into.
+/// Refuses keys that no reader has used, in the table and in the tables below it that were read.
 /// @throws std::invalid_argument with the place and the nearest key
 void refuse_unknown(const SceneNode &table, const std::string &path);
 
