@@ -65,8 +65,8 @@ int find_response(const CommonOptions &options, const FrfOptions &asked, const s
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
-  const Result result = session.frequency_response(asked);
+  const HeldFolder            held(folder);
+  const Result                result = session.frequency_response(asked);
   progress.done();
   const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
   if (beside_a_run)

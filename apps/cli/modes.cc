@@ -162,7 +162,7 @@ int find_modes(const CommonOptions &options, const Asked &asked)
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
+  const HeldFolder            held(folder);
 
   std::optional<coupling::MeshConvergence> convergence;
   if (asked.mesh.converge > 0.)

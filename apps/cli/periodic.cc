@@ -92,8 +92,8 @@ int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
   Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
-  const Result result = session.periodic(request);
+  const HeldFolder            held(folder);
+  const Result                result = session.periodic(request);
   progress.done();
   prepare_folder(folder);
   write_results(folder, result);

@@ -90,8 +90,8 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
   if (asked.budget)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
-  std::optional<Session> other;
+  const HeldFolder            held(folder);
+  std::optional<Session>      other;
   if (!asked.compare.empty())
     require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));
