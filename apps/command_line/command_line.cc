@@ -132,6 +132,7 @@ void add_command(CLI::App &program, const Command &command, CommonOptions &optio
     footer += "\n  " + example;
   added->footer(footer);
   added->add_flag("--json", "one JSON document on standard output in place of text");
+  added->add_flag("--apart", "a case of its own per process of mpirun or srun (also by GESTELL_APART=1)");
   add_input(*added, command.input, options);
   for (const CommandOption &option : command.options)
     add_option(*added, option);
