@@ -51,6 +51,7 @@ private:
   void          evaluate(double t, SignalSample &sample) override;
   void          tell(double t, const LocalState &local, SignalSample &sample);
   void          settle();
+  void          settle_at_end();
   void          values_before();
   void          values_behind();
   void          follow_briefly();

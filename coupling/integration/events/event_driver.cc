@@ -1,8 +1,10 @@
 #include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/finite_state.h"
 #include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/state_archive.h"
 
 #include "coupling/integration/step/loads_to_come.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/error_control.h"
 
 #include <algorithm>
@@ -84,6 +86,17 @@ void EventDriver::hold_what_is_still()
   }
 }
 
+/// One of the integrator, whose end is a state: of all methods, and whatever looks on.
+void EventDriver::step()
+{
+  integrator_.advance();
+  if (is_finite(integrator_.local()))
+    return;
+  const std::string words = no_number_words(system_, integrator_.local());
+  integrator_.cut(integrator_.step_begin());
+  throw ConvergenceFailure(words);
+}
+
 void EventDriver::advance()
 {
   if (!options_.locate)
@@ -92,7 +105,7 @@ void EventDriver::advance()
     tell_events();
     return;
   }
-  integrator_.advance();
+  step();
   const double full = integrator_.time() - integrator_.step_begin();
   if (integrator_.time() - window_begin_ > length_ + full)
   {
@@ -132,7 +145,7 @@ void EventDriver::advance()
 void EventDriver::step_over()
 {
   before_ = integrator_.local();
-  integrator_.advance();
+  step();
   if (!cut_at_end())
     return;
   observe();
