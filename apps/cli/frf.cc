@@ -112,7 +112,8 @@ Command frf_command()
        {"--lowest", &own->lowest, "frequency, such as \"1 Hz\" (default: a quarter of the lowest mode)"},
        {"--highest", &own->highest, "frequency (default: 1.5 times the highest mode that is listed)"},
        CommandOption{"--points", &own->points, "frequencies, beside those that peaks ask for (default 400)"}
-           .above_zero(),
+           .above_zero()
+           .at_most(1e6),
        CommandOption{"--spacing", &own->spacing, "of the frequencies: log (default) or linear"}.one_of(
            {"log", "linear"}),
        {"--measured", &own->measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"},

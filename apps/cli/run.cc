@@ -84,7 +84,8 @@ void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &file, 
 int run_scene(const CommonOptions &options, const RunAsked &asked)
 {
   ProgressLine progress(options.quiet);
-  Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
+  const auto   told = nothing_to_save_before("integration", progress.callback());
+  Session      session(options.input, options.overrides, options.scripts, {told, &interruption()});
   session.check_run();
   std::vector<OutputName> outputs;
   if (asked.budget)

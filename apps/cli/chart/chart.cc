@@ -431,7 +431,7 @@ Command chart_command()
        {"--peers,!--no-peers", &own->peers, "general-purpose integrators as well (default)"},
        {"--native-vectors", &own->native, "peers with vector arithmetic compiled for this processor"},
        {"--quick", &own->quick, "a minute instead of ten: fewer methods, steps and tolerances"},
-       CommandOption{"--samples", &own->samples, "instants that errors are measured at (default 2000)"},
+       CommandOption{"--samples", &own->samples, "instants that errors are measured at (default 2000)"}.at_most(1e6),
        CommandOption{"--limit", &own->limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)"}
            .above_zero(),
        {"--reductions", &own->reductions.asked, "reductions of the frame instead, over numbers of modes"},
