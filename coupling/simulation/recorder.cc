@@ -326,6 +326,7 @@ void Recorder::balance()
   const Instant    &now    = integrator_.instant();
   const EnergyState energy = energy_.state(now);
   guard_.step(energy, now.q.size() > 0 ? now.q.cwiseAbs().maxCoeff() : 0.);
+  rounding_.step(now.q);
   result_.energy = {energy.input, energy.stored, energy.dissipated, guard_.residual(), guard_.exchanged()};
 }
 
@@ -366,6 +367,9 @@ void Recorder::finish()
                                "\" on, which did not happen: its extremes are those of the end");
     extremes_.look_anew(i);
   }
+  if (const std::string words = rounding_.words(machine_.linear(), guard_.exchanged(), energy_.at_begin());
+      !words.empty())
+    result_.warnings.push_back(words);
   const EnergyGuard::Verdict verdict = guard_.verdict();
   if (verdict == EnergyGuard::Verdict::closed)
     return;
@@ -380,8 +384,8 @@ void Recorder::exchange(StateArchive &archive)
 {
   archive(result_.signals, result_.rows, result_.event_values, result_.energy, result_.picture_times,
           result_.picture_states, result_.picture_velocities, result_.picture_forces);
-  archive(keeper_, around_, energy_, guard_, between_, a_, extremes_, behind_, pending_, length_, settled_, next_row_,
-          next_picture_, close_until_, close_budget_);
+  archive(keeper_, around_, energy_, guard_, rounding_, between_, a_, extremes_, behind_, pending_, length_, settled_,
+          next_row_, next_picture_, close_until_, close_budget_);
 }
 
 } // namespace gestell::coupling

@@ -4,6 +4,7 @@
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/energy_guard.h"
 #include "coupling/simulation/extreme_states.h"
+#include "coupling/simulation/rounding_guard.h"
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/signal_extremes.h"
 #include "coupling/simulation/states_around.h"
@@ -73,6 +74,7 @@ private:
   EnergyBalance                energy_;
   PowerRule                    power_rule_;
   EnergyGuard                  guard_;
+  RoundingGuard                rounding_;
   std::vector<int>             coordinates_; ///< that signals read
   Instant                      between_;
   Eigen::VectorXd              a_, p_;
