@@ -26,6 +26,18 @@ double resolution(double t, double h)
 {
   return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
 }
+
+/// A step of any method ends in a state, whatever looks on; else it is given up.
+/// @throws ConvergenceFailure
+void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
+{
+  integrator.advance();
+  if (is_finite(integrator.local()))
+    return;
+  const std::string words = no_number_words(system, integrator.local());
+  integrator.cut(integrator.step_begin());
+  throw ConvergenceFailure(words);
+}
 } // namespace
 
 EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options)
@@ -86,17 +98,6 @@ void EventDriver::hold_what_is_still()
   }
 }
 
-/// One of the integrator, whose end is a state: of all methods, and whatever looks on.
-void EventDriver::step()
-{
-  integrator_.advance();
-  if (is_finite(integrator_.local()))
-    return;
-  const std::string words = no_number_words(system_, integrator_.local());
-  integrator_.cut(integrator_.step_begin());
-  throw ConvergenceFailure(words);
-}
-
 void EventDriver::advance()
 {
   if (!options_.locate)
@@ -105,7 +106,7 @@ void EventDriver::advance()
     tell_events();
     return;
   }
-  step();
+  make_step(integrator_, system_);
   const double full = integrator_.time() - integrator_.step_begin();
   if (integrator_.time() - window_begin_ > length_ + full)
   {
@@ -145,7 +146,7 @@ void EventDriver::advance()
 void EventDriver::step_over()
 {
   before_ = integrator_.local();
-  step();
+  make_step(integrator_, system_);
   if (!cut_at_end())
     return;
   observe();

@@ -47,7 +47,7 @@ public:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
   /// One step of the integrator, or the part of it up to its first event.  The history is up to date afterwards.
-  /// @throws ConvergenceFailure, also where a motion or force at its end is no finite number; the step is not made then
+  /// @throws ConvergenceFailure
   void advance();
 
   /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
@@ -95,7 +95,6 @@ private:
   double sign(int guard) const { return system_.events().crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
   void   take(const Crossing &crossing);
   void   step_over();
-  void   step();
   bool   cut_at_end();
   void   observe() const;
   void   tell_events();
