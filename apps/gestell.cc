@@ -69,15 +69,44 @@ int fail(int exit_code, const std::string &message, JsonAnswer &answer)
   return exit_code;
 }
 
+bool has_word(int argc, char **argv, const std::string &word)
+{
+  return std::find(argv + 1, argv + argc, word) != argv + argc;
+}
+
+/// The command line as ranks compare it.
+std::string words_of(int argc, char **argv)
+{
+  std::string words;
+  for (int i = 1; i < argc; ++i)
+    words += std::string(" ") + argv[i];
+  return words;
+}
+
+/// Whether this process goes its own way: each for a case, or ranks that make shares of a study.
+void choose_team(int argc, char **argv)
+{
+  if (has_word(argc, argv, "--apart") || apart_by_environment())
+    leave_team();
+  else if (argc > 1 && std::string(argv[1]) == "study")
+    part_team(words_of(argc, argv));
+}
+
 int run_guarded(int argc, char **argv, JsonAnswer &answer)
 {
   try
   {
-    MpiRun ranks;
-    if (!ranks.serves())
-      return run_program(argc, argv);
-    ranks.serve();
-    return exit_done;
+    choose_team(argc, argv);
+    MpiRun ranks(words_of(argc, argv));
+    if (ranks.serves())
+    {
+      ranks.serve();
+      return exit_done;
+    }
+    const int exit_code = run_program(argc, argv);
+    if (exit_code == exit_done)
+      ranks.tell_idle();
+    return exit_code;
   }
   catch (const std::invalid_argument &error)
   {
@@ -103,10 +132,9 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
 
 int main(int argc, char **argv)
 {
-  if (argc > 1 && std::string(argv[1]) == "study") // ranks make shares of it, each by itself
-    leave_team();
-  const bool json = std::any_of(argv + 1, argv + argc, [](const char *word) { return word == std::string("--json"); });
-  JsonAnswer answer(json && coupling::launch().rank == 0);
+  const bool apart  = has_word(argc, argv, "--apart") || apart_by_environment();
+  const bool speaks = apart || coupling::launch().rank == 0 || (argc > 1 && std::string(argv[1]) == "study");
+  JsonAnswer answer(speaks && has_word(argc, argv, "--json"));
   const int  exit_code = run_guarded(argc, argv, answer);
   answer.finish(argc > 1 ? argv[1] : "", exit_code);
   return exit_code;

@@ -10,6 +10,13 @@ CommandOption CommandOption::above_zero() const
   return option;
 }
 
+CommandOption CommandOption::at_most(double number) const
+{
+  CommandOption option = *this;
+  option.most          = number;
+  return option;
+}
+
 CommandOption CommandOption::existing_file() const
 {
   CommandOption option = *this;

@@ -49,8 +49,10 @@ struct CommandOption
   std::vector<std::string> choices   = {}; ///< empty: any text
   std::string              needs     = ""; ///< option without which it has no meaning
   std::vector<std::string> proposals = {}; ///< words for completion, where others are refused elsewhere or are none
+  double                   most      = 0.; ///< of a number that memory grows with; 0: any
 
   CommandOption above_zero() const;
+  CommandOption at_most(double number) const;
   CommandOption existing_file() const;
   CommandOption one_of(const std::vector<std::string> &names) const;
   CommandOption proposing(const std::vector<std::string> &words) const;

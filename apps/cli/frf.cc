@@ -65,8 +65,8 @@ int find_response(const CommonOptions &options, const FrfOptions &asked, const s
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
-  const Result result = session.frequency_response(asked);
+  const HeldFolder            held(folder);
+  const Result                result = session.frequency_response(asked);
   progress.done();
   const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
   if (beside_a_run)
@@ -112,7 +112,8 @@ Command frf_command()
        {"--lowest", &own->lowest, "frequency, such as \"1 Hz\" (default: a quarter of the lowest mode)"},
        {"--highest", &own->highest, "frequency (default: 1.5 times the highest mode that is listed)"},
        CommandOption{"--points", &own->points, "frequencies, beside those that peaks ask for (default 400)"}
-           .above_zero(),
+           .above_zero()
+           .at_most(1e6),
        CommandOption{"--spacing", &own->spacing, "of the frequencies: log (default) or linear"}.one_of(
            {"log", "linear"}),
        {"--measured", &own->measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"},

@@ -1,5 +1,8 @@
 #include "apps/cli/interruption.h"
 
+#include "apps/cli/command.h"
+#include "apps/cli/json_answer.h"
+
 #include <csignal>
 #include <ctime>
 #include <unistd.h>
@@ -10,6 +13,7 @@ namespace gestell::apps
 namespace
 {
 std::atomic<bool> interrupted{false};
+std::atomic<bool> nothing_to_save{false};
 timespec          first_time{};
 
 double seconds_since_first()
@@ -20,9 +24,15 @@ double seconds_since_first()
          1e-9 * static_cast<double>(now.tv_nsec - first_time.tv_nsec);
 }
 
-// Only what is safe in a signal handler: an atomic, clock_gettime, write, signal, raise.
+// Only what is safe in a signal handler: an atomic, clock_gettime, write, _exit, signal, raise.
 extern "C" void note_interruption(int signal_number)
 {
+  if (nothing_to_save)
+  {
+    constexpr char              message[] = "\ngestell: interrupted; nothing was computed yet that could be saved\n";
+    [[maybe_unused]] const auto written   = write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(exit_interrupted);
+  }
   if (!interrupted.exchange(true))
   {
     clock_gettime(CLOCK_MONOTONIC, &first_time);
@@ -50,6 +60,18 @@ const std::atomic<bool> &interruption()
   }();
   (void)installed;
   return interrupted;
+}
+
+coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress)
+{
+  nothing_to_save = !answers_in_json(); // of which there is a document in any case
+  return [phase, progress](const std::string &now, double share)
+  {
+    if (now == phase)
+      nothing_to_save = false;
+    if (progress)
+      progress(now, share);
+  };
 }
 
 } // namespace gestell::apps

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "coupling/frame/reduction_options.h"
+
 #include <atomic>
+#include <string>
 
 namespace gestell::apps
 {
@@ -8,5 +11,9 @@ namespace gestell::apps
 /// Becomes true when the user interrupts (SIGINT, SIGTERM); a further one, half a second later or more,
 /// ends the program at once.
 const std::atomic<bool> &interruption();
+
+/// What `progress` hears, until a phase of this name begins: before, there is nothing to save, and an interruption ends
+/// the program at once, with exit code 130, however long what is under way would take.
+coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress);
 
 } // namespace gestell::apps

@@ -2,6 +2,7 @@
 #include "apps/cli/command_answers.h"
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
 #include "apps/output/faces/faces_page.h"
 #include "apps/output/paraview/face_surface.h"
 #include "apps/output/result_folder.h"
@@ -190,8 +191,9 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
   const fem::FrameSpecification frame = frame_of(options, mesh);
   if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
     std::cerr << "gestell: warning: --density " << suspicion << '\n';
+  std::optional<HeldFolder> held;
   if (!mesh.folder.empty())
-    require_writable(mesh.folder);
+    held.emplace(mesh.folder);
   ProgressLine progress(options.quiet);
   const auto   report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
                                                        { progress.show(phase, share); });

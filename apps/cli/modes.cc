@@ -162,7 +162,7 @@ int find_modes(const CommonOptions &options, const Asked &asked)
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
+  const HeldFolder            held(folder);
 
   std::optional<coupling::MeshConvergence> convergence;
   if (asked.mesh.converge > 0.)
@@ -221,6 +221,7 @@ Command modes_command()
        CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
        CommandOption{"--positions", &own->modes.positions,
                      "how many, both ends included (default 73: every 5 deg of a turn)"}
+           .at_most(1e5)
            .with("--along"),
        CommandOption{"--configuration", &own->modes.configuration,
                      "equilibrium (default): standing still under weights and springs; or undeformed"}
@@ -231,7 +232,8 @@ Command modes_command()
        CommandOption{"--speed", &own->modes.speed,
                      "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
            .with("--along"),
-       CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().with("--along"),
+       CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with(
+           "--along"),
        CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
            "--along"),
        CommandOption{"--converge", &own->mesh.converge,

@@ -89,11 +89,12 @@ void print_solutions(const PeriodicResult &result)
 int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
 {
   ProgressLine progress(options.quiet);
-  Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
+  const auto   told = nothing_to_save_before("periodic motions", progress.callback());
+  Session      session(options.input, options.overrides, options.scripts, {told, &interruption()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
-  const Result result = session.periodic(request);
+  const HeldFolder            held(folder);
+  const Result                result = session.periodic(request);
   progress.done();
   prepare_folder(folder);
   write_results(folder, result);
@@ -128,19 +129,23 @@ Command periodic_command()
         "why)"},
        {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
        CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
-           .above_zero(),
+           .above_zero()
+           .at_most(1000),
        {"--along", &own->along, "follow the motions along an entry of the scene, such as parameters.speed"},
        CommandOption{"--from", &own->from, "its first value, such as \"800 1/min\""}.with("--along"),
        CommandOption{"--to", &own->to, "its last value"}.with("--along"),
-       CommandOption{"--points", &own->points, "about so many from end to end (default 100)"}.above_zero().with(
-           "--along"),
+       CommandOption{"--points", &own->points, "about so many from end to end (default 100)"}
+           .above_zero()
+           .at_most(1e6)
+           .with("--along"),
        CommandOption{"--harmonics", &own->harmonics, "of harmonic balance (default: until what is left out is small)"}
-           .above_zero(),
+           .above_zero()
+           .at_most(1e4),
        CommandOption{"--lead-in", &own->lead_in, "periods integrated before Newton's method begins (default 10)"},
        CommandOption{"--closing", &own->tolerance,
                      "how well a motion must close, relative to its speed (default 1e-10)"}
            .above_zero(),
-       CommandOption{"--starts", &own->starts, "of minimise (default 64)"}.above_zero(),
+       CommandOption{"--starts", &own->starts, "of minimise (default 64)"}.above_zero().at_most(1e6),
        CommandOption{"--damping", &own->damping,
                      "of settling: share of critical by which the lowest mode is damped more at first"}
            .above_zero(),
@@ -149,12 +154,15 @@ Command periodic_command()
        {"--basins", &own->basins,
         "to which motion starts settle that differ in two coordinates or rates, such as \"slide, slide'\" or \"slide "
         "from -1 to 1, slide' from -2 to 2\" (default ends: twice the largest excursions of the motions found)"},
-       CommandOption{"--basin-points", &own->basin_points, "starts along a side (default 60)"}.above_zero().with(
-           "--basins"),
+       CommandOption{"--basin-points", &own->basin_points, "starts along a side (default 60)"}
+           .above_zero()
+           .at_most(2000)
+           .with("--basins"),
        CommandOption{"--section", &own->section,
                      "follow the motion for so many periods, 64 or more, and tell what it does in the long run "
                      "(default: 256 where no motion is found, of minimise none that lasts)"}
-           .above_zero()},
+           .above_zero()
+           .at_most(1e6)},
       [own](const CommonOptions &options) { return find_periodic(options, *own); }};
 }
 

@@ -18,6 +18,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace gestell::apps
 {
@@ -145,10 +146,11 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     throw std::invalid_argument(scene.frame.place +
                                 ": --export cannot write a frame of parts, whose forces in joints need "
                                 "accelerations; -o alone writes it for [frame] reduced = ...");
-  const auto        format = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
-  const std::string folder = exports ? results_path(options, scene).string() : options.folder;
+  const auto                format = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
+  const std::string         folder = exports ? results_path(options, scene).string() : options.folder;
+  std::optional<HeldFolder> held;
   if (!folder.empty())
-    require_writable(folder);
+    held.emplace(folder);
   const FrameAnswer             answer = session.reduced_frame();
   const coupling::ReducedFrame &frame  = answer.frame;
   progress.done();

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "apps/cli/command.h"
+#include "apps/output/folder_lock.h"
+#include "apps/output/result_folder.h"
 #include "apps/scene/values/requests.h"
 
 #include <filesystem>
+#include <iostream>
 
 namespace gestell::apps
 {
@@ -13,5 +16,21 @@ inline std::filesystem::path results_path(const CommonOptions &options, const Sc
 {
   return options.folder.empty() ? std::filesystem::path("results") / scene.name : std::filesystem::path(options.folder);
 }
+
+/// A folder for results that can be written and is held, from before anything is computed until they are there; says
+/// where it cannot be held.
+class HeldFolder
+{
+public:
+  /// @throws std::invalid_argument as require_writable() and FolderLock
+  explicit HeldFolder(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
+  {
+    if (!lock_.note().empty())
+      std::cerr << "gestell: warning: " << lock_.note() << '\n';
+  }
+
+private:
+  FolderLock lock_;
+};
 
 } // namespace gestell::apps

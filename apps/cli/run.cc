@@ -84,14 +84,15 @@ void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &file, 
 int run_scene(const CommonOptions &options, const RunAsked &asked)
 {
   ProgressLine progress(options.quiet);
-  Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
+  const auto   told = nothing_to_save_before("integration", progress.callback());
+  Session      session(options.input, options.overrides, options.scripts, {told, &interruption()});
   session.check_run();
   std::vector<OutputName> outputs;
   if (asked.budget)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
-  std::optional<Session> other;
+  const HeldFolder            held(folder);
+  std::optional<Session>      other;
   if (!asked.compare.empty())
     require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));

@@ -76,8 +76,8 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   const Scene                &scene   = session.scene();
   const auto                  outputs = budget_outputs(scene, asked.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
-  require_writable(folder);
-  const SizedModel model =
+  const HeldFolder            held(folder);
+  const SizedModel            model =
       climbed(scene, outputs, asked,
               [&](const ModelVariant &other) { return readable(scene, options.overrides, other, folder); });
 

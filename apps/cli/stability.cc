@@ -72,7 +72,7 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
   const std::filesystem::path folder =
       with_scene ? results_path(options, *scene)
                  : std::filesystem::path(options.folder.empty() ? "results/stability" : options.folder);
-  require_writable(folder);
+  const HeldFolder held(folder);
 
   const std::vector<MethodFamily> families = method_families();
   StabilityStudy                  study;

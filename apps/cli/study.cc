@@ -84,8 +84,10 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   share_among_ranks(team_left(), call);
   require_writable(call.folder);
   const StudyLock lock(call.folder, call.share);
-  StudyRunner     runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
-  ProgressLine    progress(options.quiet || !speaks);
+  if (!lock.note().empty() && speaks)
+    std::cerr << "gestell: warning: " << lock.note() << '\n';
+  StudyRunner  runner(study, points.levels, options.scripts, study.keep ? call.folder : std::filesystem::path());
+  ProgressLine progress(options.quiet || !speaks);
   call.progress            = [&](int done, int n) { progress.show("runs", double(done) / n); };
   call.learned             = [&](const std::vector<StudyOutput> &outputs) { check_units(analysis.claims, outputs); };
   const StudyAnswer answer = make_study(study, points, runner, call);

@@ -1,28 +1,66 @@
 #include "apps/cli/team.h"
 
 #include "coupling/plugin/frame_service_loader.h"
+#include "coupling/plugin/plugin.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <stdexcept>
 #include <string>
+#include <sys/wait.h>
 #include <unistd.h>
 #include <vector>
 
 namespace gestell::apps
 {
-
-MpiRun::MpiRun() : launch_(coupling::launch()), team_(coupling::team_service())
+namespace
 {
-  if (launch_.size > 1 && launch_.rank == 0 && !team_)
-    std::cerr << "gestell: this build has no finite element side, so rank 0 of " << launch_.size
-              << " computes alone; build it with GESTELL_FEM=ON\n";
+
+std::string working_folder()
+{
+  std::error_code gone;
+  return std::filesystem::current_path(gone).string();
+}
+
+/// Ranks compute one thing together: what others than rank 0 were called for would be lost without a word.
+void require_same_calls(const coupling::Launch &launched, const std::string &words, int n_others)
+{
+  if (n_others == 0)
+    return;
+  throw std::invalid_argument(
+      std::string(launched.by) + ": " + std::to_string(n_others) + " of " + std::to_string(launched.size) +
+      " ranks were called by other words, or in another folder, than rank 0 (gestell" + words + ", in " +
+      working_folder() + "), but ranks compute one thing together; call all of them alike, or say " +
+      coupling::way_of_cases);
+}
+
+} // namespace
+
+MpiRun::MpiRun(const std::string &words) : launch_(coupling::launch()), team_(coupling::team_service())
+{
+  if (launch_.size == 1)
+    return;
+  if (!team_)
+    throw std::invalid_argument(
+        std::string(launch_.by) + ": this build has no finite element side, for which " + std::to_string(launch_.size) +
+        " processes could compute together; build it with GESTELL_FEM=ON, or say " + coupling::way_of_cases);
+  require_same_calls(launch_, words, coupling::ranks_called_otherwise(words, working_folder()));
 }
 
 MpiRun::~MpiRun()
 {
   if (team_ && launch_.rank == 0)
     team_->dismiss();
+}
+
+void MpiRun::tell_idle() const
+{
+  if (launch_.size > 1 && launch_.rank == 0 && !coupling::plugin_is_loaded("libgestell_frame.so"))
+    std::cerr << "gestell: " << launch_.size - 1 << " of " << launch_.size
+              << " ranks were idle: there was no frame to compute\n";
 }
 
 bool MpiRun::serves() const
@@ -64,16 +102,55 @@ std::vector<std::string> variables_of(const std::vector<std::string> &beginnings
 
 void leave_team()
 {
+  for (const std::string &name : variables_of({"OMPI_", "PMIX_", "PMI_", "SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}))
+    unsetenv(name.c_str());
+}
+
+namespace
+{
+
+/// By a process of its own, as MPI cannot be left and begun again.  @return ranks that were called otherwise
+int called_otherwise(const std::string &words)
+{
+  constexpr int most = 200, failed = 255; // of what an exit code tells
+  const pid_t   child = fork();
+  if (child == 0)
+    try
+    {
+      coupling::team_service();
+      std::exit(std::min(most, coupling::ranks_called_otherwise(words, working_folder())));
+    }
+    catch (const std::exception &)
+    {
+      _exit(failed);
+    }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) == failed)
+    return 0; // no MPI in common: ranks share files alone
+  return WEXITSTATUS(status);
+}
+
+} // namespace
+
+void part_team(const std::string &words)
+{
   left = coupling::launch();
   if (left.size == 1)
     return;
-  for (const std::string &name : variables_of({"OMPI_", "PMIX_", "PMI_", "SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}))
-    unsetenv(name.c_str());
+  const int n_others = called_otherwise(words);
+  require_same_calls(left, words, n_others);
+  leave_team();
 }
 
 coupling::Launch team_left()
 {
   return left;
+}
+
+bool apart_by_environment()
+{
+  const char *const wanted = std::getenv("GESTELL_APART");
+  return wanted && *wanted && wanted != std::string("0");
 }
 
 } // namespace gestell::apps

@@ -2,6 +2,8 @@
 
 #include "coupling/plugin/team_loader.h"
 
+#include <string>
+
 namespace gestell::apps
 {
 
@@ -13,8 +15,9 @@ namespace gestell::apps
 class MpiRun
 {
 public:
-  /// @throws std::invalid_argument see coupling::team_service().
-  MpiRun();
+  /// @param words  of the command line: ranks that were called otherwise are no team
+  /// @throws std::invalid_argument see coupling::team_service(), and require_same_calls()
+  explicit MpiRun(const std::string &words);
   ~MpiRun();
   MpiRun(const MpiRun &)            = delete;
   MpiRun &operator=(const MpiRun &) = delete;
@@ -23,15 +26,23 @@ public:
   bool serves() const;
   /// Does what rank 0 orders until it is dismissed.
   void serve();
+  /// Rank 0, at the end: says so where the others had nothing to do.
+  void tell_idle() const;
 
 private:
   coupling::Launch       launch_;
   coupling::TeamService *team_;
 };
 
-/// Makes this process one that no launcher started, for ranks that share nothing but files; before any MpiRun.
+/// Makes this process one that no launcher started; before any MpiRun.
 void leave_team();
-/// What it was among those that the launcher started; alone if it did not leave any.
+/// As leave_team() for ranks that share nothing but files, and know of each other.
+/// @throws std::invalid_argument if they were called otherwise than rank 0
+void part_team(const std::string &words);
+/// What it was among the ranks that share files; alone if there are none.
 coupling::Launch team_left();
+
+/// Whether the user wants a case of its own per process: the environment has GESTELL_APART, and not as 0.
+bool apart_by_environment();
 
 } // namespace gestell::apps

@@ -1,5 +1,6 @@
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
+#include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"
 #include "apps/session/commit.h"
@@ -162,8 +163,8 @@ int verify(const VerifyOptions &asked)
     list(files);
     return exit_done;
   }
-  const fs::path folder = asked.folder;
-  require_writable(folder);
+  const fs::path   folder = asked.folder;
+  const HeldFolder held(folder);
   if (!asked.docs.empty() && !fs::is_directory(asked.docs))
     throw std::invalid_argument("--renew: there is no folder '" + asked.docs +
                                 "'; it takes the folder of the documents, docs");

@@ -3,6 +3,7 @@
 #include "apps/session/commit.h"
 #include "apps/version.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,18 @@ CLI::Validator above_zero()
                    : "needs a plain number above zero, got " + text;
       },
       "NUMBER");
+}
+
+CLI::Validator at_most(double most)
+{
+  return CLI::Validator(
+      [most](const std::string &text)
+      {
+        return std::strtod(text.c_str(), nullptr) <= most
+                   ? std::string()
+                   : "needs a number up to " + rounded(most, 15) + ", got " + text;
+      },
+      "");
 }
 
 std::vector<std::string> command_names(const CLI::App &program)
@@ -113,6 +126,8 @@ void add_option(CLI::App &command, const CommandOption &option)
   CLI::Option *added = std::visit(AddOption{command, option}, option.value);
   if (option.range == CommandOption::Range::above_zero)
     added->check(above_zero());
+  if (option.most > 0.)
+    added->check(at_most(option.most));
   if (option.range == CommandOption::Range::existing_file)
     added->check(existing());
   if (std::holds_alternative<std::string *>(option.value))
@@ -132,6 +147,7 @@ void add_command(CLI::App &program, const Command &command, CommonOptions &optio
     footer += "\n  " + example;
   added->footer(footer);
   added->add_flag("--json", "one JSON document on standard output in place of text");
+  added->add_flag("--apart", "a case of its own per process of mpirun or srun (also by GESTELL_APART=1)");
   add_input(*added, command.input, options);
   for (const CommandOption &option : command.options)
     add_option(*added, option);

@@ -78,6 +78,9 @@ interrupted; what was computed is kept
 \fBGESTELL_CACHE\fR
 folder of reduced frames (default: gestell in \fBXDG_CACHE_HOME\fR, or in ~/.cache)
 .TP
+\fBGESTELL_APART\fR
+"1": as the option --apart, every process of mpirun or srun for itself
+.TP
 \fBGESTELL_KERNELS\fR
 "portable": triangular solves without the vector instructions of this processor
 .SH FILES

@@ -1,5 +1,6 @@
 #include "apps/library/scene.h"
 
+#include "apps/output/folder_lock.h"
 #include "apps/output/result_folder.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
@@ -88,6 +89,8 @@ std::vector<double> Run::history(const std::string &signal) const
 
 void Run::save(const std::string &folder) const
 {
+  apps::require_writable(folder);
+  const apps::FolderLock held(folder);
   apps::prepare_folder(folder);
   apps::write_results(folder, parts_->result);
 }

@@ -28,7 +28,8 @@ namespace
                               "; name a folder that can be written with -o DIR.");
 }
 
-const char *const complete = "summary.json"; ///< the first to be removed and the last to be written
+constexpr int     most_tries = 1000;           ///< while others make and remove the place
+const char *const complete   = "summary.json"; ///< the first to be removed and the last to be written
 
 template <typename Chosen>
 void remove_files(const fs::path &folder, const Chosen &chosen)
@@ -111,14 +112,21 @@ void require_writable(const fs::path &folder)
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     refuse(folder, "this is a file, not a folder");
 
-  // What is missing is made when there is something to put into it: others may be at the same place.
-  fs::path there = fs::absolute(folder).lexically_normal();
-  while (!fs::exists(there, error) && there.has_relative_path())
-    there = there.parent_path();
-  const bool        whole   = fs::exists(folder, error);
-  const std::string failure = fs::is_directory(there, error) ? probe(there) : "Not a directory";
+  // What is missing is made when there is something to put into it: others may be at the same place, and take away what
+  // they made there.
+  std::string failure;
+  for (int tries = 0; tries < most_tries; ++tries)
+  {
+    fs::path there = fs::absolute(folder).lexically_normal();
+    while (!fs::exists(there, error) && there.has_relative_path())
+      there = there.parent_path();
+    failure = fs::is_directory(there, error) ? probe(there) : "Not a directory";
+    if (failure.empty() || fs::exists(there, error))
+      break;
+  }
   if (!failure.empty())
-    refuse(folder, std::string("it cannot be ") + (whole ? "written (" : "created (") + failure + ")");
+    refuse(folder,
+           std::string("it cannot be ") + (fs::exists(folder, error) ? "written (" : "created (") + failure + ")");
 }
 
 void prepare_folder(const fs::path &folder)

@@ -1,5 +1,6 @@
 // The module _gestell, on which gestell.py rests.
 
+#include "apps/output/folder_lock.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/python/answer_values.h"
@@ -98,6 +99,7 @@ std::vector<std::string> save(PythonResult &result, const py::object &folder)
 {
   const std::string path = py::str(folder).cast<std::string>();
   apps::require_writable(path);
+  const apps::FolderLock held(path);
   apps::prepare_folder(path);
   return apps::write_results(path, result.whole_result());
 }

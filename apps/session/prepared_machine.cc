@@ -308,6 +308,58 @@ void add_poles(const Scene &scene, coupling::Machine &machine, const Eigen::Vect
     result.poles.resize(scene.modes.number);
 }
 
+void add_modes(const Scene &scene, coupling::Machine &machine, const Eigen::VectorXd &q,
+               const coupling::Linearisation &how, Result &result)
+{
+  result.modes_at      = q;
+  result.coupled_modes = coupling::linearised_modes(machine, q, how, scene.modes.number);
+  if (!result.coupled_modes.empty())
+    result.energy_shares = coupling::energy_shares(machine, q, scene.modes.open, result.coupled_modes);
+  add_poles(scene, machine, q, how, result);
+}
+
+/// What there is none of, or nothing where the work was done.
+template <typename Work>
+std::string none_by(const Work &work)
+{
+  try
+  {
+    work();
+    return "";
+  }
+  catch (const std::invalid_argument &none)
+  {
+    return none.what();
+  }
+  catch (const coupling::ConvergenceFailure &none)
+  {
+    return none.what();
+  }
+}
+
+/// Modes that stand beside another answer: where a law has no stiffness in the configuration of the modes, those of the
+/// start; where there are none either, the answer goes without them.
+void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coupling::Linearisation &how,
+                      Result &result)
+{
+  const Eigen::VectorXd q   = modes_configuration(scene, machine);
+  const std::string     why = none_by([&] { add_modes(scene, machine, q, how, result); });
+  if (why.empty())
+    return;
+  const std::string why_none =
+      none_by([&] { add_modes(scene, machine, initial_state(scene, machine).q, how, result); });
+  if (why_none.empty())
+  {
+    result.warnings.push_back("the modes are those of the start, as there are none where modes are taken: " + why);
+    return;
+  }
+  result.modes_at = q;
+  result.coupled_modes.clear();
+  result.energy_shares.reset();
+  result.poles.clear();
+  result.warnings.push_back("no modes are told: " + why);
+}
+
 } // namespace
 
 Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
@@ -324,21 +376,19 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
   result.model.damping = damping_text(scene.frame);
   result.model.mesh    = mesh_text(scene.frame);
   result.frame_modes   = coupling::frame_modes(small, scene.modes.number);
-  const coupling::Linearisation how{scene.modes.open, geometric};
-  const Eigen::VectorXd         q = modes_configuration(scene, small);
-  result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
-  if (!result.coupled_modes.empty())
-    result.energy_shares = coupling::energy_shares(small, q, scene.modes.open, result.coupled_modes);
-  result.modes_at = q;
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
+  const coupling::Linearisation how{scene.modes.open, geometric};
+  if (command == "modes")
+    add_modes(scene, small, modes_configuration(scene, small), how, result);
+  else
+    add_modes_beside(scene, small, how, result);
   for (const auto &warnings :
        {carried_warnings(scene, small.model()), idle_bodies(scene, small.model()), remote_joints(scene, small.model())})
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
-  add_poles(scene, small, q, how, result);
   result.scenery        = scenery_of(small);
   result.scenery.forces = forces_in_space(scene, small);
   for (const BodyRequest &body : scene.bodies)

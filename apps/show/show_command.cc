@@ -1,5 +1,6 @@
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
 #include "apps/output/result_folder.h"
 #include "apps/show/result_collections.h"
 #include "apps/show/x_server.h"
@@ -47,7 +48,7 @@ int show(const ShowOptions &options)
   request.series = pictures_of(options.folder, static_cast<std::size_t>(options.modes));
   request.folder = options.pictures.empty() ? std::filesystem::path(options.folder) / "pictures"
                                             : std::filesystem::path(options.pictures);
-  require_writable(request.folder);
+  const HeldFolder held(request.folder);
   request.width       = options.width;
   request.height      = options.width * 4 / 5;
   request.enlargement = options.times;

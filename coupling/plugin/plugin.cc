@@ -65,6 +65,12 @@ void *load_plugin(const fs::path &file)
   return handle;
 }
 
+bool plugin_is_loaded(const char *library)
+{
+  const fs::path file = find_plugin(library);
+  return !file.empty() && dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
+}
+
 void *function_of_plugin(void *plugin, const char *name, const char *library)
 {
   void *const function = dlsym(plugin, name);

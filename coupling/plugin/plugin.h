@@ -13,6 +13,9 @@ std::filesystem::path find_plugin(const char *library);
 /// Loads it, never to be unloaded.  @throws std::invalid_argument with the loader's reason.
 void *load_plugin(const std::filesystem::path &file);
 
+/// Whether this process has loaded it.
+bool plugin_is_loaded(const char *library);
+
 /// The function of this name in a loaded plugin.  @throws std::invalid_argument if there is none.
 void *function_of_plugin(void *plugin, const char *name, const char *library);
 

@@ -14,36 +14,65 @@ namespace
 
 constexpr const char *team_library = "libgestell_team.so";
 
-/// Variables of launchers for the number of processes and the own place among them.
-constexpr const char *launchers[][2] = {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
-                                        {"PMI_SIZE", "PMI_RANK"},
-                                        {"SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
+/// Variables of a launcher for the number of processes and the own place among them.
+struct Launcher
+{
+  const char *by, *size, *rank;
+};
+constexpr Launcher launchers[] = {{"mpirun", "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"},
+                                  {"mpirun", "PMI_SIZE", "PMI_RANK"},
+                                  {"srun", "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"}};
+
+/// srun starts processes without any MPI, too; those of the other launchers have the variables above from it.
+void require_mpi(const Launch &launched)
+{
+  if (launched.by != std::string("srun") || std::getenv("PMIX_RANK") || std::getenv("PMIX_NAMESPACE"))
+    return;
+  throw std::invalid_argument("srun: started " + std::to_string(launched.size) +
+                              " processes, but no MPI that they share, so that they cannot compute one thing together; "
+                              "use srun --mpi=pmix, or " +
+                              way_of_cases);
+}
+
+void *team_plugin()
+{
+  static void *const plugin = load_plugin(find_plugin(team_library));
+  return plugin;
+}
+
+template <typename Function>
+Function *function(const char *name)
+{
+  return reinterpret_cast<Function *>(function_of_plugin(team_plugin(), name, team_library));
+}
 
 TeamService *load_team()
 {
   const Launch launched = launch();
-  const auto   file     = find_plugin(team_library);
-  if (launched.size == 1 || file.empty())
+  if (launched.size == 1)
     return nullptr;
-  void *const plugin = load_plugin(file);
-  const auto  entry =
-      reinterpret_cast<TeamService *(*)()>(function_of_plugin(plugin, "gestell_team_service", team_library));
-  TeamService *const team = entry();
+  require_mpi(launched);
+  if (find_plugin(team_library).empty())
+    return nullptr;
+  TeamService *const team = function<TeamService *()>("gestell_team_service")();
   if (team->size() != launched.size)
-    throw std::invalid_argument("mpirun: started " + std::to_string(launched.size) + " processes, but MPI finds " +
-                                std::to_string(team->size()) +
+    throw std::invalid_argument(std::string(launched.by) + ": started " + std::to_string(launched.size) +
+                                " processes, but MPI finds " + std::to_string(team->size()) +
                                 ": the launcher belongs to another MPI than the one Gestell is built with; use the "
-                                "mpirun of that one (Debian: package openmpi-bin), or srun --mpi=pmix");
+                                "mpirun of that one (Debian: package openmpi-bin), or srun --mpi=pmix, or " +
+                                way_of_cases);
   return team;
 }
 
 } // namespace
 
+const char *const way_of_cases = "--apart (or GESTELL_APART=1) for a case of its own per process";
+
 Launch launch()
 {
-  for (const auto &[size, rank] : launchers)
+  for (const auto &[by, size, rank] : launchers)
     if (const char *many = std::getenv(size), *own = std::getenv(rank); many && own && std::atoi(many) > 1)
-      return {std::atoi(own), std::atoi(many)};
+      return {std::atoi(own), std::atoi(many), by};
   return {};
 }
 
@@ -51,6 +80,11 @@ TeamService *team_service()
 {
   static TeamService *const team = load_team();
   return team;
+}
+
+int ranks_called_otherwise(const std::string &words, const std::string &folder)
+{
+  return function<int(const char *, const char *)>("gestell_ranks_called_otherwise")(words.c_str(), folder.c_str());
 }
 
 } // namespace gestell::coupling

@@ -2,13 +2,16 @@
 
 #include "coupling/plugin/team_service.h"
 
+#include <string>
+
 namespace gestell::coupling
 {
 
 /// This process among those that a launcher (mpirun, srun) started, by what it says in the environment.
 struct Launch
 {
-  int rank = 0, size = 1;
+  int         rank = 0, size = 1;
+  const char *by = "mpirun";
 };
 Launch launch();
 
@@ -18,8 +21,15 @@ Launch launch();
  * The first call must be made by all ranks.
  *
  * @return nullptr where one process runs by itself, or this build has no finite element side.
- * @throws std::invalid_argument if the launcher belongs to another MPI, so that its processes do not find each other.
+ * @throws std::invalid_argument if the launcher gave its processes no MPI, or belongs to another one, so that they do
+ * not find each other.
  */
 TeamService *team_service();
+
+/// How many ranks were called otherwise than rank 0, by other words or in another folder; to be called by all.
+int ranks_called_otherwise(const std::string &words, const std::string &folder);
+
+/// What a user says who wants a case per process: "--apart ..."
+extern const char *const way_of_cases;
 
 } // namespace gestell::coupling

@@ -4,6 +4,8 @@
 #include "coupling/simulation/run_state.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -47,6 +49,19 @@ PowerRule power_rule(const MethodOptions &method, const Sampling &sampling)
   // Of a sine four points integrate the square to 1e-5 of it over half a period.
   constexpr double samples = 8.;
   return {method_of(method).takes_long_steps(method), samples * sampling.shortest};
+}
+
+/// @throws ConvergenceFailure
+void require_finite(const std::vector<Signal> &signals, const SignalSample &sample)
+{
+  for (std::size_t i = 0; i < signals.size(); ++i)
+    if (!std::isfinite(sample.values[i]))
+    {
+      std::ostringstream message;
+      message << "signal " << signals[i].name << " is no finite number at t = " << sample.t
+              << " s; a formula or law gives none there, or the motion grew beyond all numbers";
+      throw ConvergenceFailure(message.str());
+    }
 }
 
 } // namespace
@@ -121,9 +136,12 @@ void Recorder::tell(double t, const LocalState &local, SignalSample &sample)
     a_ = accelerations_->at(t, integrator_, local, between_.q, between_.v);
   else if (!coordinates_.empty())
     integrator_.motion_at(t, coordinates_, between_.q, between_.v);
-  sample.t = t;
+  sample.t   = t;
+  double sum = 0.;
   for (std::size_t i = 0; i < signals_.size(); ++i)
-    sample.values[i] = machine_.evaluate(signals_[i], between_.q, between_.v, a_, local);
+    sum += sample.values[i] = machine_.evaluate(signals_[i], between_.q, between_.v, a_, local);
+  if (!std::isfinite(sum))
+    require_finite(signals_, sample);
 }
 
 void Recorder::begin()
@@ -308,17 +326,38 @@ void Recorder::balance()
   const Instant    &now    = integrator_.instant();
   const EnergyState energy = energy_.state(now);
   guard_.step(energy, now.q.size() > 0 ? now.q.cwiseAbs().maxCoeff() : 0.);
+  rounding_.step(now.q);
   result_.energy = {energy.input, energy.stored, energy.dissipated, guard_.residual(), guard_.exchanged()};
+}
+
+/// What is left to tell of the motion behind the last event.
+void Recorder::settle_at_end()
+{
+  try
+  {
+    if (pending_)
+      settle();
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    if (result_.failure.empty())
+      result_.failure = failure.what();
+  }
 }
 
 void Recorder::finish()
 {
-  if (pending_)
-    settle();
+  settle_at_end();
   around_.finish();
+  if (!extremes_.begun())
+  {
+    for (SignalSummary &signal : result_.signals)
+      signal.min = signal.t_min = signal.max = signal.t_max = signal.final = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
   const SignalSample &last = extremes_.last();
   if (result_.rows.empty() || result_.rows[result_.rows.size() - result_.columns.size()] < last.t - on_grid * row_step_)
-    row(integrator_.time(), last, result_.energy);
+    row(last.t, last, result_.energy);
   for (std::size_t i = 0; i < signals_.size(); ++i)
   {
     result_.signals[i].final = last.values[i];
@@ -328,6 +367,9 @@ void Recorder::finish()
                                "\" on, which did not happen: its extremes are those of the end");
     extremes_.look_anew(i);
   }
+  if (const std::string words = rounding_.words(machine_.linear(), guard_.exchanged(), energy_.at_begin());
+      !words.empty())
+    result_.warnings.push_back(words);
   const EnergyGuard::Verdict verdict = guard_.verdict();
   if (verdict == EnergyGuard::Verdict::closed)
     return;
@@ -342,8 +384,8 @@ void Recorder::exchange(StateArchive &archive)
 {
   archive(result_.signals, result_.rows, result_.event_values, result_.energy, result_.picture_times,
           result_.picture_states, result_.picture_velocities, result_.picture_forces);
-  archive(keeper_, around_, energy_, guard_, between_, a_, extremes_, behind_, pending_, length_, settled_, next_row_,
-          next_picture_, close_until_, close_budget_);
+  archive(keeper_, around_, energy_, guard_, rounding_, between_, a_, extremes_, behind_, pending_, length_, settled_,
+          next_row_, next_picture_, close_until_, close_budget_);
 }
 
 } // namespace gestell::coupling

@@ -4,6 +4,7 @@
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/energy_guard.h"
 #include "coupling/simulation/extreme_states.h"
+#include "coupling/simulation/rounding_guard.h"
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/signal_extremes.h"
 #include "coupling/simulation/states_around.h"
@@ -51,6 +52,7 @@ private:
   void          evaluate(double t, SignalSample &sample) override;
   void          tell(double t, const LocalState &local, SignalSample &sample);
   void          settle();
+  void          settle_at_end();
   void          values_before();
   void          values_behind();
   void          follow_briefly();
@@ -72,6 +74,7 @@ private:
   EnergyBalance                energy_;
   PowerRule                    power_rule_;
   EnergyGuard                  guard_;
+  RoundingGuard                rounding_;
   std::vector<int>             coordinates_; ///< that signals read
   Instant                      between_;
   Eigen::VectorXd              a_, p_;

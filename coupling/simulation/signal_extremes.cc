@@ -118,8 +118,9 @@ void SignalExtremes::append(double t)
 {
   if (n_ == int(samples_.size()))
     samples_.resize(2 * n_, probe_);
-  SignalSample &sample = samples_[n_++];
-  run_.evaluate(t, sample);
+  SignalSample &sample = samples_[n_];
+  run_.evaluate(t, sample); // counts if it is there
+  ++n_;
   see(sample);
 }
 

@@ -1,11 +1,11 @@
 #include "apps/cli/chart/chart_methods.h"
 #include "apps/cli/chart/chart_reductions.h"
 #include "apps/cli/chart/chart_reference.h"
+#include "apps/cli/chart/work_measurement.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
-#include "apps/cli/chart/work_measurement.h"
 #include "apps/output/charts/work_precision.h"
 #include "apps/output/charts/work_precision_chart.h"
 #include "apps/output/report/work_precision_page.h"
@@ -367,7 +367,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
                                 "leave the option out or give the scene a [reduction]");
   choose_methods(chart_options.methods, PeerChoice::with, 0);
   const std::filesystem::path folder = results_path(options, scene);
-  require_writable(folder);
+  const HeldFolder            held(folder);
 
   ChartRequest request{options, chart_options, {}, {}};
   if (!chart_options.reference.empty())
@@ -431,7 +431,7 @@ Command chart_command()
        {"--peers,!--no-peers", &own->peers, "general-purpose integrators as well (default)"},
        {"--native-vectors", &own->native, "peers with vector arithmetic compiled for this processor"},
        {"--quick", &own->quick, "a minute instead of ten: fewer methods, steps and tolerances"},
-       {"--samples", &own->samples, "instants that errors are measured at (default 2000)"},
+       CommandOption{"--samples", &own->samples, "instants that errors are measured at (default 2000)"}.at_most(1e6),
        CommandOption{"--limit", &own->limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)"}
            .above_zero(),
        {"--reductions", &own->reductions.asked, "reductions of the frame instead, over numbers of modes"},

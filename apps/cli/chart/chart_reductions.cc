@@ -97,8 +97,8 @@ int chart_reductions(const CommonOptions &options, const ReductionChart &asked)
   const Scene                &scene   = session.scene();
   const auto                  outputs = budget_outputs(scene, asked.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
-  require_writable(folder);
-  ComparisonOptions how;
+  const HeldFolder            held(folder);
+  ComparisonOptions           how;
   how.full     = asked.full;
   how.on_point = print_point;
   how.stop     = &interruption();

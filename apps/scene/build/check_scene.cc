@@ -118,6 +118,19 @@ void check_start(const Scene &scene)
   }
 }
 
+/// Nothing where a law has no stiffness in that configuration: a run need not come there.
+std::vector<coupling::Mode> modes_if_any(const Scene &scene, const coupling::Machine &machine, const Eigen::VectorXd &q)
+{
+  try
+  {
+    return coupling::coupled_modes(machine, q, scene.modes.open, machine.size());
+  }
+  catch (const std::invalid_argument &)
+  {
+    return {};
+  }
+}
+
 std::string floating_frame(const Scene &scene)
 {
   const FramePath path   = frame_path(scene);
@@ -132,7 +145,7 @@ std::string floating_frame(const Scene &scene)
   try
   {
     const Eigen::VectorXd q = modes_configuration(scene, machine);
-    return free_frame(scene, machine.model(), coupling::coupled_modes(machine, q, scene.modes.open, machine.size()));
+    return free_frame(scene, machine.model(), modes_if_any(scene, machine, q));
   }
   catch (const coupling::ConvergenceFailure &)
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/folder_lock.h"
 #include "apps/study/runs/study_folder.h"
 
 namespace gestell::apps
@@ -8,19 +9,12 @@ namespace gestell::apps
 /**
  * Holds the folder of a study while it lives: one call at a time makes or merges all of it, shares of it are made side
  * by side.
- *
- * Nothing is held on file systems without locks.
  */
-class StudyLock
+class StudyLock : public FolderLock
 {
 public:
   /// @throws std::invalid_argument with the process that holds the folder
   StudyLock(const std::filesystem::path &folder, const StudyShare &share);
-  ~StudyLock();
-  StudyLock(const StudyLock &) = delete;
-
-private:
-  int file_ = -1;
 };
 
 } // namespace gestell::apps

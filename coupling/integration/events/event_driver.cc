@@ -1,8 +1,10 @@
 #include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/finite_state.h"
 #include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/state_archive.h"
 
 #include "coupling/integration/step/loads_to_come.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/error_control.h"
 
 #include <algorithm>
@@ -23,6 +25,18 @@ constexpr double a_little =
 double resolution(double t, double h)
 {
   return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
+}
+
+/// A step of any method ends in a state, whatever looks on; else it is given up.
+/// @throws ConvergenceFailure
+void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
+{
+  integrator.advance();
+  if (is_finite(integrator.local()))
+    return;
+  const std::string words = no_number_words(system, integrator.local());
+  integrator.cut(integrator.step_begin());
+  throw ConvergenceFailure(words);
 }
 } // namespace
 
@@ -92,7 +106,7 @@ void EventDriver::advance()
     tell_events();
     return;
   }
-  integrator_.advance();
+  make_step(integrator_, system_);
   const double full = integrator_.time() - integrator_.step_begin();
   if (integrator_.time() - window_begin_ > length_ + full)
   {
@@ -132,7 +146,7 @@ void EventDriver::advance()
 void EventDriver::step_over()
 {
   before_ = integrator_.local();
-  integrator_.advance();
+  make_step(integrator_, system_);
   if (!cut_at_end())
     return;
   observe();

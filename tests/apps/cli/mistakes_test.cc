@@ -223,4 +223,18 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 
+// Memory and time grow with them: judged before anything is computed.
+TEST(Mistakes, CountsBeyondAllMemoryAreRefusedAtOnce)
+{
+  for (const std::string call :
+       {"chart %1 --samples 1000000000", "modes %1 --along crank --positions 1000000000",
+        "frf %1 --from frame.crown.uz --to F_P --points 1000000000", "periodic %1 --starts 1000000000",
+        "periodic %1 --harmonics 1000000000", "periodic %1 --section 1000000000"})
+  {
+    std::string own = call;
+    own.replace(own.find("%1"), 2, scene("press_minimal.toml"));
+    expect_answer(gestell(own), 2, {"needs a number up to 1", ", got 1000000000"});
+  }
+}
+
 } // namespace gestell::tests

@@ -62,7 +62,8 @@ TEST(StudyCommand, IsNotBegunTwiceInOneFolderAtOnce)
   const std::size_t at     = both.text.rfind("first is ");
   const std::string first  = both.text.substr(at + 9, both.text.find('\n', at) - at - 9);
   EXPECT_EQ(both.exit_code, 0) << both.text;
-  EXPECT_EQ(count(both.text, "process " + first + " is making a study there; wait until it has ended"), 2) << both.text;
+  EXPECT_EQ(count(both.text, "process " + first + " on "), 2) << both.text;
+  EXPECT_EQ(count(both.text, " is making a study there; wait until it has ended"), 2) << both.text;
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 12);
 }
 

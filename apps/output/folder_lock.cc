@@ -1,0 +1,213 @@
+#include "apps/output/folder_lock.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gestell::apps
+{
+namespace fs = std::filesystem;
+namespace
+{
+
+constexpr const char *lock_name  = ".lock";
+constexpr int         most_tries = 1000; ///< while others make and remove the same folder
+
+/// Locks of the system are those of a process: what it holds itself it must know.
+class OwnLocks
+{
+public:
+  bool add(const fs::path &folder)
+  {
+    const std::lock_guard<std::mutex> while_changed(mutex_);
+    return folders_.insert(folder).second;
+  }
+  void remove(const fs::path &folder)
+  {
+    const std::lock_guard<std::mutex> while_changed(mutex_);
+    folders_.erase(folder);
+  }
+
+private:
+  std::mutex         mutex_;
+  std::set<fs::path> folders_;
+};
+
+OwnLocks &own_locks()
+{
+  static OwnLocks locks;
+  return locks;
+}
+
+std::string host()
+{
+  char name[256] = {};
+  return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
+struct flock whole_file(short type)
+{
+  struct flock lock = {};
+  lock.l_type       = type;
+  lock.l_whence     = SEEK_SET;
+  return lock;
+}
+
+/// What a holder wrote: process, computer and what it does, a line each.
+struct Holder
+{
+  std::string process, host, doing;
+};
+
+Holder holder_in(int file)
+{
+  char        text[1024] = {};
+  const auto  n          = pread(file, text, sizeof text - 1, 0);
+  std::string lines[3];
+  std::size_t line = 0;
+  for (ssize_t i = 0; i < n && line < 3; ++i)
+    if (text[i] == '\n')
+      ++line;
+    else
+      lines[line] += text[i];
+  return {lines[0], lines[1], lines[2]};
+}
+
+[[noreturn]] void refuse_held(const fs::path &folder, const std::string &process, const std::string &host,
+                              const std::string &doing, const std::string &way_out)
+{
+  throw std::invalid_argument(folder.string() + ": process " + process + (host.empty() ? "" : " on " + host) + " " +
+                              doing + "; wait until it has ended" + way_out);
+}
+
+constexpr const char *computes = "is computing results for this folder";
+
+} // namespace
+
+FolderLock::FolderLock(const fs::path &folder)
+    : FolderLock(folder, Kind::alone, computes, ", or give another folder with -o DIR")
+{
+}
+
+FolderLock::FolderLock(const fs::path &folder, Kind kind, const std::string &doing, const std::string &way_out)
+    : told_(folder), folder_(fs::absolute(folder).lexically_normal()), path_(folder_ / lock_name), kind_(kind),
+      process_(getpid())
+{
+  if (!own_locks().add(folder_))
+    refuse_held(told_, std::to_string(process_), "", doing + " already", way_out);
+  try
+  {
+    take(doing, way_out);
+  }
+  catch (...)
+  {
+    give_up();
+    throw;
+  }
+}
+
+FolderLock::~FolderLock()
+{
+  if (getpid() != process_) // a child has its parent's objects, but not its locks
+    return;
+  if (file_ >= 0 && kind_ == Kind::alone)
+    unlink(path_.c_str());
+  give_up();
+}
+
+/// Folders go if nothing is in them: rmdir takes no others.
+void FolderLock::give_up()
+{
+  if (file_ >= 0)
+    close(file_);
+  file_ = -1;
+  if (kind_ == Kind::alone)
+    std::for_each(made_.rbegin(), made_.rend(), [](const fs::path &folder) { rmdir(folder.c_str()); });
+  own_locks().remove(folder_);
+}
+
+/// False: the folder went meanwhile.
+bool FolderLock::open_file()
+{
+  std::vector<fs::path> missing;
+  std::error_code       error;
+  for (fs::path at = folder_; !fs::exists(at, error) && at.has_relative_path(); at = at.parent_path())
+    missing.push_back(at);
+  std::for_each(missing.rbegin(), missing.rend(),
+                [&](const fs::path &folder)
+                {
+                  if (mkdir(folder.c_str(), 0777) == 0)
+                    made_.push_back(folder);
+                });
+  file_ = open(path_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+  return file_ >= 0 || errno != ENOENT;
+}
+
+/// Who holds a file removes it before it lets go: then the lock is that of no file.
+bool FolderLock::is_still_there() const
+{
+  struct stat open_one = {}, there = {};
+  return fstat(file_, &open_one) == 0 && stat(path_.c_str(), &there) == 0 && open_one.st_dev == there.st_dev &&
+         open_one.st_ino == there.st_ino;
+}
+
+void FolderLock::take(const std::string &doing, const std::string &way_out)
+{
+  const short type = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
+  for (int tries = 0; tries < most_tries; ++tries)
+  {
+    if (!open_file())
+      continue;
+    if (file_ < 0)
+    {
+      note_ = path_.string() + " cannot be made (" + std::strerror(errno) + ")";
+      break;
+    }
+    struct flock lock = whole_file(type);
+    if (fcntl(file_, F_SETLK, &lock) != 0)
+    {
+      const int reason = errno;
+      lock             = whole_file(type);
+      if (reason == EACCES || reason == EAGAIN)
+      {
+        const bool known = fcntl(file_, F_GETLK, &lock) == 0;
+        if (known && lock.l_type != F_UNLCK)
+        {
+          const Holder holder = holder_in(file_); // of several the last one
+          refuse_held(told_, lock.l_pid > 0 ? std::to_string(lock.l_pid) : holder.process, holder.host,
+                      holder.doing.empty() ? computes : holder.doing, way_out);
+        }
+        close(file_); // it has just been let go
+        file_ = -1;
+        continue;
+      }
+      note_ = std::string("its file system has no locks (") + std::strerror(reason) + ")";
+      unlink(path_.c_str());
+      close(file_);
+      file_ = -1;
+      break;
+    }
+    if (is_still_there())
+    {
+      const std::string words = std::to_string(getpid()) + "\n" + host() + "\n" + doing + "\n";
+      if (ftruncate(file_, 0) != 0 || pwrite(file_, words.data(), words.size(), 0) != ssize_t(words.size()))
+        return; // a full disk: held, but nameless
+      return;
+    }
+    close(file_);
+    file_ = -1;
+  }
+  if (note_.empty())
+    note_ = "others make and remove it all the time";
+  note_ = told_.string() + ": " + note_ +
+          ", so nothing keeps a second process from writing there at the same time; see to that yourself";
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,33 @@
+#include "coupling/integration/events/finite_state.h"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace gestell::coupling
+{
+
+bool is_finite(const LocalState &state)
+{
+  return std::isfinite(state.u.sum() + state.v.sum() + state.p.sum() + state.lambda.sum());
+}
+
+std::string no_number_words(const SecondOrderSystem &system, const LocalState &state)
+{
+  std::ostringstream message;
+  message << "there is no finite number at t = " << state.t << " s for ";
+  for (const auto &[values, what] :
+       {std::pair(&state.u, "the motion of "), {&state.v, "the rate of "}, {&state.p, "the force on "}})
+    for (Eigen::Index i = 0; i < values->size(); ++i)
+      if (!std::isfinite((*values)[i]))
+      {
+        const Eigen::SparseMatrix<double>::InnerIterator acts(system.forces().directions(), i);
+        message << what << (acts ? system.linear().coordinate_name(int(acts.row())) : "a measure")
+                << "; a formula or law gives none there, or the motion grew beyond all numbers";
+        return message.str();
+      }
+  message << "the forces of joints; the motion grew beyond all numbers";
+  return message.str();
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,54 @@
+#include "coupling/simulation/rounding_guard.h"
+
+#include "coupling/integration/system/state_archive.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+constexpr double share_of_motion = 0.01, share_of_begin = 1e-6; ///< that rounding may do as work
+} // namespace
+
+void RoundingGuard::step(const Eigen::VectorXd &q)
+{
+  if (least_.size() != q.size())
+  {
+    least_ = most_ = q;
+    return;
+  }
+  least_ = least_.cwiseMin(q);
+  most_  = most_.cwiseMax(q);
+}
+
+std::string RoundingGuard::words(const LinearSystem &system, double exchanged, double at_begin) const
+{
+  Eigen::MatrixXd M, B, C;
+  if (least_.size() == 0 || !system.dense_matrices(M, B, C))
+    return "";
+  const Eigen::VectorXd size  = least_.cwiseAbs().cwiseMax(most_.cwiseAbs()),
+                        force = std::numeric_limits<double>::epsilon() * (C.cwiseAbs() * size),
+                        work  = force.cwiseProduct(most_ - least_);
+  if (!(work.sum() > share_of_motion * exchanged && work.sum() > share_of_begin * std::abs(at_begin)))
+    return "";
+  Eigen::Index worst;
+  work.maxCoeff(&worst);
+  std::ostringstream text;
+  text.precision(2);
+  text << "forces on " << system.coordinate_name(int(worst)) << " are rounding: beside its stiffness of "
+       << C(worst, worst) << " (N/m or N m/rad) at a motion of " << size[worst] << " (m or rad) they are known to "
+       << force[worst] << " (N or N m), which does " << work.sum() << " J of work where the motion exchanges "
+       << exchanged << " J; make what is so stiff rigid by a joint, or softer";
+  return text.str();
+}
+
+void RoundingGuard::exchange(StateArchive &archive)
+{
+  archive(least_, most_);
+}
+
+} // namespace gestell::coupling
