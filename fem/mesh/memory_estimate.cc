@@ -1,11 +1,7 @@
 #include "fem/mesh/memory_estimate.h"
 
-#include "fem/values/message_text.h"
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -17,14 +13,6 @@ namespace
 constexpr double gib         = 1024. * 1024. * 1024.;
 constexpr double of_averaged = 5e4;  // bytes for a node
 constexpr double of_sphere   = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
-
-/// The number in a file of a control group; infinite for "max" and for no file.
-double number_in(const char *path)
-{
-  std::ifstream in(path);
-  double        value = 0.;
-  return in >> value ? value : std::numeric_limits<double>::infinity();
-}
 
 } // namespace
 
@@ -47,24 +35,6 @@ double nodes_on(double area, double size)
 double coordinates_of(double n_tetrahedra)
 {
   return 4.8 * n_tetrahedra;
-}
-
-double available_memory()
-{
-  double        system = std::numeric_limits<double>::infinity();
-  std::ifstream in("/proc/meminfo");
-  for (std::string key, rest; in >> key; std::getline(in, rest))
-    if (double kib = 0.; key == "MemAvailable:" && in >> kib)
-      system = 1024. * kib;
-  const double allowed = number_in("/sys/fs/cgroup/memory.max");
-  const double used    = number_in("/sys/fs/cgroup/memory.current");
-  return std::isfinite(allowed) && std::isfinite(used) ? std::min(system, std::max(0., allowed - used)) : system;
-}
-
-std::string memory_text(double bytes)
-{
-  return bytes < 0.1 * gib ? text(std::round(bytes / gib * 1024.)) + " MiB"
-                           : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
 }
 
 void require_memory(const std::string &what, double needed, double available, const std::string &place,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fem/values/available_memory.h"
+
 #include <string>
 
 namespace gestell::fem
@@ -26,10 +28,6 @@ double reduction_memory(double n_coordinates, double kappa, double n_averaged = 
 /// Nodes on an area [m^2] of quadratic triangles of this size [m]: two to a triangle.
 double nodes_on(double area, double size);
 
-/// Memory [byte] this process may still take: what the system has available, or its container allows; infinite where
-/// neither tells.
-double available_memory();
-
 /// Coordinates of a quadratic mesh of so many tetrahedra, within 20 %.
 double coordinates_of(double n_tetrahedra);
 
@@ -38,8 +36,5 @@ double coordinates_of(double n_tetrahedra);
 /// @throws std::invalid_argument if more memory is needed than there is.
 void require_memory(const std::string &what, double needed, double available, const std::string &place,
                     const std::string &advice);
-
-/// "1.2 GiB"
-std::string memory_text(double bytes);
 
 } // namespace gestell::fem

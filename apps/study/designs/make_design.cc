@@ -22,6 +22,14 @@ std::size_t place_among(const std::vector<std::string> &names, const std::string
   return static_cast<std::size_t>(found - names.begin());
 }
 
+/// Sizes are judged before a point is made.
+void require_few(const char *what, int asked)
+{
+  if (asked > most_runs)
+    throw std::invalid_argument("study: " + std::string(what) + " is " + std::to_string(asked) +
+                                "; a million runs are the most");
+}
+
 Design listed_design(const DesignRequest &request, const std::vector<StudyVariable> &variables)
 {
   if (request.list.rows() == 0)
@@ -78,6 +86,9 @@ Design make_design(const DesignRequest &request, const std::vector<StudyVariable
   for (const auto &variable : variables)
     check_variable(variable);
 
+  require_few("design.runs", request.runs);
+  require_few("design.levels", request.levels);
+  require_few("design.centre_points", request.centre_points);
   const int k = static_cast<int>(variables.size());
   switch (place_among(design_types(), request.type, "design"))
   {

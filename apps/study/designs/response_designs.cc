@@ -1,5 +1,7 @@
 #include "apps/study/designs/response_designs.h"
 
+#include "fem/values/message_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -9,8 +11,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double most_factorial_runs = 1e6;
-constexpr int    most_composite      = 12; ///< variables: 4096 corners
+constexpr int most_composite = 12; ///< variables: 4096 corners
 
 using Blocks = std::vector<std::vector<int>>;
 
@@ -41,6 +42,12 @@ void check_centre_points(int centre_points, const std::string &design)
                                 "; it must be zero or more");
 }
 
+/// All digits while a whole number has them.
+std::string count_of(double runs)
+{
+  return runs < 1e15 ? std::to_string(static_cast<long long>(runs)) : fem::text(runs);
+}
+
 Eigen::MatrixXd corners_of(int k)
 {
   return full_factorial(std::vector<std::vector<double>>(k, {-1., 1.})).points;
@@ -66,8 +73,8 @@ Design full_factorial(const std::vector<std::vector<double>> &levels)
     runs *= static_cast<double>(of_one.size());
   if (runs < 1.)
     throw std::invalid_argument("study: a full factorial design needs variables, each with levels");
-  if (runs > most_factorial_runs)
-    throw std::invalid_argument("study: the full factorial design has " + std::to_string(static_cast<long long>(runs)) +
+  if (runs > most_runs)
+    throw std::invalid_argument("study: the full factorial design has " + count_of(runs) +
                                 " runs, more than a million; take fewer levels, or a Latin hypercube");
 
   Design design;

@@ -14,8 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_runs = 1000000;
-
 int whole_or(const SceneTable &table, const std::string &key, int otherwise)
 {
   return table.has(key) ? table.whole(key) : otherwise;
@@ -91,6 +89,9 @@ Eigen::MatrixXd read_list(const StudyFile &study, const SceneTable &table, const
       throw table.error("columns", "lacks variable " + variable.name +
                                        ", which has no levels; add it, with its "
                                        "value in each row, or give it levels for which the rows are repeated");
+    if (const double runs = double(rows.size()) * double(variable.levels.size()); runs > most_runs)
+      throw table.error("rows", "makes more than a million runs, crossed with the levels of " + variable.name +
+                                    " and those before it; take fewer rows or levels");
     rows = crossed(rows, i, variable.levels);
   }
   Eigen::MatrixXd list(rows.size(), study.variables.size());
@@ -174,7 +175,7 @@ StudyPoints read_design(const StudyFile &study)
   {
     const auto variables = study.values();
     Design     design    = make_design(request, variables);
-    if (std::size_t(design.n_runs()) > most_runs)
+    if (design.n_runs() > most_runs)
       throw table.error("asks for " + std::to_string(design.n_runs()) + " runs; a million are the most");
     const Eigen::MatrixXd levels = request.list.size() > 0 ? request.list : rounded_levels(design.points, variables);
     return {design, levels};

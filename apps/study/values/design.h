@@ -10,6 +10,8 @@
 namespace gestell::apps
 {
 
+constexpr double most_runs = 1e6; ///< of a study
+
 /// The points of a study in coded values (study_variable.h).
 struct Design
 {

@@ -239,6 +239,12 @@ TEST(MakeDesign, RefusesWhatNoDesignTakes)
   factorial.levels = 1;
   DesignRequest huge{"full factorial"};
   huge.levels = 11;
+  DesignRequest many_levels{"full factorial"}, many_runs{"Latin hypercube"}, many_points{"Sobol"},
+      many_centres{"Box-Behnken"};
+  many_levels.levels         = 2000000000;
+  many_runs.runs             = 2000000000;
+  many_points.runs           = 2000000000;
+  many_centres.centre_points = 2000000000;
   DesignRequest composite{"central composite"};
   composite.alpha = -1.;
   DesignRequest star{"central composite"};
@@ -250,6 +256,10 @@ TEST(MakeDesign, RefusesWhatNoDesignTakes)
   expect_refusal(make({"list"}, 2), "no runs");
   expect_refusal(make(factorial, 2), "1 levels");
   expect_refusal(make(huge, 6), "more than a million");
+  expect_refusal(make(many_levels, 12), "design.levels is 2000000000");
+  expect_refusal(make(many_runs, 2), "design.runs is 2000000000");
+  expect_refusal(make(many_points, 2), "design.runs is 2000000000");
+  expect_refusal(make(many_centres, 3), "design.centre_points is 2000000000");
   expect_refusal(make(composite, 2), "alpha is -1");
   expect_refusal(make(star, 2), "rotatable");
   expect_refusal(make({"central composite"}, 13), "it takes 1 to 12");

@@ -1,0 +1,76 @@
+#include "fem/values/available_memory.h"
+
+#include "fem/values/message_text.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double kib = 1024., gib = kib * kib * kib;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The number in a file of a control group; infinite for "max" and for no file.
+double number_in(const char *path)
+{
+  std::ifstream in(path);
+  double        value = 0.;
+  return in >> value ? value : infinite;
+}
+
+double of_system()
+{
+  std::ifstream in("/proc/meminfo");
+  for (std::string key, rest; in >> key; std::getline(in, rest))
+    if (double value = 0.; key == "MemAvailable:" && in >> value)
+      return kib * value;
+  return infinite;
+}
+
+double of_group()
+{
+  const double allowed = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
+  return std::isfinite(allowed) && std::isfinite(used) ? std::max(0., allowed - used) : infinite;
+}
+
+double of_process()
+{
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return infinite;
+  const double used = number_in("/proc/self/statm") * double(sysconf(_SC_PAGESIZE));
+  return std::isfinite(used) ? std::max(0., double(limit.rlim_cur) - used) : infinite;
+}
+
+} // namespace
+
+double available_memory()
+{
+  return std::min({of_system(), of_group(), of_process()});
+}
+
+std::string memory_text(double bytes)
+{
+  return bytes < 0.1 * gib ? text(std::round(bytes / gib * 1024.)) + " MiB"
+                           : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
+}
+
+void require_available(const std::string &what, double bytes, const std::string &advice)
+{
+  const double available = available_memory();
+  if (bytes > available)
+    throw std::invalid_argument(what + " would take " + memory_text(bytes) + " of memory; available are " +
+                                memory_text(available) + ". " + advice);
+}
+
+} // namespace gestell::fem
