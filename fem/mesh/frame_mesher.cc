@@ -1,4 +1,4 @@
-#include "fem/mesh/mesher.h"
+#include "fem/mesh/frame_mesher.h"
 
 #include "fem/geometry/gmsh_faces.h"
 #include "fem/geometry/gmsh_session.h"
@@ -9,6 +9,7 @@
 #include "fem/geometry/surface_selection.h"
 #include "fem/mesh/cell_measures.h"
 #include "fem/mesh/curved_sides.h"
+#include "fem/mesh/flat_cells.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesh_extraction.h"
 #include "fem/mesh/mesh_grading.h"
@@ -18,6 +19,7 @@
 #include "fem/mesh/plates/swept_mesh.h"
 #include "fem/mesh/point_freedom.h"
 #include "fem/mesh/watched_meshing.h"
+#include "fem/values/mesh_phase.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>
@@ -34,7 +36,6 @@ namespace
 {
 
 constexpr double cells_by_default = 25000.;
-constexpr double flattest         = 1e-5; // quality; flatter cells spoil the condition of C
 constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
 constexpr double swept_by_default = 20.;  // size over the mean thickness of walls
 
@@ -217,11 +218,13 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
 }
 
 void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
-                   MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
+                   MissingSize missing, const ChildProgress &progress, const std::vector<SizePoint> &refined)
 {
   const bool  script_has_sizes = has_size_fields();
   MeshOptions options          = prepare_geometry(result, specification, missing);
   const auto  report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  if (options.plates == Plates::swept)
+    report(mesh_phase::plates);
   if (sweep(result, specification, options))
     return judge_memory(result, specification);
   if (specification.mesh.size == 0.) // chosen for what is not swept
@@ -230,9 +233,9 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   std::optional<SizeField> field;
   if (!refined.empty())
     set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
-  report("meshing surfaces");
+  report(mesh_phase::surfaces);
   mesh_surfaces(result.model, result.selection, specification, session, {options, field, script_has_sizes});
-  report("meshing volumes");
+  report(mesh_phase::volumes);
   mesh_volumes(result.model, specification, session);
   result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
   require_straight(result.extracted, specification);
@@ -315,27 +318,6 @@ void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
   }
 }
 
-void require_thick(const Mesh &mesh, int cell, const std::string &head, const std::string &way_out)
-{
-  const double q = cell_quality(mesh, cell);
-  if (q >= flattest)
-    return;
-  const int n = cell_shape(mesh.kind(cell)).n_corners;
-  Vector3   centre{};
-  for (int k = 0; k < n; ++k)
-    centre = centre + (1. / n) * mesh.points[mesh.corners(cell)[k]];
-  throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) +
-                              ", needed " + text(flattest) + "); " + way_out);
-}
-
-void check_flatness(const Mesh &mesh, bool meshed, const std::string &head)
-{
-  const std::string way_out = meshed ? "its volume is nearly zero, or less: mend it in the program that made the mesh."
-                                     : "choose another mesh.size, or a smaller one on the surface there.";
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    require_thick(mesh, cell, head, way_out);
-}
-
 /// Colours and layers are wanted where a surface is asked for by name.
 FaceAttributes wanted_attributes(const FrameSpecification &specification)
 {
@@ -355,12 +337,12 @@ CadModel read_model(const FrameSpecification &specification, const GmshSession &
 }
 
 MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
-                       const MeshProgress &progress, const std::vector<SizePoint> &refined = {})
+                       const ChildProgress &progress, const std::vector<SizePoint> &refined = {})
 {
   const GmshSession session;
   MeshedModel       result;
   if (progress)
-    progress("reading CAD", -1.);
+    progress(mesh_phase::reading, -1.);
   const auto work = [&]
   {
     result.model = read_model(specification, session, attributes);
@@ -368,7 +350,7 @@ MeshedModel mesh_model(const FrameSpecification &specification, MissingSize miss
       read_mesh(result, specification);
     else
       mesh_geometry(result, specification, session, missing, progress, refined);
-    check_flatness(result.extracted.mesh, result.model.meshed, head_of(specification));
+    require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
     name_surfaces(result, specification);
     Mesh &mesh = result.extracted.mesh;
     mesh.notes.insert(mesh.notes.begin(), result.model.notes.begin(), result.model.notes.end());
@@ -394,14 +376,14 @@ GeometryReport report_of(const MeshedModel &meshed)
 
 } // namespace
 
-Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress,
-               const std::vector<SizePoint> &refined)
+Mesh mesh_of_frame(const FrameSpecification &specification, const ChildProgress &progress,
+                   const std::vector<SizePoint> &refined)
 {
   return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
       .extracted.mesh;
 }
 
-GeometryReport inspect_geometry(const FrameSpecification &specification)
+GeometryReport inspection_of_frame(const FrameSpecification &specification)
 {
   const GmshSession session;
   MeshedModel       result;
@@ -409,7 +391,10 @@ GeometryReport inspect_geometry(const FrameSpecification &specification)
   {
     result.model = read_model(specification, session, wanted_attributes(specification));
     if (result.model.meshed)
+    {
       read_mesh(result, specification);
+      require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
+    }
     else
       prepare_geometry(result, specification, MissingSize::refused);
   };
@@ -421,7 +406,7 @@ GeometryReport inspect_geometry(const FrameSpecification &specification)
   return report;
 }
 
-GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
+GeometryReport report_of_frame(const FrameSpecification &specification, const ChildProgress &progress)
 {
   MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
   const Mesh    &mesh   = meshed.extracted.mesh;

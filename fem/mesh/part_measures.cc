@@ -1,4 +1,4 @@
-#include "fem/mesh/measure_body.h"
+#include "fem/mesh/part_measures.h"
 
 #include "fem/geometry/cad_file.h"
 #include "fem/geometry/gmsh_session.h"
@@ -181,7 +181,7 @@ void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &mode
 
 } // namespace
 
-CadBody measure_part(const CadSource &source)
+CadBody measures_of_part(const CadSource &source)
 {
   const GmshSession session;
   CadBody           part;
