@@ -17,6 +17,8 @@ namespace
 
 namespace files = std::filesystem;
 
+constexpr std::size_t deepest_script = 50; // includes: gmsh reads each inside the other
+
 constexpr const char *way_out =
     "; a script that is read with a frame may draw, size and mesh, and read from its own folder. Take the line out, or "
     "say --trust-scripts if you know all that the script does.";
@@ -88,11 +90,14 @@ std::string HarmlessFiles::copy_script(const files::path &script)
   const RefuseLine refuse = [&](int line, const std::string &what) {
     throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
   };
+  if (++depth_ > deepest_script)
+    refuse(1, "is included more than " + std::to_string(deepest_script) + " deep; put scripts together");
   const std::string     copy   = place_for(script); // before its own files: they may name it in turn
   std::vector<GeoToken> tokens = geo_tokens(text_of(script), refuse);
   for (const std::size_t i : judge_geo(tokens, refuse))
     tokens[i].text = copy_named(tokens[i].text, tokens[i - 1].is("Include"), script, tokens[i].line);
   std::ofstream(copy, std::ios::binary) << geo_text(tokens);
+  --depth_;
   return copy;
 }
 

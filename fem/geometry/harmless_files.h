@@ -3,6 +3,7 @@
 #include "fem/geometry/cad_file.h"
 #include "fem/values/passing_folder.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -41,7 +42,8 @@ private:
   std::filesystem::path              home_;   ///< folder of the script
   std::optional<PassingFolder>       folder_; ///< none: the file is opened as it is
   std::string                        path_;
-  std::map<std::string, std::string> copies_; ///< by the path of the original
+  std::size_t                        depth_ = 0; ///< of the scripts that include each other
+  std::map<std::string, std::string> copies_;    ///< by the path of the original
 };
 
 } // namespace gestell::fem
