@@ -237,11 +237,15 @@ void read(const std::string &path, std::uint64_t number)
       require_sound(inspect_geometry(frame));
     if (number % 4 == 1)
       require_sound(measure_part({path, 0., "fuzz"}));
+    if (number % 4 == 2)
+      require_sound(report_geometry(frame));
   }
   else if (number % 8 == 0)
     require_sound(make_mesh(frame, Stopwatch()));
   else if (number % 8 == 1)
     require_sound(measure_part({path, 0., "fuzz"}));
+  else if (number % 8 == 2)
+    require_sound(report_geometry(frame, Stopwatch()));
   else
     require_sound(inspect_geometry(frame));
 }
