@@ -31,7 +31,7 @@ struct Tally
 
 struct FuzzOptions
 {
-  double        patience = 5.;    ///< [s] for one execution, before it is tried by itself
+  double        patience = 5.;    ///< [s] of processor time for one execution, before it is tried by itself
   std::string   keep;             ///< folder for files that died, were limited or found; empty: none
   std::uint64_t report_every = 0; ///< executions
 };

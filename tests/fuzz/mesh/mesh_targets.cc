@@ -17,6 +17,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <new>
 #include <regex>
 #include <stdexcept>
 #include <typeinfo>
@@ -295,6 +296,10 @@ Judgement judge(const std::string &path, std::uint64_t number)
     return {words.find(name_of(path)) == std::string::npos && words.rfind("fuzz", 0) != 0 ? Outcome::finding
                                                                                           : Outcome::refused,
             words};
+  }
+  catch (const std::bad_alloc &)
+  {
+    return {Outcome::memory, "out of memory"};
   }
   catch (const Stopped &)
   {

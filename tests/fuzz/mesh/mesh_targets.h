@@ -29,6 +29,7 @@ enum class Outcome : char
   taken   = 't', ///< with a result that is sound
   refused = 'r', ///< by a message of the reader's own
   long_   = 'l', ///< gmsh meshed for a long time, and was stopped
+  memory  = 'm', ///< there was none left: to be read alone, which tells it
   finding = 'F'
 };
 
