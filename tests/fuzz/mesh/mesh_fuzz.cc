@@ -37,7 +37,7 @@ using fem::MessageWriter;
 
 constexpr std::uint64_t of_one_process  = 500;
 constexpr double        memory          = 1e9;  // beyond what the process has [byte]
-constexpr double        longest_alone   = 120.; // [s]
+constexpr double        longest_alone   = 10.; // [s]
 constexpr const char   *seconds_to_read = "4";
 
 void hold_memory()
