@@ -7,9 +7,9 @@
 #include "apps/verify/manual.h"
 #include "apps/verify/read_cases.h"
 #include "apps/version.h"
-#include "coupling/frame/passing_folder.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
+#include "fem/values/passing_folder.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -40,7 +40,7 @@ public:
   EmptyCache() { setenv("GESTELL_CACHE", folder_.path().c_str(), 1); }
 
 private:
-  coupling::PassingFolder folder_;
+  fem::PassingFolder folder_;
 };
 
 bool is_file(const std::string &word)

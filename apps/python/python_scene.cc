@@ -10,6 +10,7 @@
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
 #include "apps/session/exchange/state_space_answer.h"
+#include "apps/session/prepared_machine.h"
 #include "apps/sizing/sized_scene.h"
 #include "apps/study/runs/frame_shelf.h"
 #include "coupling/plugin/mesh_service.h"
@@ -265,7 +266,7 @@ std::vector<std::string> PythonScene::words() const
 
 std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const apps::Watch &watch) const
 {
-  const auto frame  = shared_frame(scene, watch.progress);
+  const auto frame  = shared_frame(scene, apps::stoppable(watch.progress, watch.interruption));
   auto       result = std::make_shared<apps::Session>(std::move(scene), overrides_, watch);
   result->take_entries(root_);
   if (frame)
@@ -421,7 +422,8 @@ std::shared_ptr<PythonFullFrame> PythonScene::full_frame() const
   return interruptibly(
       [&, self = *this](const apps::Watch &watch)
       {
-        auto full = std::make_shared<PythonFullFrame>(PythonFullFrame{assembled(self.scene(), watch.progress)});
+        auto full = std::make_shared<PythonFullFrame>(
+            PythonFullFrame{assembled(self.scene(), apps::stoppable(watch.progress, watch.interruption))});
         for (fem::SparseMatrix *A : {&full->frame.M, &full->frame.B, &full->frame.C})
           A->makeCompressed();
         return full;
@@ -434,7 +436,7 @@ std::shared_ptr<PythonFrame> PythonScene::frame() const
       [&, self = *this](const apps::Watch &watch)
       {
         const Scene scene = self.scene();
-        auto        frame = shared_frame(scene, watch.progress);
+        auto        frame = shared_frame(scene, apps::stoppable(watch.progress, watch.interruption));
         if (!frame)
           throw std::invalid_argument(
               scene.frame.place + ": the scene has no frame that is reduced; its matrices are M, B, C of [frame], or "

@@ -15,9 +15,11 @@
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/substructures/parts_recipe.h"
 #include "coupling/substructures/reduced_parts.h"
+#include "fem/values/mesh_phase.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -42,6 +44,16 @@ void tell(const coupling::Progress &progress, const std::string &phase, double s
 {
   if (progress)
     progress(phase, share);
+}
+
+coupling::Progress stoppable(coupling::Progress progress, const std::atomic<bool> *stop)
+{
+  return [progress = std::move(progress), stop](const std::string &phase, double share)
+  {
+    if (stop && *stop && fem::may_be_stopped(phase))
+      throw std::runtime_error("stopped while the frame was made (" + phase + ")");
+    tell(progress, phase, share);
+  };
 }
 
 coupling::FrameOrigin frame_origin(const Scene &scene)

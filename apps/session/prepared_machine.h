@@ -5,6 +5,7 @@
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/frame/reduction_options.h"
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -13,6 +14,10 @@ namespace gestell::apps
 
 /// Tells that a phase begins or goes on, share 0..1 of it done, negative: unknown; `progress` may be empty.
 void tell(const coupling::Progress &progress, const std::string &phase, double share = -1.);
+
+/// The same progress of a frame, which throws std::runtime_error once `stop` is set while gmsh is at work: nothing is
+/// there yet that should be saved.  @param stop  null: nothing stops it
+coupling::Progress stoppable(coupling::Progress progress, const std::atomic<bool> *stop);
 
 /// How a machine in modes p relates to the one it is made of.
 struct MachineInModes

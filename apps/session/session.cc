@@ -187,7 +187,7 @@ PreparedMachine &Session::machine()
   check();
   if (!machine_)
   {
-    machine_ = std::make_shared<PreparedMachine>(prepare_machine(scene_, progress()));
+    machine_ = std::make_shared<PreparedMachine>(prepare_machine(scene_, stoppable(progress(), watch_.interruption)));
     keep_stable_step(*machine_, scene_.run);
   }
   return *machine_;
@@ -202,9 +202,9 @@ FrameAnswer Session::reduced_frame()
 {
   check();
   FrameAnswer answer;
-  answer.frame              = apps::reduced_frame(scene_, progress(), answer.from_cache);
-  answer.facts.frame        = answer.frame.facts;
-  answer.facts.frame_mass   = answer.frame.mass;
+  answer.frame            = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption), answer.from_cache);
+  answer.facts.frame      = answer.frame.facts;
+  answer.facts.frame_mass = answer.frame.mass;
   answer.facts.free_motions = static_cast<int>((answer.frame.frequencies_hz.array() == 0.).count());
   answer.facts.damping      = damping_text(scene_.frame);
   answer.facts.mesh         = mesh_text(scene_.frame);

@@ -4,6 +4,7 @@
 #include "fem/values/inp_lines.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +16,8 @@ namespace gestell::coupling
 
 namespace
 {
+
+constexpr std::uintmax_t largest_script = 50000000; // bytes; its words take some fifty times as much
 
 std::string text_of(const std::filesystem::path &path)
 {
@@ -125,6 +128,12 @@ std::vector<NamedFile> named_in_script(const std::filesystem::path &path, std::s
     if (beyond.empty())
       beyond = path.filename().string() + ":" + std::to_string(line) + ": " + what;
   };
+  std::error_code error;
+  if (std::filesystem::file_size(path, error) > largest_script)
+  {
+    beyond = path.filename().string() + " has more than " + std::to_string(largest_script / 1000000) + " MB";
+    return {};
+  }
   std::vector<fem::GeoToken> tokens;
   try
   {
@@ -166,31 +175,49 @@ std::vector<NamedFile> named_in_inp(const std::filesystem::path &path)
   return named;
 }
 
-void collect(const std::filesystem::path &path, Language language, SourceFiles &sources)
+/// A file to be looked at, unless that was done.
+struct Waiting
 {
-  const std::string file = path.lexically_normal().string();
-  if (std::find(sources.found.begin(), sources.found.end(), file) != sources.found.end())
+  std::filesystem::path path;
+  Language              language;
+};
+
+/// Notes the file and puts those that it names in front of the `waiting`, whose last is the next.
+void collect(const Waiting &file, std::set<std::string> &known, std::vector<Waiting> &waiting, SourceFiles &sources)
+{
+  const std::string path = file.path.lexically_normal().string();
+  if (!known.insert(path).second)
     return; // also where files include each other in a circle
-  sources.found.push_back(file);
-  if (language == Language::none)
+  sources.found.push_back(path);
+  if (file.language == Language::none)
     return;
-  for (const auto &[name, target, of_target] :
-       language == Language::gmsh ? named_in_script(path, sources.beyond) : named_in_inp(path))
+  const std::vector<NamedFile> named =
+      file.language == Language::gmsh ? named_in_script(file.path, sources.beyond) : named_in_inp(file.path);
+  const auto first_named = static_cast<std::ptrdiff_t>(waiting.size());
+  for (const auto &[name, target, of_target] : named)
   {
     std::error_code error;
     if (std::filesystem::is_regular_file(target, error))
-      collect(target, of_target, sources);
+      waiting.push_back({target, of_target});
     else
       sources.missing.push_back(name);
   }
+  std::reverse(waiting.begin() + first_named, waiting.end());
 }
 
 } // namespace
 
 SourceFiles source_files(const std::string &cad)
 {
-  SourceFiles sources;
-  collect(cad, language_of(cad), sources);
+  SourceFiles           sources;
+  std::set<std::string> known;
+  std::vector<Waiting>  waiting = {{cad, language_of(cad)}}; // no recursion: chains may be long
+  while (!waiting.empty())
+  {
+    const Waiting next = std::move(waiting.back());
+    waiting.pop_back();
+    collect(next, known, waiting, sources);
+  }
   return sources;
 }
 

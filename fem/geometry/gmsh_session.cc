@@ -23,6 +23,13 @@ void silence_opencascade()
   messenger->ChangePrinters().Clear();
 }
 
+/// What the standard library throws in gmsh, such as std::stoi on a damaged file.
+bool is_bare(const std::invalid_argument &error)
+{
+  const std::string words = error.what();
+  return words.rfind("sto", 0) == 0 || words.find(' ') == std::string::npos;
+}
+
 // gmsh throws what its version likes: an integer, a string or an exception; OpenCASCADE throws its own.
 std::string words_of_gmsh()
 {
@@ -36,7 +43,21 @@ std::string words_of_gmsh()
       throw; // of the caller's progress report, such as an interruption
     return error.what();
   }
+  catch (const std::invalid_argument &error)
+  {
+    if (!is_bare(error))
+      throw; // a message of ours
+    return error.what();
+  }
+  catch (const std::logic_error &error) // std::length_error for a number of nodes that no vector can have
+  {
+    return error.what();
+  }
   catch (const std::string &error)
+  {
+    return error;
+  }
+  catch (const char *error)
   {
     return error;
   }

@@ -3,11 +3,7 @@
 #include "fem/geometry/geo_script.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -20,6 +16,8 @@ namespace
 {
 
 namespace files = std::filesystem;
+
+constexpr std::size_t deepest_script = 50; // includes: gmsh reads each inside the other
 
 constexpr const char *way_out =
     "; a script that is read with a frame may draw, size and mesh, and read from its own folder. Take the line out, or "
@@ -41,14 +39,6 @@ std::string text_of(const files::path &file)
   return text.str();
 }
 
-files::path make_folder()
-{
-  std::string name = (files::temp_directory_path() / "gestell_XXXXXX").string();
-  if (!::mkdtemp(name.data()))
-    throw std::runtime_error("no folder can be made for temporary files: " + name + ": " + std::strerror(errno));
-  return name;
-}
-
 bool lies_in(const files::path &file, const files::path &folder)
 {
   const auto [end, ignored] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
@@ -65,23 +55,8 @@ HarmlessFiles::HarmlessFiles(const CadSource &source, CadFile kind) : place_(sou
   home_                  = files::weakly_canonical(file.parent_path());
   if (kind == CadFile::mesh)
     require_mesh(place_, file);
-  folder_ = make_folder();
-  try
-  {
-    path_ = kind == CadFile::geo ? copy_script(file) : link(file);
-  }
-  catch (...)
-  {
-    files::remove_all(folder_);
-    throw;
-  }
-}
-
-HarmlessFiles::~HarmlessFiles()
-{
-  std::error_code ignored;
-  if (!folder_.empty())
-    files::remove_all(folder_, ignored);
+  folder_.emplace();
+  path_ = kind == CadFile::geo ? copy_script(file) : link(file);
 }
 
 std::string HarmlessFiles::in_own_names(std::string message) const
@@ -95,7 +70,7 @@ std::string HarmlessFiles::in_own_names(std::string message) const
 /// Extensions in small letters: gmsh takes "frame.Step" for a script.
 std::string HarmlessFiles::place_for(const files::path &file)
 {
-  const files::path folder    = folder_ / std::to_string(copies_.size());
+  const files::path folder    = folder_->path() / std::to_string(copies_.size());
   std::string       extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
@@ -115,11 +90,14 @@ std::string HarmlessFiles::copy_script(const files::path &script)
   const RefuseLine refuse = [&](int line, const std::string &what) {
     throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
   };
+  if (++depth_ > deepest_script)
+    refuse(1, "is included more than " + std::to_string(deepest_script) + " deep; put scripts together");
   const std::string     copy   = place_for(script); // before its own files: they may name it in turn
   std::vector<GeoToken> tokens = geo_tokens(text_of(script), refuse);
   for (const std::size_t i : judge_geo(tokens, refuse))
     tokens[i].text = copy_named(tokens[i].text, tokens[i - 1].is("Include"), script, tokens[i].line);
   std::ofstream(copy, std::ios::binary) << geo_text(tokens);
+  --depth_;
   return copy;
 }
 

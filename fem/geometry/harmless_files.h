@@ -1,9 +1,12 @@
 #pragma once
 
 #include "fem/geometry/cad_file.h"
+#include "fem/values/passing_folder.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace gestell::fem
@@ -22,9 +25,6 @@ class HarmlessFiles
 public:
   /// @throws std::invalid_argument with file and line; of source.scripts == Scripts::trusted nothing is judged.
   HarmlessFiles(const CadSource &source, CadFile kind);
-  ~HarmlessFiles();
-  HarmlessFiles(const HarmlessFiles &)            = delete;
-  HarmlessFiles &operator=(const HarmlessFiles &) = delete;
 
   /// To be opened by gmsh.
   const std::string &path() const { return path_; }
@@ -40,9 +40,10 @@ private:
 
   std::string                        place_;  ///< heads messages
   std::filesystem::path              home_;   ///< folder of the script
-  std::filesystem::path              folder_; ///< of temporary files; empty: none
+  std::optional<PassingFolder>       folder_; ///< none: the file is opened as it is
   std::string                        path_;
-  std::map<std::string, std::string> copies_; ///< by the path of the original
+  std::size_t                        depth_ = 0; ///< of the scripts that include each other
+  std::map<std::string, std::string> copies_;    ///< by the path of the original
 };
 
 } // namespace gestell::fem

@@ -2,11 +2,13 @@
 
 #include "fem/geometry/inp_elements.h"
 #include "fem/geometry/inp_middle_nodes.h"
+#include "fem/geometry/inp_sets.h"
 #include "fem/values/inp_lines.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -17,6 +19,9 @@ namespace gestell::fem
 
 namespace
 {
+
+constexpr std::size_t deepest_include = 100, most_includes = 10000;
+constexpr std::size_t largest_number = 2147483647;
 
 class Reader
 {
@@ -42,16 +47,6 @@ private:
     std::string surface, of, side; ///< `of`: number or set of elements
   };
 
-  /// Of *NSET or *ELSET with GENERATE: first, first + step, ... last.
-  struct Range
-  {
-    bool        of_nodes;
-    std::string set;
-    std::size_t first, last, step;
-    std::string file;
-    int         line;
-  };
-
   [[noreturn]] void refuse(const std::string &why) const
   {
     throw std::invalid_argument(source_.place + ": " + file_ + ":" + std::to_string(line_) + ": " + why);
@@ -64,8 +59,12 @@ private:
     InpLines          lines(path);
     if (!lines.opened())
       refuse("\"" + path + "\" cannot be read; write its path as seen from the folder of this file.");
-    if (!open_.insert(path).second)
+    const std::string itself = std::filesystem::weakly_canonical(path).string();
+    if (!open_.insert(itself).second)
       refuse("\"" + path + "\" includes itself.");
+    if (open_.size() > deepest_include || ++n_files_ > most_includes)
+      refuse("files are included more than " + std::to_string(deepest_include) + " deep, or more than " +
+             std::to_string(most_includes) + " times; write the mesh into one file.");
     file_ = path;
     while (lines.next())
     {
@@ -79,7 +78,7 @@ private:
                "\" stands before the first keyword; this is no input file of Abaqus.");
     }
     end_of_element();
-    open_.erase(path);
+    open_.erase(itself);
     file_ = outer_file;
     line_ = outer_line;
   }
@@ -168,9 +167,9 @@ private:
       for (const std::string &field : fields)
         take_element(number(field));
     else if (name == "NSET" || name == "ELSET")
-      take_set(fields, name == "NSET" ? node_entries_ : element_entries_);
+      take_set(fields, name == "NSET" ? node_sets_ : element_sets_);
     else if (name == "SURFACE" && in_capitals((*keyword_)["TYPE"]) == "NODE")
-      node_entries_[in_capitals((*keyword_)["NAME"])].push_back(in_capitals(fields[0]));
+      node_sets_.add(in_capitals((*keyword_)["NAME"]), in_capitals(fields[0]));
     else if (name == "SURFACE" && fields.size() > 1)
       sides_.push_back({in_capitals((*keyword_)["NAME"]), in_capitals(fields[0]), in_capitals(fields[1])});
     else if (name == "SYSTEM")
@@ -188,7 +187,7 @@ private:
     for (std::size_t d = 1; d <= 3; ++d)
       mesh_.coordinates.push_back(d < fields.size() && !fields[d].empty() ? value(fields[d]) : 0.);
     if (!node_set_.empty())
-      node_entries_[node_set_].push_back(fields[0]);
+      node_sets_.add(node_set_, node);
   }
 
   void take_element(std::size_t entry)
@@ -218,45 +217,40 @@ private:
              " nodes, " + std::to_string(kind_->n_nodes) + " are needed; the file may be cut off.");
   }
 
-  void take_set(const std::vector<std::string> &fields, std::map<std::string, std::vector<std::string>> &sets)
+  void take_set(const std::vector<std::string> &fields, InpSets &sets)
   {
-    std::vector<std::string> &set = sets[in_capitals((*keyword_)[keyword_->name])];
+    const std::string set = in_capitals((*keyword_)[keyword_->name]);
     if (!keyword_->has("GENERATE"))
     {
       for (const std::string &field : fields)
-        set.push_back(in_capitals(field));
+        sets.add(set, in_capitals(field));
       return;
     }
-    const std::size_t first = number(fields[0]), last = fields.size() > 1 ? number(fields[1]) : first;
-    const std::size_t step = fields.size() > 2 ? std::max<std::size_t>(1, number(fields[2])) : 1;
+    const std::size_t first = whole(fields[0]), last = fields.size() > 1 ? whole(fields[1]) : first;
+    const std::size_t step = fields.size() > 2 ? std::max<std::size_t>(1, whole(fields[2])) : 1;
     if (last < first)
       refuse("GENERATE goes from " + fields[0] + " to " + fields[1] + "; give the lower number first.");
-    ranges_.push_back({&sets == &node_entries_, in_capitals((*keyword_)[keyword_->name]), first, last, step, file_,
-                       line_}); // taken apart once all nodes and elements are known
+    sets.add({set, first, last, step, source_.place + ": " + file_ + ":" + std::to_string(line_)});
   }
 
-  /// A wrong number would take all memory.
-  void add_range(const Range &range)
-  {
-    const std::size_t most  = range.of_nodes ? nodes_.size() : elements_.size(),
-                      steps = (range.last - range.first) / range.step;
-    file_                   = range.file;
-    line_                   = range.line;
-    if (steps >= most)
-      refuse("GENERATE from " + std::to_string(range.first) + " to " + std::to_string(range.last) + " names more " +
-             (range.of_nodes ? "nodes" : "elements") + " than the " + std::to_string(most) +
-             " there are; give first, last and step of those that are meant.");
-    auto &set = (range.of_nodes ? node_entries_ : element_entries_)[range.set];
-    for (std::size_t k = 0; k <= steps; ++k)
-      set.push_back(std::to_string(range.first + k * range.step));
-  }
+  /// Of all sets together, and of all surfaces: each node and element may stand in many.
+  std::size_t most_members() const { return 1000000 + 100 * (nodes_.size() + elements_.size()); }
 
-  std::size_t number(const std::string &field) const
+  std::size_t whole(const std::string &field) const
   {
     std::size_t result      = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), result);
     if (error != std::errc() || end != field.data() + field.size())
       refuse("\"" + field + "\" is no number of a node or an element.");
+    return result;
+  }
+
+  std::size_t number(const std::string &field) const
+  {
+    const std::size_t result = whole(field);
+    if (result > largest_number)
+      refuse("number " + field + " of a node or an element is larger than " + std::to_string(largest_number) +
+             "; number them from 1.");
     return result;
   }
 
@@ -279,34 +273,27 @@ private:
     return error == std::errc() && end == text.data() + text.size() ? std::optional(result) : std::nullopt;
   }
 
-  /// Numbers of a set, those of sets it names included.
-  std::set<std::size_t> resolve(const std::string &name, const std::map<std::string, std::vector<std::string>> &sets,
-                                int depth = 0) const
+  const std::vector<std::size_t> &members(InpSets &sets, const std::string &name) const
   {
-    std::set<std::size_t> result;
-    const auto            found = sets.find(name);
-    if (found == sets.end() || depth > 20)
-      return result;
-    for (const std::string &entry : found->second)
-      if (const auto direct = as_number(entry))
-        result.insert(*direct);
-      else
-        result.merge(resolve(entry, sets, depth + 1));
-    return result;
+    try
+    {
+      return sets.members(name);
+    }
+    catch (const std::invalid_argument &error)
+    {
+      throw std::invalid_argument(source_.place + ": " + source_.path + ": " + error.what());
+    }
   }
 
   void finish()
   {
-    for (const Range &range : ranges_)
-      add_range(range);
+    node_sets_.close(nodes_.size(), "nodes", most_members());
+    element_sets_.close(elements_.size(), "elements", most_members());
     for (const std::size_t number : order_)
       if (const std::string &set = elements_.at(number).set; !set.empty())
-        element_entries_[set].push_back(std::to_string(number));
-    for (const auto &[name, entries] : node_entries_)
-    {
-      const std::set<std::size_t> all = resolve(name, node_entries_);
-      mesh_.node_sets[name].assign(all.begin(), all.end());
-    }
+        element_sets_.add(set, number);
+    for (const std::string &name : node_sets_.names())
+      mesh_.node_sets[name] = members(node_sets_, name);
     order_middles();
     add_solids();
     add_surface_elements();
@@ -354,7 +341,7 @@ private:
   {
     std::unordered_map<std::size_t, std::string> section;
     for (const std::string &name : sections_)
-      for (const std::size_t number : resolve(name, element_entries_))
+      for (const std::size_t number : members(element_sets_, name))
         section[number] = name;
     std::map<std::pair<std::string, int>, std::size_t> block;
     for (const std::size_t number : order_)
@@ -396,9 +383,9 @@ private:
 
   void add_side(const Side &side)
   {
-    const auto            direct = as_number(side.of);
-    std::set<std::size_t> of     = direct ? std::set<std::size_t>{*direct} : resolve(side.of, element_entries_);
-    const auto            s      = side.side.size() == 2 && side.side[0] == 'S' ? side.side[1] - '1' : -1;
+    const auto direct = as_number(side.of);
+    const auto of     = direct ? std::vector<std::size_t>{*direct} : members(element_sets_, side.of);
+    const auto s      = side.side.size() == 2 && side.side[0] == 'S' ? side.side[1] - '1' : -1;
     for (const std::size_t number : of)
     {
       const auto element = elements_.find(number);
@@ -414,27 +401,30 @@ private:
       for (const int corner : faces[s])
         corners.push_back(element->second.nodes[corner]);
       mesh_.faces[side.surface].push_back(corners);
+      if (++n_sides_ > most_members())
+        refuse("its surfaces have more than " + std::to_string(most_members()) +
+               " sides of elements together; leave out those that are not needed.");
     }
   }
 
-  const CadSource                                &source_;
-  InpMesh                                         mesh_;
-  std::string                                     file_;
-  std::set<std::string>                           open_; // files
-  int                                             line_ = 0;
-  std::optional<InpKeyword>                       keyword_;
-  const InpElementKind                           *kind_ = nullptr;
-  std::string                                     set_, node_set_;
-  std::size_t                                     element_ = 0; // being read
-  std::unordered_map<std::size_t, std::size_t>    nodes_;       // to their index
-  std::unordered_map<std::size_t, Element>        elements_;
-  std::vector<std::size_t>                        order_; // of the elements
-  std::map<std::string, std::vector<std::string>> node_entries_, element_entries_;
-  std::vector<Range>                              ranges_;
-  std::vector<std::string>                        sections_;
-  std::vector<Side>                               sides_;
-  std::map<std::string, int>                      n_parts_;
-  std::set<std::string>                           ties_, left_;
+  const CadSource                             &source_;
+  InpMesh                                      mesh_;
+  std::string                                  file_;
+  std::set<std::string>                        open_; // files
+  int                                          line_ = 0;
+  std::optional<InpKeyword>                    keyword_;
+  const InpElementKind                        *kind_ = nullptr;
+  std::string                                  set_, node_set_;
+  std::size_t                                  element_ = 0; // being read
+  std::unordered_map<std::size_t, std::size_t> nodes_;       // to their index
+  std::unordered_map<std::size_t, Element>     elements_;
+  std::vector<std::size_t>                     order_; // of the elements
+  InpSets                                      node_sets_, element_sets_;
+  std::vector<std::string>                     sections_;
+  std::vector<Side>                            sides_;
+  std::size_t                                  n_sides_ = 0, n_files_ = 0;
+  std::map<std::string, int>                   n_parts_;
+  std::set<std::string>                        ties_, left_;
 };
 
 } // namespace

@@ -6,7 +6,7 @@ namespace gestell::fem
 {
 
 /// A copy of all shapes of the model that is open in gmsh, in its unit, for what gmsh cannot compute.  gmsh hands
-/// shapes out through a file only: one in the folder of temporary files, which is removed at once.
+/// shapes out through a file only: one in a passing folder.
 TopoDS_Shape occ_snapshot();
 
 } // namespace gestell::fem

@@ -52,7 +52,9 @@ double corner_quality(const Mesh &mesh, int cell)
   {
     const auto   edge   = [&](int k) { return mesh.points[corners[shape.triads[c][k]]] - mesh.points[corners[c]]; };
     const double length = norm(edge(0)) * norm(edge(1)) * norm(edge(2));
-    worst               = std::min(worst, dot(edge(0), cross(edge(1), edge(2))) / length);
+    if (!(length > 0.)) // corners upon each other
+      return 0.;
+    worst = std::min(worst, dot(edge(0), cross(edge(1), edge(2))) / length);
   }
   return worst;
 }

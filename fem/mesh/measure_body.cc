@@ -1,212 +1,26 @@
 #include "fem/mesh/measure_body.h"
 
-#include "fem/geometry/cad_file.h"
-#include "fem/geometry/gmsh_session.h"
-#include "fem/geometry/read_cad.h"
-#include "fem/mesh/cell_measures.h"
-#include "fem/mesh/mesh_extraction.h"
-#include "fem/values/triangle_surface.h"
-#include "fem/values/vector3.h"
-#include "fem/values/volume_integrals.h"
+#include "fem/mesh/gmsh_child.h"
+#include "fem/mesh/part_measures.h"
 
-#include <gmsh.h>
-
-#include <cmath>
-#include <map>
-#include <stdexcept>
+#include <Eigen/Core>
 
 namespace gestell::fem
 {
 
-namespace
+template <typename Archive>
+void exchange(Archive &archive, CadBody &body)
 {
-
-constexpr double coarsest       = 0.2;  // edge of a skin's triangles by the part's diagonal
-constexpr int    n_around       = 16;   // edges around a full circle
-constexpr double same_volume    = 1e-6; // relative, of a union against its solids
-constexpr double enclosed_share = 0.5;  // of the volume, by a skin of coarse triangles
-
-std::string head_of(const CadSource &source)
-{
-  return source.place + ": " + source.path;
+  auto &[solids, volume, centre, inertia, points, triangles] = body;
+  archive(solids, volume, points, triangles);
+  archive.run(centre.data(), 3);
+  archive.run(inertia.data(), 9);
 }
-
-Eigen::Vector3d vector(const Vector3 &x)
-{
-  return {x[0], x[1], x[2]};
-}
-
-/// The triangles of these surfaces of gmsh's mesh.
-TriangleSurface surface_of(const std::vector<int> &tags, double unit)
-{
-  TriangleSurface            surface;
-  std::map<std::size_t, int> index;
-  for (const int tag : tags)
-  {
-    std::vector<std::size_t> elements, nodes;
-    gmsh::model::mesh::getElementsByType(2, elements, nodes, tag); // 2: triangles of three nodes
-    for (std::size_t i = 0; i < nodes.size(); i += 3)
-    {
-      std::array<int, 3> triangle;
-      for (int k = 0; k < 3; ++k)
-      {
-        const auto [entry, is_new] = index.try_emplace(nodes[i + k], static_cast<int>(surface.points.size()));
-        triangle[k]                = entry->second;
-        if (!is_new)
-          continue;
-        std::vector<double> x, parameters;
-        gmsh::model::mesh::getNode(nodes[i + k], x, parameters);
-        surface.points.push_back(unit * Vector3{x[0], x[1], x[2]});
-      }
-      surface.triangles.push_back(triangle);
-    }
-  }
-  return surface;
-}
-
-void add_skin(CadBody &part, const TriangleSurface &surface)
-{
-  const int first = static_cast<int>(part.points.size());
-  part.points.insert(part.points.end(), surface.points.begin(), surface.points.end());
-  for (const auto &[a, b, c] : surface.triangles)
-    part.triangles.push_back({first + a, first + b, first + c});
-}
-
-/// Coarse triangles for pictures, solid by solid; none if gmsh does not find them.
-void draw_skin(CadBody &part, const CadModel &model)
-{
-  gmsh::option::setNumber("Mesh.MeshSizeMax", coarsest * model.diagonal() / model.unit);
-  gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", n_around);
-  try
-  {
-    gmsh::model::mesh::generate(2);
-    for (const Solid &solid : model.solids)
-    {
-      TriangleSurface surface = surface_of(solid.faces, model.unit);
-      turn_outwards(surface);
-      const bool closed = unmatched_edges(surface) == 0 && enclosed_volume(surface) > enclosed_share * solid.volume;
-      if (!closed)
-        throw std::runtime_error("the skin is open");
-      add_skin(part, surface);
-    }
-  }
-  catch (...) // gmsh throws integers and texts: a body without a picture is one all the same
-  {
-    part.points.clear();
-    part.triangles.clear();
-  }
-}
-
-/// Boolean union, for solids whose boxes touch: overlapping ones would count twice.
-void check_overlap(const CadModel &model, const CadSource &source, const GmshSession &session)
-{
-  bool touch = false;
-  for (std::size_t i = 0; i < model.solids.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      touch |= boxes_touch(model.solids[i], model.solids[j], 0.);
-  if (!touch)
-    return;
-  gmsh::vectorpair first = {{3, model.solids[0].tag}}, rest, united;
-  for (std::size_t i = 1; i < model.solids.size(); ++i)
-    rest.emplace_back(3, model.solids[i].tag);
-  std::vector<gmsh::vectorpair> parents;
-  session.run([&] { gmsh::model::occ::fuse(first, rest, united, parents); },
-              head_of(source) + ": gmsh cannot tell whether its solids overlap: ",
-              "; unite them to one solid in the CAD program.");
-  double volume = 0.;
-  for (const auto &[dim, tag] : united)
-  {
-    double V = 0.;
-    gmsh::model::occ::getMass(dim, tag, V);
-    volume += V * std::pow(model.unit, 3);
-  }
-  if (volume < (1. - same_volume) * model.volume())
-    throw std::invalid_argument(head_of(source) + ": its " + std::to_string(model.solids.size()) +
-                                " solids overlap: they have " + text(model.volume()) + " m^3 in sum and " +
-                                text(volume) +
-                                " m^3 together; unite them to one solid in the CAD program, else their "
-                                "common part would count twice.");
-}
-
-void measure_geometry(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source,
-                      const GmshSession &session)
-{
-  const double unit = model.unit;
-  for (const Solid &solid : model.solids)
-  {
-    Vector3             centre;
-    std::vector<double> J;
-    gmsh::model::occ::getCenterOfMass(3, solid.tag, centre[0], centre[1], centre[2]);
-    gmsh::model::occ::getMatrixOfInertia(3, solid.tag, J); // about the solid's centre of mass
-    sum.add_body(solid.volume, unit * vector(centre), std::pow(unit, 5) * Eigen::Map<const Eigen::Matrix3d>(J.data()));
-    part.solids.push_back(solid.name);
-  }
-  draw_skin(part, model);
-  check_overlap(model, source, session);
-}
-
-void measure_cells(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
-{
-  const Mesh mesh = extract_mesh(model, head_of(source), {0}).mesh;
-  for (const auto &[a, b, c, d] : tetrahedra_of(mesh))
-    sum.add_tetrahedron(vector(mesh.points[a]), vector(mesh.points[b]), vector(mesh.points[c]), vector(mesh.points[d]));
-  part.solids = mesh.solids;
-  add_skin(part, {mesh.points, mesh.skin});
-}
-
-void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
-{
-  gmsh::vectorpair surfaces;
-  gmsh::model::getEntities(surfaces, 2);
-  std::vector<int> tags;
-  for (const auto &[dim, tag] : surfaces)
-    tags.push_back(tag);
-  TriangleSurface surface = surface_of(tags, model.unit);
-  if (surface.triangles.empty())
-    throw std::invalid_argument(head_of(source) + " holds no triangles; export the part again.");
-  if (const int open = unmatched_edges(surface))
-    throw std::invalid_argument(
-        head_of(source) + " is no closed surface: at " + std::to_string(open) + " of its " +
-        std::to_string(surface.triangles.size()) +
-        " triangles' edges no neighbour meets it; close the holes, or export the part as STEP.");
-  if (enclosed_volume(surface) < 0.)
-    for (auto &triangle : surface.triangles)
-      std::swap(triangle[1], triangle[2]);
-  const Eigen::Vector3d inside = vector(0.5 * (model.min + model.max)); // near the part: no digits are lost
-  for (const auto &[a, b, c] : surface.triangles)
-    sum.add_tetrahedron(inside, vector(surface.points[a]), vector(surface.points[b]), vector(surface.points[c]));
-  part.solids = {"surface"};
-  add_skin(part, surface);
-}
-
-} // namespace
 
 CadBody measure_part(const CadSource &source)
 {
-  const GmshSession session;
-  CadBody           part;
-  const auto        measure = [&]
-  {
-    const CadFile file = check_cad_file(source);
-    if (file == CadFile::triangles && !(source.unit > 0.))
-      throw std::invalid_argument(head_of(source) + " does not know its unit; give it, such as unit = \"1 mm\".");
-    const CadModel  model = open_cad(source, session);
-    VolumeIntegrals sum;
-    if (file == CadFile::triangles)
-      measure_triangles(part, sum, model, source);
-    else if (is_mesh(file))
-      measure_cells(part, sum, model, source);
-    else
-      measure_geometry(part, sum, model, source, session);
-    if (!(sum.volume > 0.))
-      throw std::invalid_argument(head_of(source) + " has the volume " + text(sum.volume) +
-                                  " m^3; repair it in the CAD program.");
-    part.volume  = sum.volume;
-    part.centre  = sum.centre();
-    part.inertia = sum.inertia();
-  };
-  session.run(measure, head_of(source) + ": gmsh fails on this part: ", "; repair it, or export it another way.");
-  return part;
+  return in_gmsh_child<CadBody>(source, "reading the part", {},
+                                [&](const ChildProgress &) { return measures_of_part(source); });
 }
 
 } // namespace gestell::fem

@@ -12,7 +12,9 @@ namespace gestell::fem
  * Of CAD by OpenCASCADE's integrals over the faces, of tetrahedra and of closed triangles by exact sums; the unit is as
  * in open_cad(), for a .stl it must be given.
  *
- * @throws std::invalid_argument as open_cad(), or if a surface of triangles is open or solids overlap.
+ * gmsh works in a child process, see in_child().
+ *
+ * @throws std::invalid_argument as open_cad(), if a surface of triangles is open or solids overlap, if the child dies.
  */
 CadBody measure_part(const CadSource &source);
 

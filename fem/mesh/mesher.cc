@@ -1,449 +1,84 @@
 #include "fem/mesh/mesher.h"
 
-#include "fem/geometry/gmsh_faces.h"
-#include "fem/geometry/gmsh_session.h"
 #include "fem/geometry/read_cad.h"
-#include "fem/geometry/shared_faces.h"
-#include "fem/geometry/small_features.h"
-#include "fem/geometry/solid_materials.h"
-#include "fem/geometry/surface_selection.h"
-#include "fem/mesh/cell_measures.h"
-#include "fem/mesh/curved_sides.h"
-#include "fem/mesh/memory_estimate.h"
-#include "fem/mesh/mesh_extraction.h"
-#include "fem/mesh/mesh_grading.h"
-#include "fem/mesh/mesh_groups.h"
-#include "fem/mesh/mesh_quality.h"
-#include "fem/mesh/mesh_size.h"
-#include "fem/mesh/plates/swept_mesh.h"
-#include "fem/mesh/point_freedom.h"
-#include "fem/mesh/watched_meshing.h"
-#include "fem/values/vector3.h"
-
-#include <gmsh.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <stdexcept>
+#include "fem/mesh/frame_mesher.h"
+#include "fem/mesh/gmsh_child.h"
+#include "fem/values/mesh_phase.h"
 
 namespace gestell::fem
 {
 
-namespace
+template <typename Archive>
+void exchange(Archive &archive, Mesh &mesh)
 {
-
-constexpr double cells_by_default = 25000.;
-constexpr double flattest         = 1e-5; // quality; flatter cells spoil the condition of C
-constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
-constexpr double swept_by_default = 20.;  // size over the mean thickness of walls
-
-enum class MissingSize
-{
-  refused,
-  chosen
-};
-
-struct MeshedModel
-{
-  CadModel      model;
-  Selection     selection;
-  ExtractedMesh extracted;
-  double        size           = 0.; ///< [m]
-  double        expected_cells = 0.;
-  std::string   smallest; ///< edges and faces
-};
-
-Selection select_all(const CadModel &model, const FrameSpecification &specification)
-{
-  Selection selection;
-  for (const auto &[name, selector] : specification.surfaces)
-    selection[name] = select_faces(model.faces, selector, model.diagonal());
-  require_faces_of_one_owner(selection, model.faces, specification);
-  return selection;
+  auto &[points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, middles, takes_one_size, notes,
+         statements, surfaces] = mesh;
+  archive(points, cells, hexahedra, prisms, cell_solid, skin, skin_quads, solids, middles, takes_one_size, notes,
+          statements, surfaces);
 }
 
-/// Before the mesh, which may take long.
-void check_materials(const CadModel &model, const FrameSpecification &specification)
+template <typename Archive>
+void exchange(Archive &archive, ExtractedMesh &extracted)
 {
-  std::vector<std::string> names;
-  for (const Solid &solid : model.solids)
-    names.push_back(solid.name);
-  check_solids_of_materials(specification, names);
+  auto &[mesh, skin_surface, node] = extracted;
+  archive(mesh, skin_surface, node);
 }
 
-/// Sides of hexahedra and prisms are straight.
-void require_straight(const ExtractedMesh &extracted, const FrameSpecification &specification)
+template <typename Archive>
+void exchange(Archive &archive, Solid &solid)
 {
-  const MeshOptions &options = specification.mesh;
-  if (options.curved && !extracted.mesh.only_tetrahedra())
-    throw std::invalid_argument(options.place + ": curved = true, but the cells of " + specification.cad +
-                                std::string(extracted.mesh.hexahedra.empty() ? " are prisms" : " are hexahedra") +
-                                ", whose sides are straight; leave curved out and make cells smaller "
-                                "along curved faces, or mesh with tetrahedra.");
+  auto &[tag, name, volume, min, max, faces] = solid;
+  archive(tag, name, volume, min, max, faces);
 }
 
-/// Whether a face of gmsh is among those of a surface, if there is such a surface.
-bool is_on(const Selection &selection, const std::string &name, int face)
+template <typename Archive>
+void exchange(Archive &archive, Face::Sample &sample)
 {
-  const auto found = selection.find(name);
-  return found != selection.end() && std::binary_search(found->second.begin(), found->second.end(), face);
+  auto &[point, normal] = sample;
+  archive(point, normal);
 }
 
-/// Surfaces that interfaces and attached masses average.
-std::vector<std::string> averaged_surfaces(const FrameSpecification &specification)
+template <typename Archive>
+void exchange(Archive &archive, Face &face)
 {
-  std::vector<std::string> names;
-  const auto               add = [&](const auto &coupled)
-  {
-    for (const auto &one : coupled)
-      if (one.coupling == InterfaceCoupling::average)
-        names.insert(names.end(), one.surfaces.begin(), one.surfaces.end());
-  };
-  add(specification.interfaces);
-  add(specification.masses);
-  return names;
+  auto &[tag, kind, type, name, groups, edges, area, min, max, centre, direction, through, radius, faceted, samples] =
+      face;
+  archive(tag, kind, type, name, groups, edges, area, min, max, centre, direction, through, radius, faceted, samples);
 }
 
-/// Nodes to be expected on surfaces that are averaged.
-double expected_averaged(const MeshedModel &result, const FrameSpecification &specification,
-                         const std::map<std::string, double> &sizes, double size_elsewhere)
+template <typename Archive>
+void exchange(Archive &archive, WallThickness &walls)
 {
-  double n = 0.;
-  for (const std::string &name : averaged_surfaces(specification))
-    for (const Face &face : result.model.faces)
-    {
-      const auto size = sizes.find(name);
-      if (is_on(result.selection, name, face.tag))
-        n += nodes_on(face.area, size != sizes.end() ? size->second : size_elsewhere);
-    }
-  return n;
+  auto &[thinnest, median_ratio, thin_share] = walls;
+  archive(thinnest, median_ratio, thin_share);
 }
 
-/// Refuses a mesh whose frame would not fit into the memory, before it is made.
-void judge_memory(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
+template <typename Archive>
+void exchange(Archive &archive, GeometryReport &report)
 {
-  const auto sizes       = resolve_surface_sizes(options, result.selection);
-  result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
-  const double available = available_memory();
-  const double kappa     = compactness(result.model.volume(), skin_area(result.model.faces));
-  const double averaged  = expected_averaged(result, specification, sizes, options.size);
-  const auto   memory    = [&](double cells) // nodes of a surface grow like cells^(2/3)
-  {
-    return reduction_memory(coordinates_of(cells), kappa, averaged * std::pow(cells / result.expected_cells, 2. / 3.));
-  };
-  double fitting = result.expected_cells;
-  while (fitting > 1000. && memory(fitting) > available)
-    fitting *= 0.9;
-  require_memory("about " + text(result.expected_cells) + " tetrahedra with " +
-                     text(coordinates_of(result.expected_cells)) + " coordinates are to be expected",
-                 memory(result.expected_cells), available, options.place,
-                 "Use size = " + text(size_for_cells(result.model, fitting)) +
-                     " m or more, larger sizes on surfaces, or a machine with more memory.");
+  auto &[solids, faces, surfaces, min, max, size, n_points, n_cells, n_coordinates, volume, worst_quality, mean_quality,
+         expected_cells, smallest, walls, n_of_kind, notes, statements, extracted] = report;
+  archive(solids, faces, surfaces, min, max, size, n_points, n_cells, n_coordinates, volume, worst_quality,
+          mean_quality, expected_cells, smallest, walls, n_of_kind, notes, statements, extracted);
 }
-
-/// The same of a mesh that is read.
-void judge_memory(const MeshedModel &result, const FrameSpecification &specification)
-{
-  const Mesh  &mesh     = result.extracted.mesh;
-  const double n        = 3. * number_of_nodes(mesh);
-  double       averaged = 0.;
-  for (const std::string &name : averaged_surfaces(specification))
-    for (const int surface : result.extracted.skin_surface)
-      if (is_on(result.selection, name, surface))
-        averaged += 2.; // nodes to a triangle
-  require_memory(specification.cad + " has " + text(n) + " coordinates",
-                 reduction_memory(n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
-                 available_memory(), specification.mesh.place, "Give a coarser mesh, or a machine with more memory.");
-}
-
-/// Notes what forces elements far smaller than the size.
-void judge_features(MeshedModel &result, const MeshOptions &options)
-{
-  const double        limit    = much_smaller * options.size;
-  const SmallFeatures features = small_features(result.model, limit);
-  result.smallest              = describe(features);
-  if (features.n_short_edges + features.n_narrow_faces > 0)
-    result.model.notes.push_back(
-        std::to_string(features.n_short_edges) + " edges and " + std::to_string(features.n_narrow_faces) +
-        " faces are much smaller than elements (below " + text(1e3 * limit) + " mm; " + result.smallest +
-        ") and force small elements there: mesh.defeature removes what is smaller than a size, where it can");
-}
-
-/// By the mean thickness 2 V / A.
-double size_for_walls(const CadModel &model)
-{
-  const double size = swept_by_default * 2. * model.volume() / skin_area(model.faces);
-  const double largest =
-      std::max({model.max[0] - model.min[0], model.max[1] - model.min[1], model.max[2] - model.min[2]});
-  return std::min(size, largest);
-}
-
-/// All that is judged before meshing; @return the options with their size.
-MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &specification, MissingSize missing)
-{
-  MeshOptions options = specification.mesh;
-  if (options.size == 0. && missing == MissingSize::chosen)
-    options.size =
-        options.plates == Plates::swept ? size_for_walls(result.model) : size_for_cells(result.model, cells_by_default);
-  result.size = options.size;
-  check_materials(result.model, specification);
-  result.selection = select_all(result.model, specification);
-  set_mesh_sizes(result.model, options, result.selection);
-  judge_memory(result, specification, options);
-  if (options.plates != Plates::swept) // whose cells small features do not make smaller
-    judge_features(result, options);
-  return options;
-}
-
-/// @return whether plates are to be swept and could be; a note says why not.
-bool sweep(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
-{
-  if (options.plates != Plates::swept)
-    return false;
-  try
-  {
-    result.extracted      = swept_mesh(result.model, result.selection, specification, options);
-    result.expected_cells = 0.; // which is of tetrahedra
-    return true;
-  }
-  catch (const NotSwept &reason)
-  {
-    result.model.notes.push_back(options.place + ": plates are not swept but meshed in tetrahedra, as " +
-                                 std::string(reason.what()));
-    judge_features(result, options);
-    return false;
-  }
-}
-
-void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
-                   MissingSize missing, const MeshProgress &progress, const std::vector<SizePoint> &refined)
-{
-  const bool  script_has_sizes = has_size_fields();
-  MeshOptions options          = prepare_geometry(result, specification, missing);
-  const auto  report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
-  if (sweep(result, specification, options))
-    return judge_memory(result, specification);
-  if (specification.mesh.size == 0.) // chosen for what is not swept
-    options.size = result.size = size_for_cells(result.model, cells_by_default);
-  gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / result.model.unit);
-  std::optional<SizeField> field;
-  if (!refined.empty())
-    set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
-  report("meshing surfaces");
-  mesh_surfaces(result.model, result.selection, specification, session, {options, field, script_has_sizes});
-  report("meshing volumes");
-  mesh_volumes(result.model, specification, session);
-  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
-  require_straight(result.extracted, specification);
-  require_cells(result.extracted.mesh.n_cells(),
-                "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
-  if (refined.empty()) // who refines judges beforehand
-    judge_memory(result, specification);
-  if (!result.extracted.mesh.only_tetrahedra())
-    return;
-  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
-  if (options.curved)
-    follow_geometry(result.extracted, result.model);
-}
-
-/// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
-void measure_solids(CadModel &model, const Mesh &mesh)
-{
-  for (Solid &solid : model.solids)
-  {
-    solid.min = model.max;
-    solid.max = model.min;
-  }
-  const std::vector<double> volumes = curved_volumes(mesh);
-  std::size_t               piece   = 0;
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-  {
-    const CellShape &shape = cell_shape(mesh.kind(cell));
-    Solid           &solid = model.solids[mesh.cell_solid[cell]];
-    for (std::size_t k = 0; k < shape.pieces.size(); ++k)
-      solid.volume += volumes[piece++];
-    for (int k = 0; k < shape.n_corners; ++k)
-      for (int d = 0; d < 3; ++d)
-      {
-        const double x = mesh.points[mesh.corners(cell)[k]][d];
-        solid.min[d]   = std::min(solid.min[d], x);
-        solid.max[d]   = std::max(solid.max[d], x);
-      }
-  }
-}
-
-void read_mesh(MeshedModel &result, const FrameSpecification &specification)
-{
-  const MeshOptions &options = specification.mesh;
-  if (options.defeature > 0.)
-    throw std::invalid_argument(options.place + ": defeature = " + text(options.defeature) + " m, but " +
-                                specification.cad + " is a mesh already; remove it, or give the geometry.");
-  if (!options.surface_size.empty())
-    throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
-                                specification.cad + " is a mesh already; remove the size, or give the geometry.");
-  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, options.gap});
-  result.extracted.mesh.takes_one_size = true;
-  require_straight(result.extracted, specification);
-  const Mesh &mesh = result.extracted.mesh;
-  if (mesh.n_cells() > options.max_cells)
-    throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +
-                                " cells, mesh.max_cells allows " + text(options.max_cells) +
-                                "; raise max_cells or give a coarser mesh.");
-  check_materials(result.model, specification);
-  unfold(result.extracted.mesh);
-  measure_solids(result.model, mesh);
-  const auto divided = divide_skin(result.extracted, result.model.groups);
-  result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
-  result.selection   = select_all(result.model, specification);
-  judge_memory(result, specification);
-}
-
-void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
-{
-  Mesh &mesh = result.extracted.mesh;
-  for (const auto &[name, tags] : result.selection)
-  {
-    std::vector<int> &triangles = mesh.surfaces[name];
-    for (std::size_t t = 0; t < mesh.skin.size(); ++t)
-      if (std::binary_search(tags.begin(), tags.end(), result.extracted.skin_surface[t]))
-        triangles.push_back(static_cast<int>(t));
-    if (triangles.empty())
-      throw std::invalid_argument(
-          specification.surfaces.at(name).place +
-          ": no triangle of the mesh lies on the faces of this surface; choose another mesh.size.");
-  }
-}
-
-void require_thick(const Mesh &mesh, int cell, const std::string &head, const std::string &way_out)
-{
-  const double q = cell_quality(mesh, cell);
-  if (q >= flattest)
-    return;
-  const int n = cell_shape(mesh.kind(cell)).n_corners;
-  Vector3   centre{};
-  for (int k = 0; k < n; ++k)
-    centre = centre + (1. / n) * mesh.points[mesh.corners(cell)[k]];
-  throw std::invalid_argument(head + ": the mesh has a flat cell at " + text(centre) + " m (quality " + text(q) +
-                              ", needed " + text(flattest) + "); " + way_out);
-}
-
-void check_flatness(const Mesh &mesh, bool meshed, const std::string &head)
-{
-  const std::string way_out = meshed ? "its volume is nearly zero, or less: mend it in the program that made the mesh."
-                                     : "choose another mesh.size, or a smaller one on the surface there.";
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-    require_thick(mesh, cell, head, way_out);
-}
-
-/// Colours and layers are wanted where a surface is asked for by name.
-FaceAttributes wanted_attributes(const FrameSpecification &specification)
-{
-  for (const auto &surface : specification.surfaces)
-    if (surface.second.group)
-      return FaceAttributes::read;
-  return FaceAttributes::left;
-}
-
-/// The model, with a note if its size is unlikely.
-CadModel read_model(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
-{
-  CadModel model = read_cad(specification, session, attributes);
-  if (const std::string note = suspect_size(model, source_of(specification)); !note.empty())
-    model.notes.push_back(note);
-  return model;
-}
-
-MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
-                       const MeshProgress &progress, const std::vector<SizePoint> &refined = {})
-{
-  const GmshSession session;
-  MeshedModel       result;
-  if (progress)
-    progress("reading CAD", -1.);
-  const auto work = [&]
-  {
-    result.model = read_model(specification, session, attributes);
-    if (result.model.meshed)
-      read_mesh(result, specification);
-    else
-      mesh_geometry(result, specification, session, missing, progress, refined);
-    check_flatness(result.extracted.mesh, result.model.meshed, head_of(specification));
-    name_surfaces(result, specification);
-    Mesh &mesh = result.extracted.mesh;
-    mesh.notes.insert(mesh.notes.begin(), result.model.notes.begin(), result.model.notes.end());
-    mesh.statements.insert(mesh.statements.begin(), result.model.statements.begin(), result.model.statements.end());
-  };
-  session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
-  return result;
-}
-
-/// What is known before the mesh.
-GeometryReport report_of(const MeshedModel &meshed)
-{
-  GeometryReport report;
-  report.solids         = meshed.model.solids;
-  report.faces          = meshed.model.faces;
-  report.surfaces       = meshed.selection;
-  report.min            = meshed.model.min;
-  report.max            = meshed.model.max;
-  report.size           = meshed.size;
-  report.expected_cells = meshed.expected_cells;
-  return report;
-}
-
-} // namespace
 
 Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &progress,
                const std::vector<SizePoint> &refined)
 {
-  return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
-      .extracted.mesh;
-}
-
-GeometryReport inspect_geometry(const FrameSpecification &specification)
-{
-  const GmshSession session;
-  MeshedModel       result;
-  const auto        work = [&]
-  {
-    result.model = read_model(specification, session, wanted_attributes(specification));
-    if (result.model.meshed)
-      read_mesh(result, specification);
-    else
-      prepare_geometry(result, specification, MissingSize::refused);
-  };
-  session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
-  GeometryReport report = report_of(result);
-  report.volume         = result.model.volume();
-  report.notes          = result.model.notes;
-  report.statements     = result.model.statements;
-  return report;
+  return in_gmsh_child<Mesh>(source_of(specification), mesh_phase::reading, progress,
+                             [&](const ChildProgress &told) { return mesh_of_frame(specification, told, refined); });
 }
 
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
 {
-  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
-  const Mesh    &mesh   = meshed.extracted.mesh;
-  GeometryReport report = report_of(meshed);
-  report.notes          = mesh.notes;
-  report.statements     = mesh.statements;
-  report.smallest       = meshed.smallest;
-  report.walls          = wall_thickness(mesh);
-  report.n_of_kind      = {mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()};
-  report.n_points       = static_cast<int>(mesh.points.size());
-  report.n_cells        = mesh.n_cells();
-  report.n_coordinates  = 3 * number_of_nodes(mesh);
-  report.worst_quality  = 1.;
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-  {
-    const double q       = cell_quality(mesh, cell);
-    report.worst_quality = std::min(report.worst_quality, q);
-    report.mean_quality += q / report.n_cells;
-  }
-  report.volume    = curved_volume(mesh);
-  report.extracted = std::move(meshed.extracted);
-  return report;
+  return in_gmsh_child<GeometryReport>(source_of(specification), mesh_phase::reading, progress,
+                                       [&](const ChildProgress &told) { return report_of_frame(specification, told); });
+}
+
+GeometryReport inspect_geometry(const FrameSpecification &specification)
+{
+  return in_gmsh_child<GeometryReport>(source_of(specification), mesh_phase::reading, {},
+                                       [&](const ChildProgress &) { return inspection_of_frame(specification); });
 }
 
 } // namespace gestell::fem

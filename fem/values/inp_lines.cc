@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <stdexcept>
 
 namespace gestell::fem
 {
 
 namespace
 {
+
+constexpr std::size_t longest_line = 1000000;
 
 std::string unquoted(const std::string &text)
 {
@@ -45,7 +48,10 @@ std::string InpKeyword::operator[](const std::string &parameter) const
   return found == parameters.end() ? "" : found->second;
 }
 
-InpLines::InpLines(const std::string &path) : in_(path), opened_(in_ && std::filesystem::is_regular_file(path)) {}
+InpLines::InpLines(const std::string &path)
+    : path_(path), in_(path), opened_(in_ && std::filesystem::is_regular_file(path))
+{
+}
 
 /// The next line into ahead_.
 bool InpLines::take()
@@ -55,6 +61,10 @@ bool InpLines::take()
   while (std::getline(in_, ahead_))
   {
     ++read_;
+    if (ahead_.size() > longest_line)
+      throw std::invalid_argument(path_ + ":" + std::to_string(read_) + ": the line has " +
+                                  std::to_string(ahead_.size()) + " characters, " + std::to_string(longest_line) +
+                                  " are read at most; this is no input file of Abaqus, or write it in lines.");
     ahead_     = trimmed(ahead_);
     has_ahead_ = !ahead_.empty() && ahead_.compare(0, 2, "**") != 0;
     if (has_ahead_)
@@ -70,7 +80,8 @@ bool InpLines::next()
   text_      = std::move(ahead_);
   number_    = read_;
   has_ahead_ = false;
-  while (is_keyword() && text_.back() == ',' && take() && std::isalpha(static_cast<unsigned char>(ahead_[0])))
+  while (is_keyword() && text_.back() == ',' && text_.size() < longest_line && take() &&
+         std::isalpha(static_cast<unsigned char>(ahead_[0])))
   {
     text_ += ahead_;
     has_ahead_ = false;

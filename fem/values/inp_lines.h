@@ -29,6 +29,7 @@ public:
   bool opened() const { return opened_; }
 
   /// Steps to the next line; false at the end of the file.
+  /// @throws std::invalid_argument with the place of a line of more than a million characters.
   bool next();
 
   int                      number() const { return number_; } ///< of the line in the file, from 1
@@ -40,6 +41,7 @@ public:
 private:
   bool take();
 
+  std::string   path_;
   std::ifstream in_;
   bool          opened_;
   int           number_ = 0, read_ = 0;

@@ -32,7 +32,7 @@ std::string lines(const std::vector<std::string> &findings)
 
 /// A room includes what stands before its folder, or beside it in its own.
 const std::vector<std::vector<std::string>> directions = {
-    {"fem/values", "fem/parallel", "fem/geometry", "fem/mesh", "fem/assembly", "fem/recovery"},
+    {"fem/values", "fem/parallel", "fem/process", "fem/geometry", "fem/mesh", "fem/assembly", "fem/recovery"},
     {"mechanism/functions", "mechanism/measures", "mechanism/elements", "mechanism/joints"},
     {"coupling/integration/system", "coupling/integration/step", "coupling/integration/bdf",
      "coupling/integration/stability"},

@@ -2,6 +2,7 @@
 
 #include "apps/output/result_folder.h"
 #include "apps/scene/file/scene_override.h"
+#include "apps/session/prepared_machine.h"
 #include "apps/session/session.h"
 #include "apps/study/runs/run_derivatives.h"
 
@@ -130,7 +131,7 @@ Result StudyRunner::single_result(const Eigen::VectorXd &levels, const std::atom
   Scene scene = variants_.at(levels);
   if (kept_.empty() && sensitivities.empty()) // the scenes just beside have all signals
     leave_out_unread(scene);
-  const auto frame = frames_.frame(scene, {});
+  const auto frame = frames_.frame(scene, stoppable({}, stop));
   Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
   if (frame)
     session.use_frame(*frame);

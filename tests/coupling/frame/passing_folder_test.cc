@@ -1,6 +1,6 @@
 // Folders for temporary files: new, of this user alone, gone with their owner.
 
-#include "coupling/frame/passing_folder.h"
+#include "fem/values/passing_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ TEST(PassingFolder, IsNewAndOfItsUserAloneAndGoesWithItsOwner)
 {
   fs::path first;
   {
-    const coupling::PassingFolder one, other;
+    const fem::PassingFolder one, other;
     first = one.path();
     EXPECT_NE(one.path(), other.path()); // of one process: no name can be foreseen
     EXPECT_TRUE(fs::is_empty(first));

@@ -1,11 +1,11 @@
 #include "apps/scene/read/frame/read_dimensions.h"
 
 #include "coupling/frame/cache_folder.h"
-#include "coupling/frame/passing_folder.h"
 #include "coupling/frame/sha256.h"
 #include "coupling/frame/whole_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
+#include "fem/values/passing_folder.h"
 
 #include <cctype>
 #include <cstdlib>
@@ -94,7 +94,7 @@ bool holds(const fs::path &file, const std::string &text)
 /// Of this process, and gone with it: where there is no cache of the user's own, or none to write into.
 const fs::path &own_folder()
 {
-  static const coupling::PassingFolder folder;
+  static const fem::PassingFolder folder;
   return folder.path();
 }
 

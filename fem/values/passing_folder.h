@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace gestell::coupling
+namespace gestell::fem
 {
 
 /// A new folder for temporary files, for this user alone, under a name that nobody can foresee; gone with its owner.
@@ -20,4 +20,4 @@ private:
   std::filesystem::path path_;
 };
 
-} // namespace gestell::coupling
+} // namespace gestell::fem

@@ -1,4 +1,4 @@
-#include "coupling/frame/passing_folder.h"
+#include "fem/values/passing_folder.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gestell::coupling
+namespace gestell::fem
 {
 
 PassingFolder::PassingFolder()
@@ -24,4 +24,4 @@ PassingFolder::~PassingFolder()
   std::filesystem::remove_all(path_, ignored);
 }
 
-} // namespace gestell::coupling
+} // namespace gestell::fem

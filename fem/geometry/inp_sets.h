@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::fem
+{
+
+/// Named sets of numbers, which may name other sets.
+class InpSets
+{
+public:
+  void add(const std::string &set, std::size_t number) { sets_[set].numbers.push_back(number); }
+
+  /// first, first + step, ..., last: of *NSET or *ELSET with GENERATE
+  struct Range
+  {
+    std::string set;
+    std::size_t first, last, step;
+    std::string place; ///< heads messages
+  };
+  void add(Range range) { ranges_.push_back(std::move(range)); }
+
+  /// @param entry  a number or the name of a set
+  void add(const std::string &set, const std::string &entry);
+
+  /**
+   * The numbers of a set, those of the sets that it names included: ascending, each once; none of a set that is not
+   * there.  What is added to a set later is not known to it.
+   *
+   * @throws std::invalid_argument for a set that names itself, also by way of others, for sets that name each other
+   *         more than 200 deep, and for more members than allowed.
+   */
+  const std::vector<std::size_t> &members(const std::string &set);
+
+  /**
+   * Takes the ranges apart, now that all that may be in a set is known.
+   *
+   * @param n_there  how many `things`, nodes or elements, there are
+   * @param most     members of all sets together, counted wherever they are named: a short file can name very many
+   * @throws std::invalid_argument for a range of more than there are, and beyond `most`.
+   */
+  void close(std::size_t n_there, const std::string &things, std::size_t most);
+
+  std::vector<std::string> names() const;
+
+private:
+  struct Set
+  {
+    std::vector<std::size_t> numbers;
+    std::vector<std::string> others;
+    bool                     is_known = false, is_open = false;
+  };
+
+  void resolve(const std::string &name, Set &set);
+
+  std::map<std::string, Set> sets_;
+  std::vector<Range>         ranges_;
+  std::vector<std::string>   open_; ///< names of those being resolved
+  std::size_t                most_ = static_cast<std::size_t>(-1), n_members_ = 0;
+};
+
+} // namespace gestell::fem

@@ -1,0 +1,434 @@
+#include "fem/mesh/frame_mesher.h"
+
+#include "fem/geometry/gmsh_faces.h"
+#include "fem/geometry/gmsh_session.h"
+#include "fem/geometry/read_cad.h"
+#include "fem/geometry/shared_faces.h"
+#include "fem/geometry/small_features.h"
+#include "fem/geometry/solid_materials.h"
+#include "fem/geometry/surface_selection.h"
+#include "fem/mesh/cell_measures.h"
+#include "fem/mesh/curved_sides.h"
+#include "fem/mesh/flat_cells.h"
+#include "fem/mesh/memory_estimate.h"
+#include "fem/mesh/mesh_extraction.h"
+#include "fem/mesh/mesh_grading.h"
+#include "fem/mesh/mesh_groups.h"
+#include "fem/mesh/mesh_quality.h"
+#include "fem/mesh/mesh_size.h"
+#include "fem/mesh/plates/swept_mesh.h"
+#include "fem/mesh/point_freedom.h"
+#include "fem/mesh/watched_meshing.h"
+#include "fem/values/mesh_phase.h"
+#include "fem/values/vector3.h"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace gestell::fem
+{
+
+namespace
+{
+
+constexpr double cells_by_default = 25000.;
+constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
+constexpr double swept_by_default = 20.;  // size over the mean thickness of walls
+
+enum class MissingSize
+{
+  refused,
+  chosen
+};
+
+struct MeshedModel
+{
+  CadModel      model;
+  Selection     selection;
+  ExtractedMesh extracted;
+  double        size           = 0.; ///< [m]
+  double        expected_cells = 0.;
+  std::string   smallest; ///< edges and faces
+};
+
+Selection select_all(const CadModel &model, const FrameSpecification &specification)
+{
+  Selection selection;
+  for (const auto &[name, selector] : specification.surfaces)
+    selection[name] = select_faces(model.faces, selector, model.diagonal());
+  require_faces_of_one_owner(selection, model.faces, specification);
+  return selection;
+}
+
+/// Before the mesh, which may take long.
+void check_materials(const CadModel &model, const FrameSpecification &specification)
+{
+  std::vector<std::string> names;
+  for (const Solid &solid : model.solids)
+    names.push_back(solid.name);
+  check_solids_of_materials(specification, names);
+}
+
+/// Sides of hexahedra and prisms are straight.
+void require_straight(const ExtractedMesh &extracted, const FrameSpecification &specification)
+{
+  const MeshOptions &options = specification.mesh;
+  if (options.curved && !extracted.mesh.only_tetrahedra())
+    throw std::invalid_argument(options.place + ": curved = true, but the cells of " + specification.cad +
+                                std::string(extracted.mesh.hexahedra.empty() ? " are prisms" : " are hexahedra") +
+                                ", whose sides are straight; leave curved out and make cells smaller "
+                                "along curved faces, or mesh with tetrahedra.");
+}
+
+/// Whether a face of gmsh is among those of a surface, if there is such a surface.
+bool is_on(const Selection &selection, const std::string &name, int face)
+{
+  const auto found = selection.find(name);
+  return found != selection.end() && std::binary_search(found->second.begin(), found->second.end(), face);
+}
+
+/// Surfaces that interfaces and attached masses average.
+std::vector<std::string> averaged_surfaces(const FrameSpecification &specification)
+{
+  std::vector<std::string> names;
+  const auto               add = [&](const auto &coupled)
+  {
+    for (const auto &one : coupled)
+      if (one.coupling == InterfaceCoupling::average)
+        names.insert(names.end(), one.surfaces.begin(), one.surfaces.end());
+  };
+  add(specification.interfaces);
+  add(specification.masses);
+  return names;
+}
+
+/// Nodes to be expected on surfaces that are averaged.
+double expected_averaged(const MeshedModel &result, const FrameSpecification &specification,
+                         const std::map<std::string, double> &sizes, double size_elsewhere)
+{
+  double n = 0.;
+  for (const std::string &name : averaged_surfaces(specification))
+    for (const Face &face : result.model.faces)
+    {
+      const auto size = sizes.find(name);
+      if (is_on(result.selection, name, face.tag))
+        n += nodes_on(face.area, size != sizes.end() ? size->second : size_elsewhere);
+    }
+  return n;
+}
+
+/// Refuses a mesh whose frame would not fit into the memory, before it is made.
+void judge_memory(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
+{
+  const auto sizes       = resolve_surface_sizes(options, result.selection);
+  result.expected_cells  = expected_cells(result.model, options.size, sizes, result.selection);
+  const double available = available_memory();
+  const double kappa     = compactness(result.model.volume(), skin_area(result.model.faces));
+  const double averaged  = expected_averaged(result, specification, sizes, options.size);
+  const auto   memory    = [&](double cells) // nodes of a surface grow like cells^(2/3)
+  {
+    return reduction_memory(coordinates_of(cells), kappa, averaged * std::pow(cells / result.expected_cells, 2. / 3.));
+  };
+  double fitting = result.expected_cells;
+  while (fitting > 1000. && memory(fitting) > available)
+    fitting *= 0.9;
+  require_memory("about " + text(result.expected_cells) + " tetrahedra with " +
+                     text(coordinates_of(result.expected_cells)) + " coordinates are to be expected",
+                 memory(result.expected_cells), available, options.place,
+                 "Use size = " + text(size_for_cells(result.model, fitting)) +
+                     " m or more, larger sizes on surfaces, or a machine with more memory.");
+}
+
+/// The same of a mesh that is read.
+void judge_memory(const MeshedModel &result, const FrameSpecification &specification)
+{
+  const Mesh  &mesh     = result.extracted.mesh;
+  const double n        = 3. * number_of_nodes(mesh);
+  double       averaged = 0.;
+  for (const std::string &name : averaged_surfaces(specification))
+    for (const int surface : result.extracted.skin_surface)
+      if (is_on(result.selection, name, surface))
+        averaged += 2.; // nodes to a triangle
+  require_memory(specification.cad + " has " + text(n) + " coordinates",
+                 reduction_memory(n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
+                 available_memory(), specification.mesh.place, "Give a coarser mesh, or a machine with more memory.");
+}
+
+/// Notes what forces elements far smaller than the size.
+void judge_features(MeshedModel &result, const MeshOptions &options)
+{
+  const double        limit    = much_smaller * options.size;
+  const SmallFeatures features = small_features(result.model, limit);
+  result.smallest              = describe(features);
+  if (features.n_short_edges + features.n_narrow_faces > 0)
+    result.model.notes.push_back(
+        std::to_string(features.n_short_edges) + " edges and " + std::to_string(features.n_narrow_faces) +
+        " faces are much smaller than elements (below " + text(1e3 * limit) + " mm; " + result.smallest +
+        ") and force small elements there: mesh.defeature removes what is smaller than a size, where it can");
+}
+
+/// By the mean thickness 2 V / A.
+double size_for_walls(const CadModel &model)
+{
+  const double size = swept_by_default * 2. * model.volume() / skin_area(model.faces);
+  const double largest =
+      std::max({model.max[0] - model.min[0], model.max[1] - model.min[1], model.max[2] - model.min[2]});
+  return std::min(size, largest);
+}
+
+/// All that is judged before meshing; @return the options with their size.
+MeshOptions prepare_geometry(MeshedModel &result, const FrameSpecification &specification, MissingSize missing)
+{
+  MeshOptions options = specification.mesh;
+  if (options.size == 0. && missing == MissingSize::chosen)
+    options.size =
+        options.plates == Plates::swept ? size_for_walls(result.model) : size_for_cells(result.model, cells_by_default);
+  result.size = options.size;
+  check_materials(result.model, specification);
+  result.selection = select_all(result.model, specification);
+  set_mesh_sizes(result.model, options, result.selection);
+  judge_memory(result, specification, options);
+  if (options.plates != Plates::swept) // whose cells small features do not make smaller
+    judge_features(result, options);
+  return options;
+}
+
+/// @return whether plates are to be swept and could be; a note says why not.
+bool sweep(MeshedModel &result, const FrameSpecification &specification, const MeshOptions &options)
+{
+  if (options.plates != Plates::swept)
+    return false;
+  try
+  {
+    result.extracted      = swept_mesh(result.model, result.selection, specification, options);
+    result.expected_cells = 0.; // which is of tetrahedra
+    return true;
+  }
+  catch (const NotSwept &reason)
+  {
+    result.model.notes.push_back(options.place + ": plates are not swept but meshed in tetrahedra, as " +
+                                 std::string(reason.what()));
+    judge_features(result, options);
+    return false;
+  }
+}
+
+void mesh_geometry(MeshedModel &result, const FrameSpecification &specification, const GmshSession &session,
+                   MissingSize missing, const ChildProgress &progress, const std::vector<SizePoint> &refined)
+{
+  const bool  script_has_sizes = has_size_fields();
+  MeshOptions options          = prepare_geometry(result, specification, missing);
+  const auto  report           = [&](const char *phase) { progress ? progress(phase, -1.) : void(); };
+  if (options.plates == Plates::swept)
+    report(mesh_phase::plates);
+  if (sweep(result, specification, options))
+    return judge_memory(result, specification);
+  if (specification.mesh.size == 0.) // chosen for what is not swept
+    options.size = result.size = size_for_cells(result.model, cells_by_default);
+  gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / result.model.unit);
+  std::optional<SizeField> field;
+  if (!refined.empty())
+    set_refined_sizes(field.emplace(refined, options.size), result.model.unit);
+  report(mesh_phase::surfaces);
+  mesh_surfaces(result.model, result.selection, specification, session, {options, field, script_has_sizes});
+  report(mesh_phase::volumes);
+  mesh_volumes(result.model, specification, session);
+  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, 0.});
+  require_straight(result.extracted, specification);
+  require_cells(result.extracted.mesh.n_cells(),
+                "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
+  if (refined.empty()) // who refines judges beforehand
+    judge_memory(result, specification);
+  if (!result.extracted.mesh.only_tetrahedra())
+    return;
+  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+  if (options.curved)
+    follow_geometry(result.extracted, result.model);
+}
+
+/// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
+void measure_solids(CadModel &model, const Mesh &mesh)
+{
+  for (Solid &solid : model.solids)
+  {
+    solid.min = model.max;
+    solid.max = model.min;
+  }
+  const std::vector<double> volumes = curved_volumes(mesh);
+  std::size_t               piece   = 0;
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+  {
+    const CellShape &shape = cell_shape(mesh.kind(cell));
+    Solid           &solid = model.solids[mesh.cell_solid[cell]];
+    for (std::size_t k = 0; k < shape.pieces.size(); ++k)
+      solid.volume += volumes[piece++];
+    for (int k = 0; k < shape.n_corners; ++k)
+      for (int d = 0; d < 3; ++d)
+      {
+        const double x = mesh.points[mesh.corners(cell)[k]][d];
+        solid.min[d]   = std::min(solid.min[d], x);
+        solid.max[d]   = std::max(solid.max[d], x);
+      }
+  }
+}
+
+void read_mesh(MeshedModel &result, const FrameSpecification &specification)
+{
+  const MeshOptions &options = specification.mesh;
+  if (options.defeature > 0.)
+    throw std::invalid_argument(options.place + ": defeature = " + text(options.defeature) + " m, but " +
+                                specification.cad + " is a mesh already; remove it, or give the geometry.");
+  if (!options.surface_size.empty())
+    throw std::invalid_argument(options.place + ": \"" + options.surface_size.begin()->first + "\" has a size, but " +
+                                specification.cad + " is a mesh already; remove the size, or give the geometry.");
+  result.extracted = extract_mesh(result.model, head_of(specification), {options.bodies, options.gap});
+  result.extracted.mesh.takes_one_size = true;
+  require_straight(result.extracted, specification);
+  const Mesh &mesh = result.extracted.mesh;
+  if (mesh.n_cells() > options.max_cells)
+    throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +
+                                " cells, mesh.max_cells allows " + text(options.max_cells) +
+                                "; raise max_cells or give a coarser mesh.");
+  check_materials(result.model, specification);
+  unfold(result.extracted.mesh);
+  measure_solids(result.model, mesh);
+  const auto divided = divide_skin(result.extracted, result.model.groups);
+  result.model.faces = faces_of_skin(mesh, result.extracted.skin_surface, divided);
+  result.selection   = select_all(result.model, specification);
+  judge_memory(result, specification);
+}
+
+void name_surfaces(MeshedModel &result, const FrameSpecification &specification)
+{
+  Mesh &mesh = result.extracted.mesh;
+  for (const auto &[name, tags] : result.selection)
+  {
+    std::vector<int> &triangles = mesh.surfaces[name];
+    for (std::size_t t = 0; t < mesh.skin.size(); ++t)
+      if (std::binary_search(tags.begin(), tags.end(), result.extracted.skin_surface[t]))
+        triangles.push_back(static_cast<int>(t));
+    if (triangles.empty())
+      throw std::invalid_argument(
+          specification.surfaces.at(name).place +
+          ": no triangle of the mesh lies on the faces of this surface; choose another mesh.size.");
+  }
+}
+
+/// Colours and layers are wanted where a surface is asked for by name.
+FaceAttributes wanted_attributes(const FrameSpecification &specification)
+{
+  for (const auto &surface : specification.surfaces)
+    if (surface.second.group)
+      return FaceAttributes::read;
+  return FaceAttributes::left;
+}
+
+/// The model, with a note if its size is unlikely.
+CadModel read_model(const FrameSpecification &specification, const GmshSession &session, FaceAttributes attributes)
+{
+  CadModel model = read_cad(specification, session, attributes);
+  if (const std::string note = suspect_size(model, source_of(specification)); !note.empty())
+    model.notes.push_back(note);
+  return model;
+}
+
+MeshedModel mesh_model(const FrameSpecification &specification, MissingSize missing, FaceAttributes attributes,
+                       const ChildProgress &progress, const std::vector<SizePoint> &refined = {})
+{
+  const GmshSession session;
+  MeshedModel       result;
+  if (progress)
+    progress(mesh_phase::reading, -1.);
+  const auto work = [&]
+  {
+    result.model = read_model(specification, session, attributes);
+    if (result.model.meshed)
+      read_mesh(result, specification);
+    else
+      mesh_geometry(result, specification, session, missing, progress, refined);
+    require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
+    name_surfaces(result, specification);
+    Mesh &mesh = result.extracted.mesh;
+    mesh.notes.insert(mesh.notes.begin(), result.model.notes.begin(), result.model.notes.end());
+    mesh.statements.insert(mesh.statements.begin(), result.model.statements.begin(), result.model.statements.end());
+  };
+  session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
+  return result;
+}
+
+/// What is known before the mesh.
+GeometryReport report_of(const MeshedModel &meshed)
+{
+  GeometryReport report;
+  report.solids         = meshed.model.solids;
+  report.faces          = meshed.model.faces;
+  report.surfaces       = meshed.selection;
+  report.min            = meshed.model.min;
+  report.max            = meshed.model.max;
+  report.size           = meshed.size;
+  report.expected_cells = meshed.expected_cells;
+  return report;
+}
+
+} // namespace
+
+Mesh mesh_of_frame(const FrameSpecification &specification, const ChildProgress &progress,
+                   const std::vector<SizePoint> &refined)
+{
+  return mesh_model(specification, MissingSize::refused, wanted_attributes(specification), progress, refined)
+      .extracted.mesh;
+}
+
+GeometryReport inspection_of_frame(const FrameSpecification &specification)
+{
+  const GmshSession session;
+  MeshedModel       result;
+  const auto        work = [&]
+  {
+    result.model = read_model(specification, session, wanted_attributes(specification));
+    if (result.model.meshed)
+    {
+      read_mesh(result, specification);
+      require_thick_cells(result.extracted.mesh, result.model.meshed, head_of(specification));
+    }
+    else
+      prepare_geometry(result, specification, MissingSize::refused);
+  };
+  session.run(work, head_of(specification) + ": gmsh fails on this model: ", "; repair it, or export it another way.");
+  GeometryReport report = report_of(result);
+  report.volume         = result.model.volume();
+  report.notes          = result.model.notes;
+  report.statements     = result.model.statements;
+  return report;
+}
+
+GeometryReport report_of_frame(const FrameSpecification &specification, const ChildProgress &progress)
+{
+  MeshedModel    meshed = mesh_model(specification, MissingSize::chosen, FaceAttributes::read, progress);
+  const Mesh    &mesh   = meshed.extracted.mesh;
+  GeometryReport report = report_of(meshed);
+  report.notes          = mesh.notes;
+  report.statements     = mesh.statements;
+  report.smallest       = meshed.smallest;
+  report.walls          = wall_thickness(mesh);
+  report.n_of_kind      = {mesh.cells.size(), mesh.hexahedra.size(), mesh.prisms.size()};
+  report.n_points       = static_cast<int>(mesh.points.size());
+  report.n_cells        = mesh.n_cells();
+  report.n_coordinates  = 3 * number_of_nodes(mesh);
+  report.worst_quality  = 1.;
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+  {
+    const double q       = cell_quality(mesh, cell);
+    report.worst_quality = std::min(report.worst_quality, q);
+    report.mean_quality += q / report.n_cells;
+  }
+  report.volume    = curved_volume(mesh);
+  report.extracted = std::move(meshed.extracted);
+  return report;
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "fem/process/child.h"
+#include "fem/values/cad_source.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace gestell::fem
+{
+
+/// Of the child that reads a file with gmsh, with the limits of that file.
+ChildTask gmsh_task(const CadSource &source, const std::string &phase);
+
+/// in_child(), and that all numbers of its value are finite.
+/// @param phase  of `work` that reads the file
+template <typename Value, typename Work>
+Value in_gmsh_child(const CadSource &source, const std::string &phase, const ChildProgress &progress, const Work &work)
+{
+  const ChildTask task = gmsh_task(source, phase);
+  return in_child<Value>(task, progress,
+                         [&](const ChildProgress &told)
+                         {
+                           Value value = work(told);
+                           if (!is_finite(value))
+                             throw std::invalid_argument(task.head +
+                                                         ": gmsh finds lengths or volumes in it that are no finite "
+                                                         "numbers; the file is damaged: export the model again.");
+                           return value;
+                         });
+}
+
+} // namespace gestell::fem

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+namespace gestell::fem
+{
+
+/// What the reading of a file may take before it is taken for one that never ends.
+struct ReadingLimits
+{
+  double seconds = 0.; ///< of processor time; 0: no limit
+  double bytes   = 0.; ///< of memory beyond what the process has; 0: no limit
+};
+
+/// What a file can ask for.
+enum class FileContent
+{
+  geometry, ///< as much as it has bytes
+  program   ///< it draws, meshes, or names other files
+};
+
+/**
+ * Judged from the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory, of programs
+ * 1200 s and all the memory there is.  A STEP file of 0.5 MB takes less than a second and 0.1 GB.
+ *
+ * The environment's GESTELL_READING_SECONDS says another time, 0 for none.
+ *
+ * @param available  memory [byte]
+ * @throws std::invalid_argument if that variable is no number.
+ */
+ReadingLimits reading_limits(const std::string &path, FileContent content, double available);
+
+/// The same as text: "a file of 0.5 MB"
+std::string size_text(const std::string &path);
+
+} // namespace gestell::fem

@@ -1,0 +1,66 @@
+// Meshes and geometry at random: whatever stands in a file, it is taken with a sound mesh or refused by a message.
+
+#include "tests/fuzz/mesh/mesh_fuzz.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace gestell::fuzz
+{
+namespace
+{
+
+namespace files = std::filesystem;
+
+constexpr std::uint64_t n_executions = 200; ///< of a target
+
+class Meshes : public ::testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(Meshes, OfSeedsAreSound)
+{
+  const MeshTarget &target = mesh_target(GetParam());
+  EXPECT_FALSE(target.seeds.empty());
+  const files::path folder = ::testing::TempDir();
+  for (const std::string &seed : target.seeds)
+    for (std::uint64_t number = 0; number < 4; ++number)
+    {
+      const std::string path      = write_file(target, seed, folder);
+      const Judgement   judgement = judge(path, number);
+      EXPECT_EQ(judgement.outcome, Outcome::taken) << judgement.words;
+    }
+}
+
+TEST_P(Meshes, AtRandomAreTakenOrRefused)
+{
+  const Tally tally = fuzz(mesh_target(GetParam()), 0, n_executions);
+  for (const auto &[number, words] : tally.findings)
+    ADD_FAILURE() << GetParam() << ' ' << number << ": " << words;
+  EXPECT_EQ(tally.executions, n_executions);
+  RecordProperty("tally", tally.text());
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Meshes, ::testing::ValuesIn(mesh_target_names()),
+                         [](const auto &info) { return info.param; });
+
+/// Files of the past that gmsh died of, or never ended.
+TEST(Meshes, FoundOnceAreRefused)
+{
+  std::vector<files::path> found;
+  for (const auto &entry : files::directory_iterator(GESTELL_SOURCE_DIR "/tests/fuzz/mesh/found"))
+    found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  EXPECT_FALSE(found.empty());
+  for (const files::path &file : found)
+    for (std::uint64_t number = 0; number < 2; ++number)
+    {
+      const Judgement judgement = judge_alone(file, number);
+      EXPECT_EQ(judgement.outcome, Outcome::refused) << file << ": " << judgement.words;
+    }
+}
+
+} // namespace
+} // namespace gestell::fuzz
