@@ -76,10 +76,10 @@ TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
 TEST(JsonAnswer, OfAMessageOfAnyLengthIsTold)
 {
   const Json of_name = document("check 'x:99999999999999999999: y.toml'", 2);
-  EXPECT_NE(of_name["errors"].dump().find("y.toml"), std::string::npos) << of_name.dump();
+  EXPECT_NE(of_name["error"].dump().find("y.toml"), std::string::npos) << of_name.dump();
   const Json of_method =
       document("check " + scene("press_minimal.toml") + " --set run.method=" + std::string(100000, 'a'), 2);
-  EXPECT_FALSE(of_method["errors"].empty());
+  EXPECT_FALSE(of_method["error"].empty());
 }
 
 TEST(JsonAnswer, IsGivenByEveryCommandThatComputes)
