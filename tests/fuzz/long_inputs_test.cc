@@ -61,6 +61,9 @@ const std::vector<LongInput> &long_inputs()
       {"HeadThatIsNoToml", "scene", "[" + std::string(300000, '[') + "a b]\n"},
       {"KeyThatStandsTwice", "scene",
        "\"" + std::string(300000, 'a') + "\" = 1\n\"" + std::string(300000, 'a') + "\" = 1\n"},
+      {"NamesThatDiffer", "scene",
+       "[body." + std::string(100000, 'a') + "]\ntype = \"slider\"\nmass = 1\ndirection = [1, 0, 0]\n[element.e]\n" +
+           "type = \"spring damper\"\nfrom = \"" + std::string(100001, 'a') + "\"\nto = \"ground\"\nstiffness = 1\n"},
       {"ChainOfParameters", "scene", chain_of_parameters(3000)},
       {"KeyOfAnOverride", "override", repeated("a.", 60000) + "a=1"},
       {"ValueOfAnOverride", "override", "run.step=[" + std::string(300000, '1')},
