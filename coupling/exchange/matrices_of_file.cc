@@ -89,7 +89,7 @@ std::string list_of(const Matrices &matrices)
 
 } // namespace
 
-Matrices matrices_of_file(const std::string &file)
+Matrices matrices_of_file(const std::string &file, std::int64_t known_size)
 {
   switch (form_of(file))
   {
@@ -104,7 +104,7 @@ Matrices matrices_of_file(const std::string &file)
   case Form::other:
     break;
   }
-  return {{"", {read_matrix_file(file)}}};
+  return {{"", {read_matrix_file(file, known_size)}}};
 }
 
 const LabelledMatrix &matrix_for(const Matrices &matrices, MatrixRole role, const std::string &asked,

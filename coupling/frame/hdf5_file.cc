@@ -1,5 +1,7 @@
 #include "coupling/frame/hdf5_file.h"
 
+#include "coupling/integration/system/announced_size.h"
+
 #include <hdf5.h>
 
 #include <stdexcept>
@@ -50,9 +52,6 @@ private:
   throw std::runtime_error(file + ": " + what);
 }
 
-/// Largest number of values an array of ours may claim: a damaged header must not ask for all memory.
-constexpr hsize_t most_values = hsize_t(1) << 31;
-
 } // namespace
 
 Hdf5File::Hdf5File() : file_("HDF5 in memory")
@@ -73,6 +72,10 @@ Hdf5File::Hdf5File(const std::string &file) : file_(file)
   handle_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
   if (handle_ < 0)
     fail(file, "cannot be opened as HDF5");
+  hsize_t bytes = 0;
+  if (H5Fget_filesize(handle_, &bytes) < 0)
+    fail(file, "has no size");
+  bytes_ = bytes;
 }
 
 Hdf5File::~Hdf5File()
@@ -125,8 +128,9 @@ Matrix Hdf5File::read_array(const std::string &name, std::int64_t type, int type
   if (H5Sget_simple_extent_ndims(space) != 2 || H5Sget_simple_extent_dims(space, size, nullptr) != 2 ||
       H5Tget_class(stored) != type_class)
     fail(file_, "array '" + name + "' is not a matrix of the type expected");
-  if (size[0] > most_values || size[1] > most_values || size[0] * size[1] > most_values)
-    fail(file_, "array '" + name + "' claims an impossible size");
+  // Arrays of ours are neither packed nor of smaller numbers than those read: the file holds every byte of them.
+  if (!stand_in(bytes_, size[0], size[1], sizeof(typename Matrix::Scalar)))
+    fail(file_, "array '" + name + "' claims a size that a file of " + std::to_string(bytes_) + " bytes cannot hold");
   Matrix A(size[1], size[0]);
   if (A.size() > 0 && H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, A.data()) < 0)
     fail(file_, "array '" + name + "' cannot be read");

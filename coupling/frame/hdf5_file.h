@@ -16,6 +16,8 @@ namespace gestell::coupling
  * HDF5 itself never writes to a disk: it does not survive one that is full.  Nor does it lock what it reads, which some
  * network drives do not know; whoever writes a file does so under a name of its own.
  *
+ * Sizes of arrays are judged against that of the file before memory is taken for them.
+ *
  * What HDF5 reports on standard error by itself is silenced; every failure is thrown as std::runtime_error that names
  * the file and the array.
  */
@@ -51,8 +53,9 @@ private:
   template <typename Matrix>
   Matrix read_array(const std::string &name, std::int64_t type, int type_class) const;
 
-  std::string  file_;
-  std::int64_t handle_ = -1;
+  std::string   file_;
+  std::int64_t  handle_ = -1;
+  std::uint64_t bytes_  = 0; ///< of a file to be read
 };
 
 } // namespace gestell::coupling

@@ -6,9 +6,9 @@
 namespace gestell::coupling
 {
 
-Eigen::SparseMatrix<double> read_matrix_file(const std::string &file)
+Eigen::SparseMatrix<double> read_matrix_file(const std::string &file, std::int64_t known_size)
 {
-  return is_petsc_file(file) ? read_petsc_matrix(file) : read_matrix_market(file);
+  return is_petsc_file(file) ? read_petsc_matrix(file, known_size) : read_matrix_market(file, known_size);
 }
 
 } // namespace gestell::coupling

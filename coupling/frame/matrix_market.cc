@@ -2,6 +2,7 @@
 
 #include "coupling/frame/number_in_file.h"
 #include "coupling/frame/whole_file.h"
+#include "coupling/integration/system/announced_size.h"
 
 #include <algorithm>
 #include <array>
@@ -53,6 +54,14 @@ public:
   {
     if (2. * numbers > double(size_) + 1.)
       fail(what + " cannot stand in a file of " + std::to_string(size_) + " bytes; it is cut off, or its head wrong");
+  }
+
+  /// Refuses rows or columns that no file of this length has, see may_have_lines().
+  void require_lines(std::int64_t lines, std::int64_t known, const char *what) const
+  {
+    if (!may_have_lines(lines, size_, known))
+      fail("a matrix of " + std::to_string(lines) + " " + what + " cannot stand in a file of " + std::to_string(size_) +
+           " bytes; it is cut off, or its head wrong");
   }
 
   [[noreturn]] void fail(const std::string &expected) const
@@ -232,7 +241,7 @@ void read_array(MatrixMarketReader &reader, int rows, int columns, bool symmetri
 
 } // namespace
 
-Matrix read_matrix_market(const std::string &file)
+Matrix read_matrix_market(const std::string &file, std::int64_t known_size)
 {
   MatrixMarketReader reader(file);
   const Header       header   = read_header(reader);
@@ -245,6 +254,8 @@ Matrix read_matrix_market(const std::string &file)
   if (rows > largest_size || columns > largest_size)
     reader.fail("a matrix of more than " + std::to_string(largest_size) +
                 " rows or columns is larger than any frame that could be computed; check the file");
+  reader.require_lines(rows, known_size, "rows");
+  reader.require_lines(columns, known_size, "columns");
   if (header.symmetric && rows != columns)
     reader.fail("a symmetric matrix must be square");
   if (header.coordinate)

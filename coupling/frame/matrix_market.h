@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <cstdint>
 #include <string>
 
 namespace gestell::coupling
@@ -12,9 +13,10 @@ namespace gestell::coupling
  * symmetric file holds one triangle; both come back.  An entry that is named twice is refused.  Exponents may be those
  * of Fortran (D).
  *
+ * @param known_size  rows of a matrix read before, of which this one may have as many though it has few entries
  * @throws std::invalid_argument with file and line, the offending text and what was expected.
  */
-Eigen::SparseMatrix<double> read_matrix_market(const std::string &file);
+Eigen::SparseMatrix<double> read_matrix_market(const std::string &file, std::int64_t known_size = 0);
 
 enum class Symmetry
 {

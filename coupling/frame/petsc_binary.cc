@@ -1,6 +1,7 @@
 #include "coupling/frame/petsc_binary.h"
 
 #include "coupling/frame/whole_file.h"
+#include "coupling/integration/system/announced_size.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,6 +64,14 @@ public:
       fail("the value before, of row " + std::to_string(i + 1) + " and column " + std::to_string(j + 1) +
            ", is not a finite number; the program that wrote it failed, or divided by zero");
     return value;
+  }
+
+  /// Refuses rows or columns that no file of this length has, see may_have_lines().
+  void require_lines(std::int64_t lines, std::int64_t known, const char *what) const
+  {
+    if (!may_have_lines(lines, size_, known))
+      fail("a matrix of " + std::to_string(lines) + " " + what + " cannot stand in a file of " + std::to_string(size_) +
+           " bytes; it is cut off, or its head wrong");
   }
 
   /// Refuses a file that is not as long as `integers` and `reals` more.
@@ -181,13 +190,15 @@ private:
 
 } // namespace
 
-Matrix read_petsc_matrix(const std::string &file)
+Matrix read_petsc_matrix(const std::string &file, std::int64_t known_size)
 {
   constexpr std::int64_t most = std::numeric_limits<int>::max();
   PetscReader            reader(file);
   read_head(reader);
-  const int  rows    = checked(reader, reader.integer(), 0, most, "the number of rows");
-  const int  columns = checked(reader, reader.integer(), 0, most, "the number of columns");
+  const int rows    = checked(reader, reader.integer(), 0, most, "the number of rows");
+  const int columns = checked(reader, reader.integer(), 0, most, "the number of columns");
+  reader.require_lines(rows, known_size, "rows");
+  reader.require_lines(columns, known_size, "columns");
   const auto entries = reader.integer();
   const auto shape   = "a matrix of " + std::to_string(rows) + " x " + std::to_string(columns);
   if (entries == dense)

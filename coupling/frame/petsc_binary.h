@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <cstdint>
 #include <string>
 
 namespace gestell::coupling
@@ -16,9 +17,10 @@ namespace gestell::coupling
  * with integers of 4 bytes, or of 8 where PETSc was built with 64-bit indices, and doubles.  entries = -1 stands for a
  * dense matrix, its values row by row.
  *
+ * @param known_size  rows of a matrix read before, of which this one may have as many though it has few entries
  * @throws std::invalid_argument with the file, the place in it, what was found and what is needed.
  */
-Eigen::SparseMatrix<double> read_petsc_matrix(const std::string &file);
+Eigen::SparseMatrix<double> read_petsc_matrix(const std::string &file, std::int64_t known_size = 0);
 
 /// Writes a sparse matrix in that format, integers of 4 bytes; beside it PETSc expects no .info file.
 /// @throws std::runtime_error if the file cannot be written.

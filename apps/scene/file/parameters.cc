@@ -63,6 +63,8 @@ Parameters::Parameters(const SceneNode *table)
     std::vector<std::string> open;
     evaluate_entry(by_name, name, open);
   }
+  for (const auto &entry : values_)
+    names_.push_back(entry.first);
 }
 
 Quantity Parameters::evaluate_entry(const Table &table, const std::string &name, std::vector<std::string> &open)
@@ -124,12 +126,9 @@ std::optional<Quantity> Parameters::find(const std::string &name) const
   return found == values_.end() ? std::nullopt : std::optional<Quantity>(found->second);
 }
 
-std::vector<std::string> Parameters::names() const
+const std::vector<std::string> &Parameters::names() const
 {
-  std::vector<std::string> result;
-  for (const auto &entry : values_)
-    result.push_back(entry.first);
-  return result;
+  return names_;
 }
 
 Quantity Parameters::evaluate(const SceneNode &value) const
@@ -149,7 +148,7 @@ Expression Parameters::expression(const SceneNode &value, const std::vector<Vari
           use(name);
           return find(name);
         },
-        names(), kind);
+        names_, kind);
   return Quantity{value.number, {}, false, Counts::nothing};
 }
 

@@ -20,8 +20,8 @@ public:
   /// @throws std::invalid_argument with file and line for circles, names that mean something else, and wrong values.
   explicit Parameters(const SceneNode *table);
 
-  std::optional<Quantity>  find(const std::string &name) const;
-  std::vector<std::string> names() const;
+  std::optional<Quantity>         find(const std::string &name) const;
+  const std::vector<std::string> &names() const;
 
   /// A number or an expression; what a plain number measures is not known.
   Quantity evaluate(const SceneNode &value) const;
@@ -40,6 +40,7 @@ private:
   void     use(const std::string &name) const;
 
   std::map<std::string, Quantity>              values_;
+  std::vector<std::string>                     names_;     ///< of these, in the same order
   std::map<std::string, std::set<std::string>> needs_;     ///< of a parameter, others
   std::map<std::string, Place>                 overrides_; ///< those of the command line
   mutable std::set<std::string>                used_;      ///< by values outside the table, and what those need

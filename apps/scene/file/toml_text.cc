@@ -87,51 +87,78 @@ int too_deep(const std::string &text)
   return 0;
 }
 
-/// Entries in the order of the file; toml11 keeps none.
-std::vector<const toml::table::value_type *> in_order(const toml::table &table)
+/**
+ * Where values stand in the text.  A location() of toml11 counts the lines before its value anew, and asked for each
+ * value makes reading quadratic in the length of the file; here the ends of lines are found once, and a line by
+ * bisection.
+ */
+class Places
 {
-  std::vector<const toml::table::value_type *> entries;
+public:
+  explicit Places(const std::string &text) : text_(text)
+  {
+    for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 1))
+      ends_.push_back(i);
+  }
+
+  /// Byte of the text at which the value begins; 0 of one that is not written there.
+  std::size_t begin(const toml::value &value) const
+  {
+    const auto *written = dynamic_cast<const toml::detail::region *>(toml::detail::get_region(value));
+    return written ? std::size_t(written->first() - written->begin()) : 0;
+  }
+
+  int line(const toml::value &value) const
+  {
+    return 1 + int(std::lower_bound(ends_.begin(), ends_.end(), begin(value)) - ends_.begin());
+  }
+
+  /// The very characters of a real number, so that who passes them on loses no digit; without "_", which formulas lack.
+  std::string written_number(const toml::value &value) const
+  {
+    const auto       *written = toml::detail::get_region(value);
+    const std::string text    = written ? text_.substr(std::min(begin(value), text_.size()), written->size()) : "";
+    char             *end     = nullptr;
+    const bool        is_it   = !text.empty() && std::strtod(text.c_str(), &end) == value.as_floating() && *end == '\0';
+    return is_it ? text : exact_text(value.as_floating());
+  }
+
+private:
+  const std::string       &text_;
+  std::vector<std::size_t> ends_; ///< of lines
+};
+
+/// Entries in the order of the file; toml11 keeps none.
+std::vector<const toml::table::value_type *> in_order(const toml::table &table, const Places &places)
+{
+  std::vector<std::tuple<std::size_t, std::string, const toml::table::value_type *>> placed;
   for (const auto &entry : table)
-    entries.push_back(&entry);
-  std::sort(entries.begin(), entries.end(),
-            [](const auto *a, const auto *b)
-            {
-              const auto x = a->second.location(), y = b->second.location();
-              return std::make_tuple(x.line(), x.column(), a->first) < std::make_tuple(y.line(), y.column(), b->first);
-            });
+    placed.emplace_back(places.begin(entry.second), entry.first, &entry);
+  std::sort(placed.begin(), placed.end());
+  std::vector<const toml::table::value_type *> entries;
+  for (const auto &[begin, key, entry] : placed)
+    entries.push_back(entry);
   return entries;
 }
 
-/// The very characters of a real number, so that who passes them on loses no digit; without "_", which formulas lack.
-std::string written_number(const toml::value &value)
-{
-  const auto        location = value.location();
-  const std::string line     = location.line_str();
-  const std::size_t from     = std::min<std::size_t>(location.column() - 1, line.size());
-  const std::string text     = line.substr(from, location.region());
-  char             *end      = nullptr;
-  const bool        is_it    = !text.empty() && std::strtod(text.c_str(), &end) == value.as_floating() && *end == '\0';
-  return is_it ? text : exact_text(value.as_floating());
-}
-
-SceneNode converted(const toml::value &value, const Place &place, const std::string &folder)
+SceneNode converted(const toml::value &value, const Places &places, const Place &place, const std::string &folder)
 {
   SceneNode node;
   node.place  = place;
   node.folder = folder;
   if (place.line > 0)
-    node.place.line = value.location().line();
+    node.place.line = places.line(value);
 
   switch (value.type())
   {
   case toml::value_t::table:
-    for (const auto *entry : in_order(value.as_table()))
-      node.entries.emplace_back(entry->first, converted(entry->second, place, folder));
+    for (const auto *entry : in_order(value.as_table(), places))
+      node.entries.emplace_back(entry->first, converted(entry->second, places, place, folder));
     break;
   case toml::value_t::array:
     node.type = Type::array;
     for (const auto &element : value.as_array())
-      node.elements.push_back(converted(element, place, folder));
+      node.elements.push_back(converted(element, places, place, folder));
     break;
   case toml::value_t::string:
     node.type = Type::text;
@@ -145,7 +172,7 @@ SceneNode converted(const toml::value &value, const Place &place, const std::str
   case toml::value_t::floating:
     node.type   = Type::real;
     node.number = value.as_floating();
-    node.text   = written_number(value);
+    node.text   = places.written_number(value);
     break;
   case toml::value_t::boolean:
     node.type    = Type::boolean;
@@ -157,6 +184,14 @@ SceneNode converted(const toml::value &value, const Place &place, const std::str
     node.text = "a date";
   }
   return node;
+}
+
+/// A text as nodes; toml::exception where it is not TOML.
+SceneNode node_of(const std::string &text, const Place &place, const std::string &folder)
+{
+  std::istringstream in(text);
+  const toml::value  root = toml::parse(in, place.file);
+  return converted(root, Places(text), place, folder);
 }
 
 } // namespace
@@ -171,8 +206,7 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
                    " deep here; a scene needs six at most");
   try
   {
-    std::istringstream in(text);
-    return converted(toml::parse(in, name), Place{name, 1}, folder);
+    return node_of(text, Place{name, 1}, folder);
   }
   catch (const toml::exception &e)
   {
@@ -213,8 +247,8 @@ std::optional<SceneNode> parse_toml_value(const std::string &text, const Place &
     return std::nullopt;
   try
   {
-    std::istringstream in("value = " + text + "\n");
-    return converted(toml::parse(in, place.file).as_table().at("value"), place, folder);
+    SceneNode root = node_of("value = " + text + "\n", place, folder);
+    return std::move(root.entries.at(0).second);
   }
   catch (const std::exception &)
   {

@@ -35,10 +35,8 @@ class Parser
 public:
   Parser(const std::string &text, const std::vector<Variable> &variables, const NameLookup &parameters,
          const std::vector<std::string> &names)
-      : text_(text), variables_(variables), parameters_(parameters), known_names_(names), tokens_(tokens_of(text))
+      : text_(text), variables_(variables), parameters_(parameters), names_(names), tokens_(tokens_of(text))
   {
-    for (const Variable &variable : variables)
-      known_names_.push_back(variable.name);
   }
 
   Expression whole()
@@ -67,6 +65,15 @@ public:
 
 private:
   // --- errors
+
+  /// Of parameters and variables.
+  std::vector<std::string> known_names() const
+  {
+    std::vector<std::string> known = names_;
+    for (const Variable &variable : variables_)
+      known.push_back(variable.name);
+    return known;
+  }
 
   [[noreturn]] void fail(const std::string &what) const { fail(what, next_); }
 
@@ -113,7 +120,7 @@ private:
     std::string listed;
     for (const Variable &variable : variables_)
       listed += (listed.empty() ? "" : ", ") + variable.name + " (" + variable.meaning + ")";
-    auto       meant = near_names(name, known_names_);
+    auto       meant = near_names(name, known_names());
     const auto units = units_meant(name);
     meant.insert(meant.end(), units.begin(), units.end());
     throw UnknownName{next_, meant,
@@ -381,13 +388,13 @@ private:
     return at(begin, [&] { return raised(unit_named(name), exponent); });
   }
 
-  const std::string            text_;
-  const std::vector<Variable> &variables_;
-  const NameLookup            &parameters_;
-  std::vector<std::string>     known_names_; ///< parameters and variables
-  std::vector<Token>           tokens_;      ///< the last one is of kind `end`
-  std::size_t                  next_             = 0;
-  bool                         number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
+  const std::string               text_;
+  const std::vector<Variable>    &variables_;
+  const NameLookup               &parameters_;
+  const std::vector<std::string> &names_;  ///< of all parameters: not copied, an expression is read for each of them
+  std::vector<Token>              tokens_; ///< the last one is of kind `end`
+  std::size_t                     next_             = 0;
+  bool                            number_with_unit_ = false; ///< the operand just read was "2 mm" without parentheses
 };
 
 /// It can be read and, if there is a kind, is of it.

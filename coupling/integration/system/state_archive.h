@@ -1,8 +1,11 @@
 #pragma once
 
+#include "coupling/integration/system/announced_size.h"
 #include "coupling/integration/system/time_integrator.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -45,7 +48,8 @@ struct ExchangedBeside<T, std::void_t<decltype(exchange(std::declval<StateArchiv
  *
  * Taken are numbers, flags, plain structs of these, texts, Eigen's matrices, vectors and arrays of them, and whatever
  * has a member exchange() or a function exchange(StateArchive &, T &) beside it.  Bytes are those of this processor;
- * whoever keeps them says for which program and which computation they hold.
+ * whoever keeps them says for which program and which computation they hold.  Sizes that are read are judged against
+ * the bytes left before memory is taken for them.
  */
 class StateArchive
 {
@@ -91,12 +95,22 @@ private:
   template <typename T>
   void one(std::vector<T> &members)
   {
-    members.resize(count(members.size(), std::is_arithmetic_v<T> ? sizeof(T) : 1));
+    const std::size_t n = count(members.size(), std::is_arithmetic_v<T> ? sizeof(T) : 1);
     if constexpr (std::is_arithmetic_v<T>)
-      raw(members.data(), members.size() * sizeof(T));
+    {
+      members.resize(n);
+      raw(members.data(), n * sizeof(T));
+    }
     else
-      for (T &member : members)
-        one(member);
+    {
+      members.resize(std::min(n, members.size()));
+      for (std::size_t i = 0; i < n; ++i) // grows with what is read, for an entry may take more memory than bytes
+      {
+        if (i == members.size())
+          members.emplace_back();
+        one(members[i]);
+      }
+    }
   }
   void one(std::string &text)
   {
@@ -108,16 +122,26 @@ private:
   void matrix(Matrix &x)
   {
     const std::size_t rows = count(std::size_t(x.rows()), 0), columns = count(std::size_t(x.cols()), 0);
-    if (reads_ && rows * columns > (bytes_.size() - place_) / sizeof(typename Matrix::Scalar))
+    if (reads_ &&
+        (!is_shape<Matrix>(rows, columns) || !stand_in(left(), rows, columns, sizeof(typename Matrix::Scalar))))
       fail();
     x.resize(Eigen::Index(rows), Eigen::Index(columns));
     raw(x.data(), rows * columns * sizeof(typename Matrix::Scalar));
   }
 
+  /// Of this type, and no index of it overflows.
+  template <typename Matrix>
+  static bool is_shape(std::size_t rows, std::size_t columns)
+  {
+    const auto may_be = [](std::size_t n, int fixed)
+    { return fixed == Eigen::Dynamic ? n <= std::size_t(PTRDIFF_MAX) : n == std::size_t(fixed); };
+    return may_be(rows, Matrix::RowsAtCompileTime) && may_be(columns, Matrix::ColsAtCompileTime);
+  }
+
   std::size_t count(std::size_t n, std::size_t bytes_of_each)
   {
     raw(&n, sizeof n);
-    if (reads_ && n * bytes_of_each > bytes_.size() - place_)
+    if (reads_ && !stand_in(left(), n, bytes_of_each))
       fail();
     return n;
   }
@@ -129,12 +153,14 @@ private:
       bytes_.append(static_cast<const char *>(data), size);
       return;
     }
-    if (size > bytes_.size() - place_)
+    if (size > left())
       fail();
     if (size > 0)
       std::memcpy(data, bytes_.data() + place_, size);
     place_ += size;
   }
+
+  std::size_t left() const { return bytes_.size() - place_; } ///< to be read
 
   [[noreturn]] static void fail() { throw std::runtime_error("the stored state ends early"); }
 

@@ -82,6 +82,7 @@ public:
       matrix.A = dense(frame_.matrix(key, kind)).sparseView();
     else
       matrix = at_key(frame_, key, [&] { return from_file(frame_.file(key), key, role); });
+    n_rows_ = matrix.A.rows();
     if (matrix.A.rows() != matrix.A.cols())
       throw frame_.error(key, "is " + shape_text(matrix.A.rows(), matrix.A.cols()) + ", but must be square");
     if (matrix.rows.empty() && !rows_.empty())
@@ -104,7 +105,7 @@ private:
   LabelledMatrix from_file(const std::string &path, const std::string &key, MatrixRole role)
   {
     const auto found = read_.find(path);
-    auto      &all   = found != read_.end() ? found->second : read_[path] = coupling::matrices_of_file(path);
+    auto      &all   = found != read_.end() ? found->second : read_[path] = coupling::matrices_of_file(path, n_rows_);
     return coupling::matrix_for(all, role, names_ ? names_->text(key, "") : "", path);
   }
 
@@ -120,6 +121,7 @@ private:
   const SceneTable                                            &frame_;
   std::optional<SceneTable>                                    names_;
   std::vector<RowLabel>                                        rows_;
+  Eigen::Index                                                 n_rows_ = 0; ///< of the matrix read before
   std::map<std::string, std::map<std::string, LabelledMatrix>> read_;
 };
 

@@ -386,7 +386,7 @@ fem::Picture read_node_picture(const SceneTable &frame, const FrameNodes &of_fra
   placed("node_displacements",
          [&](const std::string &path)
          {
-           picture.displacement = coupling::read_matrix_file(path);
+           picture.displacement = coupling::read_matrix_file(path, std::max(Eigen::Index(3 * nodes.size()), n));
            if (picture.displacement.rows() != Eigen::Index(3 * nodes.size()) || picture.displacement.cols() != n)
              throw std::invalid_argument(path + ": is " + std::to_string(picture.displacement.rows()) + " x " +
                                          std::to_string(picture.displacement.cols()) + ", but must be " +
