@@ -89,6 +89,8 @@ private:
         break;
       const auto  fields = fields_of(line);
       std::size_t from   = 0;
+      if (fields.empty()) // commas alone
+        continue;
       if (nodes.empty())
         file_.fail("directions come before the nodes they are of; expected a remark '** ELEMENT NODES' with their "
                    "numbers, as CalculiX and Abaqus write it");
