@@ -27,6 +27,14 @@ std::vector<std::string> lines_of(const std::string &text)
   return lines;
 }
 
+/// A long message without its middle: std::regex takes some of the stack for each letter, and whoever gives an option
+/// of a megabyte reads it in the message.
+std::string judged_part(const std::string &message)
+{
+  constexpr std::size_t end = 1000;
+  return message.size() <= 2 * end ? message : message.substr(0, end) + " ... " + message.substr(message.size() - end);
+}
+
 /// "scene.toml:12: body.crank.mass: needs a mass above zero, got 0; give ..." in its parts, as far as they are there.
 Json parts_of_error(const std::string &message, int exit_code)
 {
@@ -35,10 +43,10 @@ Json parts_of_error(const std::string &message, int exit_code)
       way_out(R"(; ([^;]+)$)");
   Json        error = {{"exit_code", exit_code}, {"message", message}};
   std::smatch found;
-  std::string rest = message;
+  std::string rest = judged_part(message);
   if (std::regex_search(rest, found, place))
   {
-    error["place"] = {{"file", found[1].str()}, {"line", std::stoi(found[2])}};
+    error["place"] = {{"file", found[1].str()}, {"line", std::stoi(found[2].str().substr(0, 9))}};
     rest           = found.suffix();
   }
   if (std::regex_search(rest, found, key))

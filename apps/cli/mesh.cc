@@ -57,7 +57,7 @@ double option_of(const std::string &option, const std::string &text, const Kind 
   {
     if (*end != '\0')
       value = value_as(parse_quantity(text, no_parameter, {}, &kind), kind, text);
-    if (value > 0.)
+    if (value > 0. && std::isfinite(value))
       return value;
   }
   catch (const std::invalid_argument &error)

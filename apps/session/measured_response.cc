@@ -4,6 +4,7 @@
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/session/universal_file.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 #include "fem/values/trimmed.h"
 #include "fem/values/two_pi.h"
 
@@ -200,7 +201,12 @@ void convert(ReadCurve &read, const ResponsePair &pair)
     curve.values.erase(curve.values.begin());
   }
   for (std::size_t i = 0; i < curve.values.size(); ++i)
+  {
     curve.values[i] *= factor * std::pow(Complex(0., two_pi * curve.frequencies_hz[i]), times);
+    if (!std::isfinite(curve.values[i].real()) || !std::isfinite(curve.values[i].imag()))
+      throw std::invalid_argument(read.place + "the value at " + rounded(curve.frequencies_hz[i]) +
+                                  " Hz is beyond all numbers in [" + pair.unit + "]; check it and its unit");
+  }
 }
 
 /// The pair of a name; -1: none.

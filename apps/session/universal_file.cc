@@ -44,6 +44,10 @@ std::vector<DataSet> data_sets(const std::string &file)
     ++number;
     if (!line.empty() && line.back() == '\r')
       line.pop_back();
+    if (line.find('\0') != std::string::npos)
+      throw std::invalid_argument(
+          file + ":" + std::to_string(number) +
+          ": holds a zero byte; only universal files in ASCII are read, write the file as such");
     const std::string text = trimmed(line);
     if (text == "-1")
     {
@@ -97,6 +101,12 @@ int first_number(const DataSet &set, std::size_t record)
   return int(std::strtol(set.records[record].c_str(), nullptr, 10));
 }
 
+/// A number that stands for a choice; -1: none.
+int whole(double number)
+{
+  return number >= 0. && number <= 1e6 && number == std::floor(number) ? int(number) : -1;
+}
+
 /// Of the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
 int derivatives_of(int data_type)
 {
@@ -110,7 +120,7 @@ UniversalFunction function_of(const DataSet &set)
   const std::vector<double> form = numbers(set, 6, 7);
   if (form.size() < 5)
     set.refuse(6, "needs data type, number of points, spacing, first abscissa and its increment");
-  const int  type = int(form[0]), spacing = int(form[2]);
+  const int  type = whole(form[0]), spacing = whole(form[2]);
   const bool is_complex = type == 5 || type == 6;
   if (!is_complex && type != 2 && type != 4)
     set.refuse(6, "data type is " + std::to_string(type) + "; 2 or 4 (real), 5 or 6 (complex) are known");
@@ -135,6 +145,8 @@ UniversalFunction function_of(const DataSet &set)
     function.values.emplace_back(at[first], is_complex ? at[first + 1] : 0.);
     if (i > 0 && !(function.abscissa[i] > function.abscissa[i - 1]))
       set.refuse(n_head, "its frequencies must ascend");
+    if (!std::isfinite(function.abscissa[i]))
+      set.refuse(6, "a frequency is not finite; check the first one and the increment");
   }
   return function;
 }

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -30,13 +30,44 @@ std::string content_of(const fs::path &file)
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+bool is_blank(char c)
+{
+  return std::isspace(static_cast<unsigned char>(c)) != 0;
+}
+
 /// "5" of `part="5"` in the text of an element; nothing if it has no such attribute.
 std::optional<std::string> attribute(const std::string &element, const std::string &name)
 {
-  std::smatch found;
-  if (!std::regex_search(element, found, std::regex("\\b" + name + "\\s*=\\s*\"([^\"]*)\"")))
-    return {};
-  return found[1];
+  const auto behind_blanks = [&](std::size_t at)
+  {
+    while (at < element.size() && is_blank(element[at]))
+      ++at;
+    return at;
+  };
+  for (std::size_t at = element.find(name); at != std::string::npos; at = element.find(name, at + 1))
+  {
+    const std::size_t equals = behind_blanks(at + name.size());
+    if (at == 0 || !is_blank(element[at - 1]) || element.compare(equals, 1, "=") != 0)
+      continue;
+    const std::size_t open = behind_blanks(equals + 1), close = element.find('"', open + 1);
+    if (element.compare(open, 1, "\"") == 0 && close != std::string::npos)
+      return element.substr(open + 1, close - open - 1);
+  }
+  return {};
+}
+
+/// All <DataSet ...> of a text.
+std::vector<std::string> data_sets(const std::string &text)
+{
+  const std::string        begin = "<DataSet";
+  std::vector<std::string> sets;
+  for (std::size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1))
+  {
+    const std::size_t end = text.find('>', at);
+    if (end != std::string::npos && (is_blank(text[at + begin.size()]) || text[at + begin.size()] == '>'))
+      sets.push_back(text.substr(at, end + 1 - at));
+  }
+  return sets;
 }
 
 double number_in(const fs::path &pvd, const std::string &element, const std::string &name)
@@ -90,11 +121,10 @@ std::vector<PictureFrame> read_collection(const fs::path &pvd)
   if (text.find("<VTKFile") == std::string::npos || text.find("</VTKFile>") == std::string::npos)
     refuse(pvd, "is no whole collection of VTK; run the scene again");
   std::map<double, std::map<double, fs::path>> frames; // by time, then part
-  const std::regex                             element("<DataSet\\b[^>]*>");
-  for (std::sregex_iterator it(text.begin(), text.end(), element), end; it != end; ++it)
+  for (const std::string &set : data_sets(text))
   {
-    const double time = number_in(pvd, it->str(), "timestep"), part = number_in(pvd, it->str(), "part");
-    frames[time][part] = file_in(pvd, it->str());
+    const double time = number_in(pvd, set, "timestep"), part = number_in(pvd, set, "part");
+    frames[time][part] = file_in(pvd, set);
   }
   if (frames.empty())
     refuse(pvd, "names no data set");

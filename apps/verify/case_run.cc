@@ -147,15 +147,6 @@ std::vector<std::string> segments_of(const std::string &entry)
 
 } // namespace
 
-std::vector<std::string> computations()
-{
-  std::vector<std::string> names;
-  for (const Computation &one : scene_computations())
-    names.push_back(one.name);
-  names.push_back("integrators");
-  return names;
-}
-
 CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more, const std::atomic<bool> *interruption)
     : case_(&one)
 {

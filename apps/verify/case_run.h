@@ -9,9 +9,6 @@
 namespace gestell::apps
 {
 
-/// Words of what a case computes: "run", "modes", "frf", "periodic", "integrators".
-std::vector<std::string> computations();
-
 /// A case as it was computed once.
 class CaseRun
 {

@@ -2,7 +2,6 @@
 
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_table.h"
-#include "apps/verify/case_run.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -10,6 +10,12 @@
 namespace gestell::apps
 {
 
+/// Words of what a case computes, each of them done by CaseRun.
+inline std::vector<std::string> computations()
+{
+  return {"run", "modes", "frf", "periodic", "integrators"};
+}
+
 /// A table of a file, or rows of it.
 struct TableChoice
 {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <set>
 
 namespace gestell::coupling
 {
@@ -35,10 +36,7 @@ CoordinateSystems::CoordinateSystems(TextFile &file)
     cards_[file.whole(field[0], "the number of a coordinate system")] = card;
   }
   for (const auto &[number, card] : cards_)
-  {
-    std::vector<long> on_the_way;
-    resolve(file, number, on_the_way);
-  }
+    resolve(file, number);
   file.restart();
 }
 
@@ -48,24 +46,37 @@ const CoordinateSystems::System *CoordinateSystems::find(long number) const
   return found == systems_.end() ? nullptr : &found->second;
 }
 
-void CoordinateSystems::resolve(const TextFile &file, long number, std::vector<long> &on_the_way)
+/// Without recursion, as a file may have chains of any length.
+void CoordinateSystems::resolve(const TextFile &file, long number)
 {
-  const auto card = cards_.find(number);
-  if (systems_.count(number) > 0 || card == cards_.end())
-    return;
-  if (std::find(on_the_way.begin(), on_the_way.end(), number) != on_the_way.end())
-    file.fail_at(card->second.line, "coordinate system " + std::to_string(number) + " refers to itself");
-  on_the_way.push_back(number);
-  resolve(file, card->second.reference, on_the_way);
-  const System *reference = find(card->second.reference);
-  if (!reference)
-    return; // of one that is not rectangular
+  std::vector<long> chain;
+  std::set<long>    in_chain;
+  for (auto card = cards_.find(number); systems_.count(number) == 0 && card != cards_.end(); card = cards_.find(number))
+  {
+    if (!in_chain.insert(number).second)
+      file.fail_at(card->second.line, "coordinate system " + std::to_string(number) + " refers to itself");
+    chain.push_back(number);
+    number = card->second.reference;
+  }
+  for (; !chain.empty(); chain.pop_back())
+  {
+    const Card &card = cards_.at(chain.back());
+    if (const System *reference = find(card.reference)) // else of one that is not rectangular
+      add(file, chain.back(), card, *reference);
+  }
+}
+
+void CoordinateSystems::add(const TextFile &file, long number, const Card &card, const System &reference)
+{
   const auto basic = [&](int i)
-  { return Eigen::Vector3d(reference->origin + reference->axes * card->second.points[std::size_t(i)]); };
+  { return Eigen::Vector3d(reference.origin + reference.axes * card.points[std::size_t(i)]); };
   const Eigen::Vector3d a = basic(0), z = (basic(1) - a).normalized(), y = z.cross((basic(2) - a).normalized());
+  if (!a.allFinite() || !z.allFinite() || !y.allFinite())
+    file.fail_at(card.line, "the points of coordinate system " + std::to_string(number) +
+                                " lie so far out that their distances are no numbers; check its columns");
   if (!(y.norm() > on_a_line))
-    file.fail_at(card->second.line, "the three points of coordinate system " + std::to_string(number) +
-                                        " lie on a line, which says nothing of its axes");
+    file.fail_at(card.line, "the three points of coordinate system " + std::to_string(number) +
+                                " lie on a line, which says nothing of its axes");
   System system;
   system.origin      = a;
   system.axes.col(2) = z;

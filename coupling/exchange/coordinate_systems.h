@@ -40,7 +40,9 @@ private:
     long                           reference, line;
     std::array<Eigen::Vector3d, 3> points;
   };
-  void resolve(const TextFile &file, long number, std::vector<long> &on_the_way);
+  /// The system, and those that it refers to.
+  void resolve(const TextFile &file, long number);
+  void add(const TextFile &file, long number, const Card &card, const System &reference);
 
   std::map<long, Card>   cards_;
   std::map<long, System> systems_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <ostream>
 #include <set>
 
@@ -65,17 +66,33 @@ private:
       const auto &field = cards.fields();
       for (std::size_t i = 0; i < field.size(); ++i)
         if (capitals(field[i]) == "THRU" && i > 0 && i + 1 < field.size())
-          through_.emplace_back(file_.whole(field[i - 1], point), file_.whole(field[i + 1], point));
+          add_range(file_.whole(field[i - 1], point), file_.whole(field[i + 1], point));
         else if (!field[i].empty())
           points_.insert(file_.whole(field[i], point));
     }
   }
 
+  /// Ranges that meet become one, so that a search finds the one of a point.
+  void add_range(long first, long last)
+  {
+    if (last < first)
+      return;
+    auto next = through_.upper_bound(first);
+    if (next != through_.begin() && std::prev(next)->second >= first)
+      --next;
+    while (next != through_.end() && next->first <= last)
+    {
+      first = std::min(first, next->first);
+      last  = std::max(last, next->second);
+      next  = through_.erase(next);
+    }
+    through_.emplace(first, last);
+  }
+
   bool is_point(long id) const
   {
-    return points_.count(id) > 0 ||
-           std::any_of(through_.begin(), through_.end(),
-                       [id](const auto &range) { return range.first <= id && id <= range.second; });
+    const auto behind = through_.upper_bound(id);
+    return points_.count(id) > 0 || (behind != through_.begin() && id <= std::prev(behind)->second);
   }
 
   RowLabel label(const BulkCards &cards, std::size_t at) const
@@ -172,10 +189,10 @@ private:
 
   static constexpr const char *point = "the number of a scalar point";
 
-  TextFile                           file_;
-  std::set<long>                     points_;
-  std::vector<std::pair<long, long>> through_;
-  std::map<std::string, Collected>   collected_;
+  TextFile                         file_;
+  std::set<long>                   points_;
+  std::map<long, long>             through_; ///< ranges of scalar points, the last by the first
+  std::map<std::string, Collected> collected_;
 };
 
 void write_field(std::ostream &out, const std::string &text)

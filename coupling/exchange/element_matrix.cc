@@ -36,6 +36,8 @@ std::string value_of(std::string_view line, const std::string &key)
   return "";
 }
 
+constexpr std::size_t most_directions = 6; // of a node: else nodes times directions would fill the memory
+
 class ElementReader
 {
 public:
@@ -87,6 +89,8 @@ private:
         break;
       const auto  fields = fields_of(line);
       std::size_t from   = 0;
+      if (fields.empty()) // commas alone
+        continue;
       if (nodes.empty())
         file_.fail("directions come before the nodes they are of; expected a remark '** ELEMENT NODES' with their "
                    "numbers, as CalculiX and Abaqus write it");
@@ -100,6 +104,8 @@ private:
         from     = 1;
       }
       directions.clear();
+      if (fields.size() - from > most_directions)
+        file_.fail("a node has " + std::to_string(fields.size() - from) + " directions; it has no more than 6 motions");
       for (; from < fields.size(); ++from)
         directions.push_back(direction(fields[from]));
     }

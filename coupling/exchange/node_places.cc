@@ -39,6 +39,8 @@ private:
 };
 
 constexpr std::size_t longest_format = 80;
+constexpr long        longest_line   = 10000;               ///< columns, of a format
+constexpr int         most_files = 1000, deepest_file = 20; ///< that include each other
 
 std::string elsewhere(long node)
 {
@@ -104,6 +106,8 @@ void read_grids(const std::string &name, UnknownPlaces unknown, Found &found)
     {
       const Eigen::Vector3d basic = of_place.origin + of_place.axes * Eigen::Vector3d(x[0], x[1], x[2]);
       x                           = {basic[0], basic[1], basic[2]};
+      if (!basic.allFinite())
+        file.fail_at(cards.line(), "the place of grid point " + std::to_string(node) + " is beyond all numbers");
     }
     if (found.contradicts(node, x))
       file.fail_at(cards.line(), elsewhere(node));
@@ -119,8 +123,12 @@ public:
   void read(const std::string &name, bool in_nodes, int depth)
   {
     fem::InpLines lines(name);
-    if (!lines.opened() || depth > 20)
+    if (!lines.opened())
       throw std::invalid_argument(name + ": cannot be read; it is the INPUT of another file, check its path");
+    if (depth > deepest_file || ++n_files_ > most_files)
+      throw std::invalid_argument(name + ": is one of more than " + std::to_string(most_files) + " files, or " +
+                                  std::to_string(deepest_file) +
+                                  " deep, that include each other; does one include itself? Write one file");
     const auto refused = [&](const std::string &what)
     { return std::invalid_argument(name + ":" + std::to_string(lines.number()) + ": " + what); };
     std::string keyword_before;
@@ -182,6 +190,7 @@ private:
   }
 
   Found &found_;
+  int    n_files_ = 0;
 };
 
 /// NBLOCK, then a format such as (3i9,6e21.13e3), then nodes until a line that begins with N or -1.
@@ -197,7 +206,13 @@ void read_nblocks(const std::string &name, Found &found)
     const std::string_view line = file.next() ? file.line().substr(0, longest_format) : "";
     if (!std::regex_search(line.begin(), line.end(), found_form, form))
       file.fail("expected the format of the nodes, such as (3i9,6e21.13e3)");
-    const auto        number   = [&](int i) { return std::size_t(std::stoul(found_form[i].str())); };
+    const auto number = [&](int i)
+    {
+      const auto value = whole_of(found_form[i].str());
+      if (!value || *value < 1 || *value > longest_line)
+        file.fail("'" + found_form[i].str() + "' is no number of columns; expected a format such as (3i9,6e21.13e3)");
+      return std::size_t(*value);
+    };
     const std::size_t integers = number(1), integer_width = number(2), width = number(4);
     while (file.next() && !begins(file.line(), "N") && trimmed(file.line()) != "-1")
     {

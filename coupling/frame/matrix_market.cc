@@ -85,6 +85,8 @@ public:
     ++number_;
     if (!line_.empty() && line_.back() == '\r')
       line_.pop_back();
+    if (line_.find('\0') != std::string::npos)
+      fail("holds a zero byte; a MatrixMarket file is text");
     rest_ = line_.data();
     return true;
   }

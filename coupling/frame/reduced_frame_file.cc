@@ -5,7 +5,9 @@
 #include "coupling/frame/sealed_file.h"
 
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -82,6 +84,14 @@ private:
   Hdf5File &file_;
 };
 
+int whole_number(const Hdf5File &file, const std::string &name)
+{
+  const double x = file.read_number(name);
+  if (!(std::abs(x) <= std::numeric_limits<int>::max()))
+    throw std::runtime_error("'" + name + "' is no whole number");
+  return int(x);
+}
+
 /// Reads them back.
 class FrameReader
 {
@@ -90,7 +100,7 @@ public:
 
   void operator()(const std::string &name, std::string &text) { text = file_.read_text(name); }
   void operator()(const std::string &name, double &x) { x = file_.read_number(name); }
-  void operator()(const std::string &name, int &x) { x = int(file_.read_number(name)); }
+  void operator()(const std::string &name, int &x) { x = whole_number(file_, name); }
   void operator()(const std::string &name, Eigen::MatrixXf &A) { A = file_.read_floats(name); }
   template <int rows, int columns>
   void operator()(const std::string &name, Eigen::Matrix<double, rows, columns> &A)
@@ -238,6 +248,8 @@ void each_part(Frame &frame, Archive &&archive)
   archive("statements", statements);
 }
 
+constexpr int highest_degree = 100; ///< of the fields of a face; beyond, their number would leave its range
+
 /// The parts must fit each other, whatever the file says.
 void require_consistent(const ReducedFrame &frame)
 {
@@ -255,8 +267,16 @@ void require_consistent(const ReducedFrame &frame)
   require(frame.displacement.size() == 0 ||
               (frame.displacement.cols() == n && frame.displacement.rows() == Eigen::Index(3 * frame.points.size())),
           "'displacement'");
+  require(frame.M.allFinite() && frame.B.allFinite() && frame.C.allFinite() && frame.omega0.allFinite() &&
+              frame.translations_load.allFinite() && frame.frequencies_hz.allFinite(),
+          "a number that is not finite");
+  require(frame.n_fixed_modes >= 0 && frame.n_fixed_modes <= frame.omega0.size(), "the number of fixed modes");
+  require(frame.left_out.size() == 0 ||
+              (frame.left_out.rows() == frame.n_interface && frame.left_out.cols() == frame.n_interface),
+          "'left_out'");
   for (const auto &interface : frame.interfaces)
   {
+    require(interface.face.degree >= 0 && interface.face.degree <= highest_degree, "the degree of a face");
     for (const int i : interface.coordinate)
       require(i >= -1 && i < frame.n_interface, "an interface coordinate");
     for (const int i : interface.face.coordinate)
@@ -264,7 +284,8 @@ void require_consistent(const ReducedFrame &frame)
     require(int(interface.face.coordinate.size()) == fem::n_fields(interface.face.degree), "the degree of a face");
   }
   for (const auto &output : frame.outputs)
-    require(output.on_q.size() == n && output.on_v.size() == n && (output.on_a.size() == 0 || output.on_a.size() == n),
+    require(output.on_q.allFinite() && output.on_v.allFinite() && output.on_a.allFinite() && output.on_q.size() == n &&
+                output.on_v.size() == n && (output.on_a.size() == 0 || output.on_a.size() == n),
             "an output");
   for (const auto &triangle : frame.triangles)
     for (const int i : triangle)
@@ -304,7 +325,7 @@ FrameSummary read_frame_summary(const std::string &name)
   try
   {
     const Hdf5File file(name);
-    return {read_origin(file), int(file.read_number("n_full")), int(file.read_number("n_interface")),
+    return {read_origin(file), whole_number(file, "n_full"), whole_number(file, "n_interface"),
             int(file.read_vector("omega0").size())};
   }
   catch (const std::runtime_error &failure)

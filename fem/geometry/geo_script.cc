@@ -108,7 +108,7 @@ class GeoJudge
 {
 public:
   GeoJudge(const std::vector<GeoToken> &tokens, const RefuseLine &refuse)
-      : tokens_(tokens), refuse_(refuse), closing_(tokens.size(), 0)
+      : tokens_(tokens), refuse_(refuse), closing_(tokens.size(), 0), of_constants_(tokens.size(), false)
   {
     find_closings();
   }
@@ -134,21 +134,30 @@ private:
   bool is(std::size_t i, Kind kind) const { return i < tokens_.size() && tokens_[i].kind == kind; }
   bool opens(std::size_t i) const { return is(i, "(") || is(i, "[") || is(i, "{"); }
 
-  /// Of every bracket that opens, where it closes.
+  /// Of every bracket that opens, where it closes; and what stands in brackets of DefineConstant.
   void find_closings()
   {
     std::vector<std::size_t> open;
+    std::size_t              n_constants = 0;
+    const auto               is_constant = [this](std::size_t i) { return i > 0 && is(i - 1, "DefineConstant"); };
     for (std::size_t i = 0; i < tokens_.size(); ++i)
+    {
+      of_constants_[i] = n_constants > 0;
       if (opens(i))
+      {
         open.push_back(i);
+        n_constants += is_constant(i);
+      }
       else if (is(i, ")") || is(i, "]") || is(i, "}"))
       {
         if (open.empty())
           refuse(i, "has a bracket that was not opened");
+        n_constants -= is_constant(open.back());
         closing_[open.back()] = i;
         opening_[i]           = open.back();
         open.pop_back();
       }
+    }
     if (!open.empty())
       refuse(open.back(), "has a bracket that is not closed");
   }
@@ -216,14 +225,6 @@ private:
       refuse(i, "sets the option of something that is no size field");
   }
 
-  bool in_brackets_of_constants(std::size_t i) const
-  {
-    for (const auto &[close, open] : opening_)
-      if (open < i && i < close && open > 0 && is(open - 1, "DefineConstant"))
-        return true;
-    return false;
-  }
-
   /// A word that is none of the language must be a variable, or the name of a macro.
   void judge_place(std::size_t i)
   {
@@ -257,7 +258,7 @@ private:
       return;
     if (is(i + 1, Kind::text) && of_texts.count(word) > 0)
       return;
-    if (attributes.count(word) > 0 && in_brackets_of_constants(i))
+    if (attributes.count(word) > 0 && of_constants_[i])
       return;
     refuse(i, "\"" + word + " " + next + "\" is a command that is not known to be harmless");
   }
@@ -266,6 +267,7 @@ private:
   const RefuseLine                        &refuse_;
   std::vector<std::size_t>                 closing_; ///< by the bracket that opens
   std::map<std::size_t, std::size_t>       opening_; ///< by the bracket that closes
+  std::vector<bool>                        of_constants_;
   std::vector<std::size_t>                 files_;
   const std::map<std::string, std::string> refused_ = refused_words();
 };

@@ -51,10 +51,14 @@ std::vector<std::string> parts_of(const std::string &path)
   return parts;
 }
 
+constexpr int         another_word = 1 << 20;
+constexpr std::size_t longest_word = 200; ///< else time and memory go by the product of lengths that a file chooses
+
 /// Of a slip of the pen; none where the words differ by more than a third of their letters.
-constexpr int another_word = 1 << 20;
-int           slip(const std::string &name, const std::string &meant)
+int slip(const std::string &name, const std::string &meant)
 {
+  if (std::max(name.size(), meant.size()) > longest_word)
+    return another_word;
   const int distance = edit_distance(lower(name), lower(meant));
   return 3 * distance <= static_cast<int>(std::max(name.size(), meant.size())) + 1 ? distance : another_word;
 }

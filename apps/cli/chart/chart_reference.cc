@@ -1,14 +1,8 @@
 #include "apps/cli/chart/chart_reference.h"
 
-#include "fem/values/nearest_name.h"
-
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 namespace gestell::apps
 {
@@ -86,63 +80,7 @@ Reference attempt(const WorkProblem &problem, const Candidate &candidate, std::s
   return reference;
 }
 
-std::string name_without_unit(const std::string &head)
-{
-  std::string name = head.substr(0, head.find('['));
-  name.erase(0, name.find_first_not_of(" \""));
-  name.erase(name.find_last_not_of(" \"\r") + 1);
-  return name;
-}
-
 } // namespace
-
-ReferenceFile::ReferenceFile(const std::string &file_path) : path(file_path)
-{
-  std::ifstream file(path);
-  const auto    refuse = [&](long line, const std::string &reason)
-  { throw std::invalid_argument("--reference: " + path + ":" + std::to_string(line) + ": " + reason); };
-  std::string line;
-  if (!file || !std::getline(file, line))
-    throw std::invalid_argument("--reference: " + path + " cannot be read; give a CSV file with a header line");
-  std::istringstream head(line);
-  for (std::string cell; std::getline(head, cell, ',');)
-    names_.push_back(name_without_unit(cell));
-  if (names_.size() < 2 || names_.front() != "t")
-    refuse(1, "the header must name t and at least one signal, such as \"t [s],F_P [N]\"");
-  columns_.resize(names_.size());
-  for (long row = 2; std::getline(file, line); ++row)
-  {
-    std::istringstream cells(line);
-    std::size_t        i = 0;
-    for (std::string cell; std::getline(cells, cell, ','); ++i)
-    {
-      char        *end   = nullptr;
-      const double value = std::strtod(cell.c_str(), &end);
-      while (end != cell.c_str() && std::isspace(static_cast<unsigned char>(*end)))
-        ++end;
-      if (i >= names_.size() || end == cell.c_str() || *end != '\0' || !std::isfinite(value))
-        refuse(row, "\"" + cell + "\" is no number of one of the " + std::to_string(names_.size()) + " columns");
-      columns_[i].push_back(value);
-    }
-    if (i != names_.size())
-      refuse(row, std::to_string(i) + " numbers, but " + std::to_string(names_.size()) + " columns");
-    if (columns_[0].size() > 1 && !(columns_[0].back() > columns_[0][columns_[0].size() - 2]))
-      refuse(row, "the times must ascend");
-  }
-  if (columns_[0].size() < 2)
-    refuse(1, "no rows of numbers follow");
-  times = columns_[0];
-}
-
-bool ReferenceFile::has(const std::string &name) const
-{
-  return std::find(names_.begin() + 1, names_.end(), name) != names_.end();
-}
-
-const std::vector<double> &ReferenceFile::column(const std::string &name) const
-{
-  return columns_[std::find(names_.begin() + 1, names_.end(), name) - names_.begin()];
-}
 
 Reference own_reference(const WorkProblem &problem, std::vector<std::string> &notes)
 {

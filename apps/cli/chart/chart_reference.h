@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/cli/chart/reference_file.h"
 #include "apps/cli/chart/work_measurement.h"
 
 #include <string>
@@ -16,24 +17,6 @@ struct Reference
   double                  cpu_s = 0.;
   std::string             how;
   coupling::MethodOptions method; ///< of its coarsest run, good for the size of the motion
-};
-
-/// A table "t, name, name ..." with a header line; units in brackets behind a name are left out.
-class ReferenceFile
-{
-public:
-  /// @throws std::invalid_argument for a file that cannot be read, or is no table of numbers with ascending times
-  explicit ReferenceFile(const std::string &path);
-
-  bool                       has(const std::string &name) const;
-  const std::vector<double> &column(const std::string &name) const;
-
-  std::string         path;
-  std::vector<double> times;
-
-private:
-  std::vector<std::string>         names_;
-  std::vector<std::vector<double>> columns_;
 };
 
 /**

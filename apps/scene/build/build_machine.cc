@@ -167,11 +167,19 @@ coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame)
 namespace
 {
 
+/// "-frame.crown.uz_rate"; names may have any length, which std::regex cannot take.
+bool is_motion_of_interface(const std::string &path)
+{
+  static const std::regex motion("[ur][xyz](_rate|_acceleration)?");
+  const std::size_t       first = path.find('.'), last = path.rfind('.');
+  return (path.compare(0, first, "frame") == 0 || path.compare(0, first, "-frame") == 0) && last > first + 1 &&
+         std::regex_match(path.substr(last + 1, 32), motion);
+}
+
 /// Of an interface, whose frame has no such motion.
 void require_motion(const coupling::Signal &signal, const std::string &path)
 {
-  static const std::regex motion(R"(-?frame\..+\.[ur][xyz](_rate|_acceleration)?)");
-  if (signal.on_q.empty() && signal.on_v.empty() && signal.on_a.empty() && std::regex_match(path, motion))
+  if (signal.on_q.empty() && signal.on_v.empty() && signal.on_a.empty() && is_motion_of_interface(path))
     throw std::invalid_argument("signal \"" + signal.name + "\": '" + path +
                                 "' is always zero, for the frame has no such motion at this interface; name another "
                                 "one, or leave the signal out");

@@ -154,11 +154,16 @@ Expression Parameters::expression(const SceneNode &value, const std::vector<Vari
 
 void Parameters::use(const std::string &name) const
 {
-  if (values_.count(name) == 0 || !used_.insert(name).second)
-    return;
-  if (const auto needed = needs_.find(name); needed != needs_.end())
-    for (const std::string &other : needed->second)
-      use(other);
+  std::vector<std::string> waiting = {name}; // no recursion: where each stands behind what it needs, chains may be long
+  while (!waiting.empty())
+  {
+    const std::string next = std::move(waiting.back());
+    waiting.pop_back();
+    if (values_.count(next) == 0 || !used_.insert(next).second)
+      continue;
+    if (const auto needed = needs_.find(next); needed != needs_.end())
+      waiting.insert(waiting.end(), needed->second.begin(), needed->second.end());
+  }
 }
 
 void Parameters::refuse_idle_overrides() const

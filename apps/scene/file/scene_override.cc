@@ -14,6 +14,8 @@ namespace gestell::apps
 namespace
 {
 
+constexpr std::size_t deepest_key = 50; ///< tables in each other, as in a file: each takes some of the stack
+
 SceneNode override_value(const std::string &text, const Place &place)
 {
   const auto folder = std::filesystem::current_path().string();
@@ -66,6 +68,8 @@ std::vector<std::string> key_segments(const std::string &path, const Place &plac
       end = std::min(path.find('.', i), path.size());
       result.push_back(path.substr(i, end - i));
     }
+    if (result.size() > deepest_key)
+      place.fail("the key goes more than " + std::to_string(deepest_key) + " tables deep; a scene has six at most");
     if (result.back().empty() || (end < path.size() && path[end] != '.'))
       place.fail("is not a key path such as run.step or frame.surface.\"crown bearing\".faces");
     i = end + 1;

@@ -10,6 +10,9 @@ namespace gestell::apps
 namespace
 {
 
+/// Lines that are longer get no hint: std::regex takes some of the stack for each letter, and time by powers of them.
+constexpr std::size_t longest_judged = 120;
+
 /// Without its comment, and with nothing inside its quotes.
 std::string bare(const std::string &line)
 {
@@ -68,6 +71,8 @@ std::string hint_of_value(const std::string &value)
 
 std::string toml_hint(const std::string &line)
 {
+  if (line.size() > longest_judged)
+    return "";
   for (const std::string quote : {"“", "”", "„", "‘", "’", "«", "»"})
     if (bare(line).find(quote) != std::string::npos)
       return "quotes are \" or ', not " + quote;
@@ -92,7 +97,8 @@ std::string hint_of_reason(const std::string &reason)
 {
   static const std::regex twice(R"x((value|table) \("([^"]+)"\) already exists)x");
   std::smatch             parts;
-  if (!std::regex_search(reason, parts, twice))
+  const std::string       begin = reason.substr(0, 2 * longest_judged);
+  if (!std::regex_search(begin, parts, twice))
     return "";
   const std::string name = parts[2];
   return parts[1] == "table" ? "[" + name + "] stands in the file twice; put all its keys under one head"

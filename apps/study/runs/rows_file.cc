@@ -58,6 +58,14 @@ double number_of(const std::string &text)
   return value;
 }
 
+int whole_number(const std::string &text)
+{
+  const double value = number_of(text);
+  if (!(value >= 0. && value <= std::numeric_limits<int>::max() && value == std::floor(value)))
+    throw std::invalid_argument("'" + text + "' is no number of a run");
+  return int(value);
+}
+
 std::string number_cell(double value)
 {
   return std::isfinite(value) ? exact_text(value) : "";
@@ -95,7 +103,7 @@ RunRow RowsText::row(const std::string &line) const
     throw std::invalid_argument("has " + std::to_string(cells.size()) + " cells in place of " +
                                 std::to_string(expected));
   RunRow row;
-  row.run    = int(number_of(cells[0]));
+  row.run    = whole_number(cells[0]);
   row.status = cells[1] == "done" ? RunStatus::done : RunStatus::failed;
   if (row.status == RunStatus::failed)
     row.message = cells[1].substr(std::min(cells[1].size(), std::string(failed_word).size()));

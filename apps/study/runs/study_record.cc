@@ -97,6 +97,8 @@ std::optional<StudyRecord> read_record(const std::filesystem::path &file)
   try
   {
     const Json json = Json::parse(in);
+    if (!json.at("runs").is_number_integer()) // else the conversion of a real one is undefined
+      throw Json::other_error::create(501, "runs is no whole number", &json);
     return StudyRecord{json.at("study"), json.at("runs"), json.at("entries").get<Entries>(),
                        json.value("units", std::vector<std::string>())};
   }

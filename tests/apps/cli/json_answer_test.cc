@@ -73,6 +73,15 @@ TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
   EXPECT_EQ(line["way_out"], "gestell check --help tells what it takes");
 }
 
+TEST(JsonAnswer, OfAMessageOfAnyLengthIsTold)
+{
+  const Json of_name = document("check 'x:99999999999999999999: y.toml'", 2);
+  EXPECT_NE(of_name["error"].dump().find("y.toml"), std::string::npos) << of_name.dump();
+  const Json of_method =
+      document("check " + scene("press_minimal.toml") + " --set run.method=" + std::string(100000, 'a'), 2);
+  EXPECT_FALSE(of_method["error"].empty());
+}
+
 TEST(JsonAnswer, IsGivenByEveryCommandThatComputes)
 {
   const Folder      folder("json_all");

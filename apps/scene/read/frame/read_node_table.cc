@@ -70,6 +70,13 @@ Layout layout_of(const CsvFile &table, double length)
   return layout;
 }
 
+/// In metres: a number that is finite in its unit may be none in metres.
+void require_finite(const std::array<double, 3> &x, const std::string &place)
+{
+  if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+    throw std::invalid_argument(place + "the place of the node is beyond all numbers; check it and its unit of length");
+}
+
 TableNode read_node(const CsvFile &table, const CsvFile::Line &line, const Layout &layout, Eigen::Index n)
 {
   TableNode node;
@@ -80,6 +87,7 @@ TableNode read_node(const CsvFile &table, const CsvFile::Line &line, const Layou
     throw std::invalid_argument(node.place + "name '" + node.motions.name + "': names have no dots");
   for (std::size_t d = 0; d < 3; ++d)
     node.motions.position[d] = layout.unit[d] * table.number(line, *layout.column[first_position + d]);
+  require_finite(node.motions.position, node.place);
   for (std::size_t motion = 0; motion < 6; ++motion)
     if (const auto column = layout.column[first_motion + motion])
     {
@@ -200,8 +208,11 @@ coupling::ModelNodes model_nodes(const std::string &path, const std::map<long, T
     wanted.insert(number);
   coupling::ModelNodes model = coupling::read_model_nodes(path, wanted, unknown);
   for (auto &[number, x] : model.places)
+  {
     for (double &coordinate : x)
       coordinate *= length;
+    require_finite(x, path + ": node " + std::to_string(number) + ": ");
+  }
   return model;
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A table "t, name, name ..." with a header line; units in brackets behind a name are left out.
+class ReferenceFile
+{
+public:
+  /// @throws std::invalid_argument for a file that cannot be read, or is no table of numbers with ascending times
+  explicit ReferenceFile(const std::string &path);
+
+  bool                       has(const std::string &name) const;
+  const std::vector<double> &column(const std::string &name) const; ///< of a name that it has
+
+  std::string         path;
+  std::vector<double> times; ///< [s], two or more
+
+private:
+  std::vector<std::string>         names_;
+  std::vector<std::vector<double>> columns_;
+};
+
+} // namespace gestell::apps
