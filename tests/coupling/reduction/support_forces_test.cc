@@ -5,6 +5,7 @@
 #include "fem/recovery/discretisation.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/box_mesh.h"
+#include "tests/support/statics.h"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +61,7 @@ TEST(SupportForces, AtRestCarryTheWeightWhateverModesAreLeftOut)
   for (const int modes : {0, 1, 6})
   {
     const ReducedFrame reduced = coupling::reduce_frame(frame, with_modes(modes));
-    ASSERT_GT(reduced.static_residual, 0.05) << "or the modes carry the weight by themselves";
+    ASSERT_GT(reduced.static_residual, 0.01) << "or the modes carry the weight by themselves";
     const VectorXd p = reduced.C.lu().solve(reduced.translations_load * g);
     EXPECT_LT((reaction(reduced, p, g) + weight).norm(), rounding * weight.norm()) << modes << " modes";
   }
@@ -86,18 +87,17 @@ TEST(SupportForces, AndCutsAtRestAreThoseOfTheFullFrame)
 {
   const auto         frame = supported_bar();
   const Vector3d     g(1., -2., -9.81);
-  const ReducedFrame few     = coupling::reduce_frame(frame, with_modes(2));
-  const int          n       = int(frame.M.rows() - frame.interface_coordinates().size());
-  const ReducedFrame whole   = coupling::reduce_frame(frame, with_modes(n));
-  const auto         at_rest = [&](const ReducedFrame &reduced, const fem::FrameOutput &output)
+  const ReducedFrame reduced = coupling::reduce_frame(frame, with_modes(2));
+  const VectorXd     q       = statics(frame, frame.acceleration_load * g),
+                 p           = reduced.C.lu().solve(reduced.translations_load * g);
+  ASSERT_EQ(frame.outputs.size(), 7u);
+  for (const fem::FrameOutput &full : frame.outputs)
   {
-    const VectorXd p = reduced.C.lu().solve(reduced.translations_load * g);
-    return output.on_q.dot(p) + output.under_acceleration.dot(g);
-  };
-  ASSERT_EQ(few.outputs.size(), 7u);
-  for (const fem::FrameOutput &output : few.outputs)
-    EXPECT_NEAR(at_rest(few, output), at_rest(whole, output_of(whole, output.name)), rounding * frame.mass * g.norm())
-        << output.name;
+    const fem::FrameOutput &few = output_of(reduced, full.name);
+    EXPECT_NEAR(few.on_q.dot(p) + few.under_acceleration.dot(g), full.on_q.dot(q) + full.under_acceleration.dot(g),
+                rounding * frame.mass * g.norm())
+        << full.name;
+  }
 }
 
 } // namespace
