@@ -1,5 +1,6 @@
 // Loads as they act and as they are told.
 
+#include "coupling/frame/reduced_frame.h"
 #include "coupling/machine/machine.h"
 
 #include <gtest/gtest.h>
