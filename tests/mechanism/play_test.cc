@@ -1,7 +1,10 @@
 // Journal, contact and friction in joints: forces by hand, balance of forces between two bodies.
 
+#include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/journal_bearing.h"
+#include "mechanism/elements/lugre_friction.h"
 #include "mechanism/elements/point_contact.h"
+#include "mechanism/joints/friction_in_joint.h"
 #include "mechanism/joints/joint_friction.h"
 #include "mechanism/transmitted_element.h"
 #include "tests/support/element_probe.h"
@@ -216,6 +219,36 @@ TEST(JointFriction, TangentEqualsCentralQuotients)
     plane.force({0., u, minus, u, nullptr, false, &lambda}, nullptr, p_minus);
     for (int i = 0; i < 2; ++i)
       EXPECT_NEAR(dp[i + 2 * j], (p_plus[i] - p_minus[i]) / (2. * d), 1e-3); // of some 1e4 N s/m
+  }
+}
+
+// A pin of radius r that turns is its surface that slides by r phi: the torque is r times the force, with the same
+// bristles, for any of their laws.
+TEST(JointFriction, OfAPinIsThatOfItsSurfaceAtItsRadius)
+{
+  const double                           r = 0.03, lambda[] = {300., -400.}, zero[] = {0., 0.};
+  const CoulombFriction::Parameters      dry{0.2, 0.35, 0., 0.05, 2.};
+  const LuGreFriction::Parameters        bristles{0.2, 0.3, 0.05, 2., 5e3, 40., 0.};
+  const JointLoad                        load{2, 0};
+  const FrictionInJoint<CoulombFriction> pin_dry(dry, load, r), slide_dry(dry, load, 0.);
+  const FrictionInJoint<LuGreFriction>   pin(bristles, load, r), slide(bristles, load, 0.);
+  for (const double v : {-0.4, 0.02, 0.7}) // of the surface [m/s]
+  {
+    const double history[] = {v < 0. ? -1. : 1., 0.}, turning[] = {v / r, 0.}, sliding[] = {v, 0.};
+    double       torque, force;
+    pin_dry.force({0., zero, turning, zero, nullptr, false, lambda}, history, &torque);
+    slide_dry.force({0., zero, sliding, zero, nullptr, false, lambda}, history, &force);
+    EXPECT_NEAR(torque, r * force, 1e-13) << v;
+    EXPECT_NEAR(pin_dry.quantity(1, {0., zero, turning, zero, nullptr, false, lambda}, history), v, 1e-15);
+    for (const double F : {-0.1, 0.15}) // of the bristles, per unit of the normal force
+    {
+      const double by_angle[] = {0., r * F}, by_way[] = {0., F};
+      double       p_angle[2], p_way[2];
+      pin.force({0., by_angle, turning, zero, nullptr, false, lambda}, history, p_angle);
+      slide.force({0., by_way, sliding, zero, nullptr, false, lambda}, history, p_way);
+      EXPECT_NEAR(p_angle[0], r * p_way[0], 1e-12) << v << ' ' << F;
+      EXPECT_NEAR(p_angle[1], r * p_way[1], 1e-12) << v << ' ' << F << ": the bristles follow alike";
+    }
   }
 }
 
