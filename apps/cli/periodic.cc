@@ -92,10 +92,11 @@ int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
   Session      session(options.input, options.overrides, options.scripts, {progress.callback(), &interruption()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  require_writable(folder);
+  const auto                  inputs = inputs_of(options);
+  require_room(folder, {}, inputs);
   const Result result = session.periodic(request);
   progress.done();
-  prepare_folder(folder);
+  prepare_folder(folder, inputs);
   write_results(folder, result);
   if (answers_in_json())
     answer_with(summary_json(result));

@@ -2,6 +2,7 @@
 
 #include "apps/cli/command.h"
 #include "apps/scene/values/requests.h"
+#include "apps/session/checkpoint/input_files.h"
 
 #include <filesystem>
 
@@ -12,6 +13,17 @@ namespace gestell::apps
 inline std::filesystem::path results_path(const CommonOptions &options, const Scene &scene)
 {
   return options.folder.empty() ? std::filesystem::path("results") / scene.name : std::filesystem::path(options.folder);
+}
+
+/// Files that the command reads, which no result may replace: those of its scene, and others of its options.
+inline std::vector<std::filesystem::path> inputs_of(const CommonOptions            &options,
+                                                    const std::vector<std::string> &others = {})
+{
+  std::vector<std::filesystem::path> inputs = input_files(options.input, options.overrides);
+  for (const std::string &file : others)
+    if (!file.empty())
+      inputs.emplace_back(file);
+  return inputs;
 }
 
 } // namespace gestell::apps

@@ -4,6 +4,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
+#include "apps/session/checkpoint/input_files.h"
 #include "apps/session/session.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -88,7 +89,8 @@ std::vector<double> Run::history(const std::string &signal) const
 
 void Run::save(const std::string &folder) const
 {
-  apps::prepare_folder(folder);
+  const apps::Request &asked = parts_->result.asked;
+  apps::prepare_folder(folder, apps::input_files(asked.file, asked.set));
   apps::write_results(folder, parts_->result);
 }
 
