@@ -7,6 +7,8 @@
 #include "apps/command_line/command_line.h"
 #include "apps/command_line/completion.h"
 #include "apps/command_line/man_page.h"
+#include "apps/command_line/standard_streams.h"
+#include "coupling/frame/whole_file.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -120,6 +122,10 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
                 "output.stress.step), or a machine with more memory",
                 answer);
   }
+  catch (const coupling::WriteFailure &failure)
+  {
+    return fail(exit_failed, failure.what(), answer);
+  }
   catch (const std::exception &error)
   {
     if (interruption()) // what was under way then fails somewhere
@@ -132,10 +138,14 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
 
 int main(int argc, char **argv)
 {
+  secure_standard_streams();
   const bool apart  = has_word(argc, argv, "--apart") || apart_by_environment();
   const bool speaks = apart || coupling::launch().rank == 0 || (argc > 1 && std::string(argv[1]) == "study");
   JsonAnswer answer(speaks && has_word(argc, argv, "--json"));
   const int  exit_code = run_guarded(argc, argv, answer);
   answer.finish(argc > 1 ? argv[1] : "", exit_code);
-  return exit_code;
+  const std::string failure = standard_output_failure();
+  if (!failure.empty())
+    std::cerr << "gestell: " << failure << '\n';
+  return failure.empty() ? exit_code : std::max<int>(exit_code, exit_failed);
 }

@@ -7,16 +7,37 @@
 #include "apps/output/text/write_file.h"
 
 #include <cmath>
+#include <fstream>
 #include <iostream>
+#include <stdexcept>
 
 namespace gestell::apps
 {
+
+namespace
+{
+
+/// Only an atlas is replaced, with the figures beside it.
+void require_atlas(const std::filesystem::path &file, const std::filesystem::path &figures)
+{
+  std::ifstream in(file);
+  std::string   heading;
+  std::getline(in, heading);
+  const bool there = std::filesystem::exists(std::filesystem::symlink_status(file));
+  if (there ? heading != "# Failure atlas" : std::filesystem::exists(std::filesystem::symlink_status(figures)))
+    throw std::invalid_argument(
+        "--atlas: " + (there ? file : figures).string() +
+        " is there already and is no failure atlas, so that it is not replaced; give another name");
+}
+
+} // namespace
 
 int write_atlas(const std::filesystem::path &file, bool quiet)
 {
   const std::filesystem::path beside  = file.parent_path().empty() ? "." : file.parent_path();
   const std::filesystem::path figures = beside / file.stem();
   require_writable(beside);
+  require_atlas(file, figures);
   ProgressLine progress(quiet);
   progress.show("failure atlas");
   const std::vector<AtlasEntry> entries = failure_atlas();

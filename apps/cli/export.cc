@@ -3,6 +3,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/exchange/model_description.h"
 #include "apps/output/exchange/zip_file.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/scene.h"
@@ -84,19 +85,39 @@ std::filesystem::path place_of_fmu(const CommonOptions &options, const ExportOpt
   return asked.fmu.empty() ? results_path(options, scene) / (scene.name + ".fmu") : std::filesystem::path(asked.fmu);
 }
 
+/// A file that is named is replaced if it is an FMU; a scene that was named by mistake is not.
+void require_archive(const std::filesystem::path &file)
+{
+  std::ifstream   in(file, std::ios::binary);
+  char            begin[2] = {};
+  std::error_code none;
+  if (std::filesystem::exists(std::filesystem::symlink_status(file, none)) &&
+      !(in.read(begin, 2) && begin[0] == 'P' && begin[1] == 'K'))
+    throw std::invalid_argument("--fmu: " + file.string() +
+                                " is there already and is no FMU, so that it is not replaced; give another name");
+}
+
 int export_scene(const CommonOptions &options, const ExportOptions &asked)
 {
   library_of_fmus();
   ProgressLine progress(options.quiet);
-  SceneNode    root  = read_scene_file(options.input, options.overrides);
-  const Scene  plain = read_scene(root, options.input, options.scripts);
-  const auto   file  = place_of_fmu(options, asked, plain);
-  require_writable(std::filesystem::absolute(file).parent_path());
+  SceneNode    root   = read_scene_file(options.input, options.overrides);
+  const Scene  plain  = read_scene(root, options.input, options.scripts);
+  const auto   file   = place_of_fmu(options, asked, plain);
+  const auto   folder = std::filesystem::absolute(file).parent_path();
+  require_writable(folder);
+  if (asked.fmu.empty())
+    OwnFolder(folder).require_free({file.filename().string()}, inputs_of(options));
+  else
+    require_archive(file);
   add_scene_inputs(asked.inputs, plain, root);
   Session         session(read_scene(root, options.input, options.scripts), options.overrides, {progress.callback()});
   const FmuAnswer answer = fmu_of(root, session);
   progress.done();
-  std::filesystem::create_directories(std::filesystem::absolute(file).parent_path());
+  if (asked.fmu.empty())
+    OwnFolder(folder).claim(file.filename().string());
+  else
+    std::filesystem::create_directories(folder);
   write_fmu(file.string(), answer);
   std::cout << "FMU 2.0 for co-simulation: " << file.string() << '\n';
   print_variables("inputs", answer.fmu.variables.inputs);

@@ -1,10 +1,10 @@
 #include "apps/cli/export_frame.h"
 
+#include "apps/output/folder/own_folder.h"
 #include "apps/scene/file/written_text.h"
 #include "coupling/exchange/dmig.h"
 #include "coupling/frame/matrix_market.h"
 #include "coupling/frame/petsc_binary.h"
-#include "coupling/frame/whole_file.h"
 #include "coupling/reduction/dense_frame.h"
 #include "fem/values/number_text.h"
 
@@ -29,7 +29,6 @@ public:
   Export(const std::string &folder, MatrixFormat format, const std::string &remark)
       : folder_(folder), format_(format), remark_(remark)
   {
-    std::filesystem::create_directories(folder);
   }
 
   /// Writes a matrix; returns the name of its file.
@@ -37,13 +36,13 @@ public:
   {
     const bool        petsc = format_ == MatrixFormat::petsc;
     const std::string file  = name + (petsc ? ".petsc" : ".mtx");
+    const std::string place = claim(file);
     if (petsc)
-      coupling::write_petsc_matrix(path(file), A);
+      coupling::write_petsc_matrix(place, A);
     else if (symmetric)
-      coupling::write_matrix_market(path(file), A.sparseView(0., 0.), coupling::Symmetry::symmetric, remark_);
+      coupling::write_matrix_market(place, A.sparseView(0., 0.), coupling::Symmetry::symmetric, remark_);
     else
-      coupling::write_matrix_market(path(file), A, remark_);
-    files_.push_back(path(file));
+      coupling::write_matrix_market(place, A, remark_);
     return file;
   }
 
@@ -51,26 +50,27 @@ public:
   void cards(const std::map<std::string, Eigen::MatrixXd> &matrices, const std::vector<coupling::RowLabel> &rows,
              const coupling::NodePlaces &places, const std::string &remark)
   {
-    coupling::write_dmig(path("frame.pch"), matrices, rows, places, remark);
-    files_.push_back(path("frame.pch"));
+    coupling::write_dmig(claim("frame.pch"), matrices, rows, places, remark);
   }
 
   void text(const std::string &file, const std::string &content)
   {
-    coupling::WholeFile out(path(file));
-    out.stream() << content;
-    out.finish();
-    files_.push_back(path(file));
+    files_.push_back((folder_.path() / file).string());
+    folder_.write(file, content);
   }
 
-  void remove(const std::string &file) const { std::filesystem::remove(path(file)); }
+  void remove(const std::string &file) { folder_.remove(file); }
 
   const std::vector<std::string> &files() const { return files_; }
 
 private:
-  std::string path(const std::string &file) const { return (std::filesystem::path(folder_) / file).string(); }
+  std::string claim(const std::string &file)
+  {
+    files_.push_back(folder_.claim(file).string());
+    return files_.back();
+  }
 
-  std::string              folder_;
+  OwnFolder                folder_;
   MatrixFormat             format_;
   std::string              remark_;
   std::vector<std::string> files_;
@@ -240,6 +240,16 @@ MatrixFormat matrix_format(const std::string &name)
   if (name == "dmig")
     return MatrixFormat::dmig;
   throw std::invalid_argument("--export: got '" + name + "'; valid: matrix-market, petsc, dmig");
+}
+
+std::vector<std::string> exported_names(MatrixFormat format)
+{
+  std::vector<std::string> names = {"frame.toml", "nodes.csv", "triangles.csv"};
+  if (format == MatrixFormat::dmig)
+    names.push_back("frame.pch");
+  for (const char *const matrix : {"mass", "damping", "stiffness", "translations", "node_displacements"})
+    names.push_back(matrix + std::string(format == MatrixFormat::petsc ? ".petsc" : ".mtx"));
+  return names;
 }
 
 std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &given,

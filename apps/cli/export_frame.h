@@ -18,6 +18,9 @@ enum class MatrixFormat
 /// "matrix-market", "petsc" or "dmig".  @throws std::invalid_argument for others.
 MatrixFormat matrix_format(const std::string &name);
 
+/// Names of the files that export_frame() may write.
+std::vector<std::string> exported_names(MatrixFormat format);
+
 /**
  * Writes a reduced frame for other programs: mass, damping, stiffness and translations as matrices, nodes.csv with
  * interfaces and skin, triangles.csv, node_displacements (rows of the nodes times q), and frame.toml, the [frame] of a
@@ -31,7 +34,7 @@ MatrixFormat matrix_format(const std::string &name);
  *
  * @param remark  of the scene the frame is from, for people.
  * @return the files written.
- * @throws std::runtime_error if one cannot be written.
+ * @throws coupling::WriteFailure if one cannot be written, as OwnFolder::claim() besides.
  */
 std::vector<std::string> export_frame(const std::string &folder, const coupling::ReducedFrame &frame,
                                       MatrixFormat format, const std::string &remark);

@@ -3,6 +3,7 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/exchange/state_space_files.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/session/exchange/state_space_answer.h"
@@ -53,10 +54,20 @@ void export_machine(Session &session, const FrfOptions &asked, const std::string
                     const std::filesystem::path &folder)
 {
   const auto model = state_space_of(session.scene(), session.machine(), asked);
-  const auto files = write_state_space(folder, model, format);
+  OwnFolder  own(folder);
+  const auto files = write_state_space(own, model, format);
   std::cout << "state space: " << model.states.size() << " states, " << model.inputs.size() << " inputs, "
             << model.outputs.size() << " outputs: " << (folder / files.front()).string()
             << (files.size() > 1 ? " ..." : "") << '\n';
+}
+
+/// Of measured curves, FILE or NAME=FILE.
+std::vector<std::string> files_of(const std::vector<std::string> &measured)
+{
+  std::vector<std::string> files;
+  for (const std::string &text : measured)
+    files.insert(files.end(), {text, text.substr(text.find('=') + 1)});
+  return files;
 }
 
 int find_response(const CommonOptions &options, const FrfOptions &asked, const std::string &format)
@@ -66,14 +77,16 @@ int find_response(const CommonOptions &options, const FrfOptions &asked, const s
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const HeldFolder            held(folder);
-  const Result                result = session.frequency_response(asked);
+  const auto                  inputs = inputs_of(options, files_of(asked.measured));
+  require_room(folder, format.empty() ? std::vector<std::string>() : state_space_files(format), inputs);
+  const Result result = session.frequency_response(asked);
   progress.done();
-  const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
+  const bool beside_a_run = OwnFolder(folder).owns("history.csv");
   if (beside_a_run)
     write_modes(folder, result);
   else
   {
-    prepare_folder(folder);
+    prepare_folder(folder, inputs);
     write_results(folder, result);
   }
   if (answers_in_json())

@@ -4,9 +4,9 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/faces/faces_page.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/paraview/face_surface.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/write_file.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/scene/read/read_material.h"
@@ -177,9 +177,9 @@ void print_selectors(const coupling::MeshReport &report)
 /// faces.html and faces.vtp.
 void write_faces(const std::filesystem::path &folder, const coupling::MeshReport &report, const std::string &file)
 {
-  std::filesystem::create_directories(folder);
-  write_file(folder / "faces.html", faces_page(report, file, version));
-  const std::string warning = write_face_surface(folder / "faces.vtp", report);
+  OwnFolder own(folder);
+  own.write("faces.html", faces_page(report, file, version));
+  const std::string warning = write_face_surface(own.claim("faces.vtp"), report);
   if (!warning.empty())
     std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << "faces to see and to click: " << (folder / "faces.html").string()
@@ -194,6 +194,9 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
   std::optional<HeldFolder> held;
   if (!mesh.folder.empty())
     held.emplace(mesh.folder);
+  {
+    OwnFolder(mesh.folder).require_free({"faces.html", "faces.vtp"}, {options.input});
+  }
   ProgressLine progress(options.quiet);
   const auto   report = coupling::frame_service().mesh(frame, [&](const std::string &phase, double share)
                                                        { progress.show(phase, share); });

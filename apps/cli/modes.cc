@@ -3,6 +3,7 @@
 #include "apps/cli/modes_converge.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/comparison_table.h"
@@ -163,6 +164,8 @@ int find_modes(const CommonOptions &options, const Asked &asked)
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const HeldFolder            held(folder);
+  const auto                  inputs = inputs_of(options, {asked.compare});
+  require_room(folder, {asked.mesh.converge > 0. ? "mesh_convergence.csv" : ""}, inputs);
 
   std::optional<coupling::MeshConvergence> convergence;
   if (asked.mesh.converge > 0.)
@@ -177,14 +180,14 @@ int find_modes(const CommonOptions &options, const Asked &asked)
     for (const std::string &warning : convergence_warnings(*convergence, asked.mesh.converge))
       result.warnings.push_back(warning);
   progress.done();
-  const bool beside_a_run = std::filesystem::exists(folder / "history.csv");
+  const bool beside_a_run = OwnFolder(folder).owns("history.csv");
   if (beside_a_run && incomplete(folder))
     result.warnings.push_back(incomplete_words(folder));
   if (beside_a_run)
     write_modes(folder, result);
   else
   {
-    prepare_folder(folder);
+    prepare_folder(folder, inputs);
     write_results(folder, result);
   }
 

@@ -1,6 +1,6 @@
 #include "apps/cli/modes_converge.h"
 
-#include "apps/output/text/write_file.h"
+#include "apps/output/folder/own_folder.h"
 #include "coupling/plugin/mesh_service.h"
 #include "fem/values/number_text.h"
 
@@ -73,11 +73,7 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptio
   options.n_frequencies   = asked.frequencies;
   options.max_coordinates = asked.max_coordinates;
   options.compliances     = asked.watch == "all";
-  options.after_mesh      = [&folder](const coupling::MeshConvergence &so_far)
-  {
-    std::filesystem::create_directories(folder);
-    write_convergence(folder, so_far);
-  };
+  options.after_mesh      = [&folder](const coupling::MeshConvergence &so_far) { write_convergence(folder, so_far); };
   return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options, progress);
 }
 
@@ -146,7 +142,7 @@ void write_convergence(const std::filesystem::path &folder, const coupling::Mesh
   add_row(table, "uncertainty", convergence, [](const auto &quantity) { return quantity.uncertainty; });
   add_row(table, "error", convergence, [](const auto &quantity) { return quantity.error; });
   add_row(table, "order", convergence, [](const auto &quantity) { return quantity.order; });
-  write_file(folder / "mesh_convergence.csv", table);
+  OwnFolder(folder).write("mesh_convergence.csv", table);
 }
 
 } // namespace gestell::apps

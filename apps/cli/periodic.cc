@@ -94,9 +94,11 @@ int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const HeldFolder            held(folder);
-  const Result                result = session.periodic(request);
+  const auto                  inputs = inputs_of(options);
+  require_room(folder, {}, inputs);
+  const Result result = session.periodic(request);
   progress.done();
-  prepare_folder(folder);
+  prepare_folder(folder, inputs);
   write_results(folder, result);
   if (answers_in_json())
     answer_with(summary_json(result));

@@ -5,6 +5,7 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
 #include "apps/session/session.h"
@@ -25,6 +26,8 @@ namespace gestell::apps
 
 namespace
 {
+
+const char *const frame_name = "reduced_frame.h5";
 
 Session scene_to_reduce(const CommonOptions &options, const Watch &watch = {})
 {
@@ -151,14 +154,18 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
   std::optional<HeldFolder> held;
   if (!folder.empty())
     held.emplace(folder);
+  {
+    std::vector<std::string> names = exports ? exported_names(format) : std::vector<std::string>();
+    names.push_back(frame_name);
+    OwnFolder(folder).require_free(names, inputs_of(options));
+  }
   const FrameAnswer             answer = session.reduced_frame();
   const coupling::ReducedFrame &frame  = answer.frame;
   progress.done();
 
   if (!folder.empty())
   {
-    const std::filesystem::path file = std::filesystem::path(folder) / "reduced_frame.h5";
-    std::filesystem::create_directories(folder);
+    const std::filesystem::path file = OwnFolder(folder).claim(frame_name);
     coupling::write_reduced_frame(file.string(), frame);
     std::cout << "written: " << file.string() << " (for [frame] reduced = ...)\n";
   }

@@ -3,6 +3,7 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/comparison_table.h"
@@ -71,11 +72,29 @@ void add_budget(const Scene &scene, const std::vector<OutputName> &outputs, Resu
   }
 }
 
+/// A checkpoint that the run goes on from is ours wherever it came from: it was read as that of this run.
+void claim_checkpoint(const std::filesystem::path &folder, bool resumed)
+{
+  OwnFolder own(folder);
+  if (resumed)
+    own.adopt(checkpoint_name);
+  else
+    own.claim(checkpoint_name);
+}
+
+void remove_checkpoint(const std::filesystem::path &folder, bool resumed)
+{
+  if (resumed)
+    claim_checkpoint(folder, resumed);
+  OwnFolder(folder).remove(checkpoint_name);
+}
+
 /// Derivatives follow the whole motion, which is not kept.
-void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &file, Session &session)
+void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &folder, Session &session)
 {
   if (asked.sensitivities.empty())
-    session.keep_checkpoints({file, asked.checkpoint, asked.resume});
+    session.keep_checkpoints({folder / checkpoint_name, asked.checkpoint, asked.resume,
+                              [folder, resumed = asked.resume] { claim_checkpoint(folder, resumed); }});
   else if (asked.resume)
     throw std::invalid_argument("--resume: a run with --sensitivities cannot go on from a checkpoint, as derivatives "
                                 "follow its whole motion; leave out one of the two");
@@ -92,23 +111,25 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
     outputs = budget_outputs(session.scene(), asked.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   const HeldFolder            held(folder);
-  std::optional<Session>      other;
+  const auto                  inputs = inputs_of(options, {asked.compare});
+  require_room(folder, {asked.resume ? "" : checkpoint_name}, inputs);
+  std::optional<Session> other;
   if (!asked.compare.empty())
     require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));
   session.keep_swings();
-  keep_checkpoints(asked, folder / checkpoint_name, session);
+  keep_checkpoints(asked, folder, session);
   Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
   add_story(session, result);
   if (other && !result.run->interrupted)
     add_compared_run(session, result, *other);
   if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
     add_budget(session.scene(), outputs, result);
-  prepare_folder(folder);
+  prepare_folder(folder, inputs);
   progress.done();
   write_results(folder, result);
   if (!result.run->interrupted)
-    std::filesystem::remove(folder / checkpoint_name);
+    remove_checkpoint(folder, asked.resume);
 
   if (answers_in_json())
     answer_with(summary_json(result));
@@ -145,7 +166,7 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
   }
   if (asked.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
-  if (result.run->interrupted && asked.sensitivities.empty())
+  if (result.run->interrupted && asked.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
     std::cerr << "gestell: interrupted; gestell run " << options.input << " --resume -o " << folder.string()
               << " goes on from there\n";
   const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);

@@ -3,10 +3,10 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/size_table.h"
-#include "apps/output/text/write_file.h"
 #include "apps/session/session.h"
 #include "apps/sizing/size_search.h"
 #include "apps/sizing/sized_scene.h"
@@ -30,13 +30,16 @@ struct SizeCommand
   bool        exhaustive = false;
 };
 
+const char *const sized_name = "sized.toml";
+const char *const all_name   = "size_all.csv";
+
 /// Whether the scene takes the model's keys beside its own.
 bool readable(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
               const std::filesystem::path &folder)
 {
   prepare_folder(folder);
-  const std::filesystem::path file = folder / "sized.toml";
-  write_file(file, sized_scene(scene, overrides, model, folder));
+  const std::filesystem::path file = folder / sized_name;
+  OwnFolder(folder).write(sized_name, sized_scene(scene, overrides, model, folder));
   try
   {
     read_scene(file.string(), {});
@@ -77,13 +80,14 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   const auto                  outputs = budget_outputs(scene, asked.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
   const HeldFolder            held(folder);
-  const SizedModel            model =
+  require_room(folder, {sized_name, all_name}, inputs_of(options));
+  const SizedModel model =
       climbed(scene, outputs, asked,
               [&](const ModelVariant &other) { return readable(scene, options.overrides, other, folder); });
 
   prepare_folder(folder);
-  const std::filesystem::path file = folder / "sized.toml";
-  write_file(file, sized_scene(scene, options.overrides, model.chosen, folder));
+  const std::filesystem::path file = folder / sized_name;
+  OwnFolder(folder).write(sized_name, sized_scene(scene, options.overrides, model.chosen, folder));
   Session sized(file.string(), {}, options.scripts, {{}, &interruption()});
   Result  result       = sized.run();
   result.command       = "size";
@@ -101,8 +105,8 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
         model.result.finer);
   write_results(folder, result);
   if (!model.result.all.empty())
-    write_file(folder / "size_all.csv", size_all_csv(model.result));
-  write_file(file, sized_scene(scene, options.overrides, model.chosen, folder));
+    OwnFolder(folder).write(all_name, size_all_csv(model.result));
+  OwnFolder(folder).write(sized_name, sized_scene(scene, options.overrides, model.chosen, folder));
 
   if (answers_in_json())
     answer_with(summary_json(result));

@@ -5,9 +5,9 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/writing.h"
 #include "apps/output/report/stability_report.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/write_file.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/version.h"
 #include "fem/values/number_text.h"
@@ -56,6 +56,9 @@ std::string ratio_name(double zeta)
   return text.back() == '.' ? text.substr(0, text.size() - 1) : text;
 }
 
+const std::vector<std::string> stability_files = {"stability_maps.csv", "unstable_intervals.csv", "stability_modes.csv",
+                                                  "stability.html", "charts/"};
+
 int map_stability(const CommonOptions &options, const StabilityCommandOptions &stability)
 {
   if (!stability.atlas.empty())
@@ -73,6 +76,8 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
       with_scene ? results_path(options, *scene)
                  : std::filesystem::path(options.folder.empty() ? "results/stability" : options.folder);
   const HeldFolder held(folder);
+  OwnFolder(folder).require_free(stability_files,
+                                 with_scene ? inputs_of(options) : std::vector<std::filesystem::path>());
 
   const std::vector<MethodFamily> families = method_families();
   StabilityStudy                  study;
@@ -87,15 +92,18 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
   for (const double zeta : study.zetas)
     study.charts.emplace_back(zeta, stability_charts(families, maps, zeta, study.modes));
 
-  std::filesystem::create_directories(folder / "charts");
-  write_file(folder / "stability_maps.csv", maps_csv(maps));
-  write_file(folder / "unstable_intervals.csv", intervals_csv(study.intervals));
-  if (with_scene)
-    write_file(folder / "stability_modes.csv", modes_csv(study.modes));
-  for (const auto &[zeta, charts] : study.charts)
-    for (const NamedSvg &chart : charts)
-      write_file(folder / "charts" / ("stability-" + chart.name + "-" + ratio_name(zeta) + ".svg"), chart.svg);
-  write_file(folder / "stability.html", stability_page(study));
+  write_or_rescue(folder,
+                  [&](Writing &writing)
+                  {
+                    writing.write("stability_maps.csv", maps_csv(maps));
+                    writing.write("unstable_intervals.csv", intervals_csv(study.intervals));
+                    if (with_scene)
+                      writing.write("stability_modes.csv", modes_csv(study.modes));
+                    for (const auto &[zeta, charts] : study.charts)
+                      for (const NamedSvg &chart : charts)
+                        writing.write("charts/stability-" + chart.name + "-" + ratio_name(zeta) + ".svg", chart.svg);
+                    writing.write("stability.html", stability_page(study));
+                  });
 
   if (answers_in_json())
     answer_with(stability_answer(study));

@@ -3,7 +3,9 @@
 #include "apps/cli/interruption.h"
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
 #include "apps/cli/team.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
 #include "apps/study/results/findings_text.h"
 #include "apps/study/results/study_analysis.h"
@@ -55,6 +57,13 @@ void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCa
     std::cerr << "gestell: warning: " << answer.n_failed() - most_told << " further runs failed; see runs.csv\n";
 }
 
+std::vector<std::filesystem::path> study_inputs(const CommonOptions &options, const StudyFile &study)
+{
+  std::vector<std::filesystem::path> inputs = input_files(study.scene, {});
+  inputs.emplace_back(options.input);
+  return inputs;
+}
+
 /// Ranks of mpirun make a share each; the first merges them.
 void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
 {
@@ -83,6 +92,7 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   const bool speaks = team_left().rank == 0;
   share_among_ranks(team_left(), call);
   require_writable(call.folder);
+  OwnFolder(call.folder).require_free(study_names(), study_inputs(options, study));
   const StudyLock lock(call.folder, call.share);
   if (!lock.note().empty() && speaks)
     std::cerr << "gestell: warning: " << lock.note() << '\n';

@@ -1,6 +1,7 @@
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/writing.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"
 #include "apps/session/commit.h"
@@ -163,18 +164,22 @@ int verify(const VerifyOptions &asked)
     list(files);
     return exit_done;
   }
-  const fs::path   folder = asked.folder;
   const HeldFolder held(folder);
+  const fs::path   folder = asked.folder;
+  OwnFolder(folder).require_free({"verification.html", "verification.md", "verification.csv"});
   if (!asked.docs.empty() && !fs::is_directory(asked.docs))
     throw std::invalid_argument("--renew: there is no folder '" + asked.docs +
                                 "'; it takes the folder of the documents, docs");
   const int    n_skipped = leave_long_ones(files, asked);
   Verification all       = computed(files);
   all.n_skipped          = n_skipped;
-  fs::create_directories(folder);
-  write_file(folder / "verification.html", verification_page(all));
-  write_file(folder / "verification.md", verification_document(all));
-  write_file(folder / "verification.csv", verification_csv(all));
+  write_or_rescue(folder,
+                  [&](Writing &writing)
+                  {
+                    writing.write("verification.csv", verification_csv(all));
+                    writing.write("verification.md", verification_document(all));
+                    writing.write("verification.html", verification_page(all));
+                  });
   if (!asked.docs.empty())
     write_file(fs::path(asked.docs) / "verification.md", verification_document(all));
   std::cout << verdict_text(all) << "\nmanual: " << (folder / "verification.html").string() << '\n';

@@ -5,6 +5,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
+#include "apps/session/checkpoint/input_files.h"
 #include "apps/session/session.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -91,7 +92,8 @@ void Run::save(const std::string &folder) const
 {
   apps::require_writable(folder);
   const apps::FolderLock held(folder);
-  apps::prepare_folder(folder);
+  const apps::Request   &asked = parts_->result.asked;
+  apps::prepare_folder(folder, apps::input_files(asked.file, asked.set));
   apps::write_results(folder, parts_->result);
 }
 

@@ -1,5 +1,6 @@
 #include "apps/output/result_files.h"
 
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/energy_table.h"
@@ -11,6 +12,8 @@
 #include "apps/output/tables/section_table.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
+
+#include <algorithm>
 
 namespace gestell::apps
 {
@@ -114,16 +117,6 @@ std::string models(const Result &result)
 
 } // namespace
 
-bool ResultFile::has_name(const std::string &file) const
-{
-  const auto star = name.find('*');
-  if (star == std::string::npos)
-    return file == name;
-  const std::string begin = name.substr(0, star), end = name.substr(star + 1);
-  return file.size() > begin.size() + end.size() && file.compare(0, begin.size(), begin) == 0 &&
-         file.compare(file.size() - end.size(), end.size(), end) == 0;
-}
-
 const std::vector<ResultFile> &result_files()
 {
   static const std::vector<ResultFile> files = {
@@ -143,15 +136,18 @@ const std::vector<ResultFile> &result_files()
       {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
       {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
       {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
-      {"state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"},
-      {"state_space_*.mtx", "the same, with `frf --export matrix-market`"},
-      {"state_space.csv", "names of its states, inputs and outputs"},
+      {"state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`", nullptr, "", "",
+       nullptr, WrittenBy::its_command},
+      {"state_space_*.mtx", "the same, with `frf --export matrix-market`", nullptr, "", "", nullptr,
+       WrittenBy::its_command},
+      {"state_space.csv", "names of its states, inputs and outputs", nullptr, "", "", nullptr, WrittenBy::its_command},
       {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
       {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
        sensitivities},
       {"size.csv", "models that `size` tried, with their cost and errors", models},
-      {"sized.toml", "the one that it chose, as a scene"},
-      {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`"},
+      {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
+      {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,
+       WrittenBy::its_command},
       {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
       {"coupled_modes.pvd", "mode shapes of frame and mechanism together in ParaView", nullptr, "coupled_modes",
        ".vtp"},
@@ -165,6 +161,28 @@ const std::vector<ResultFile> &result_files()
        "charts", ".svg"},
       {"summary.json", "to compare and to process: peaks, events, frequencies, work, energy, warnings"}};
   return files;
+}
+
+std::vector<std::string> result_names()
+{
+  std::vector<std::string> names;
+  for (const ResultFile &file : result_files())
+    if (file.by == WrittenBy::write_results)
+    {
+      names.push_back(file.name);
+      if (!file.folder.empty())
+        names.push_back(file.folder + '/');
+    }
+  return names;
+}
+
+bool is_result(const std::string &name)
+{
+  return std::any_of(result_files().begin(), result_files().end(),
+                     [&](const ResultFile &file) {
+                       return has_form(name, file.name) ||
+                              (!file.folder.empty() && has_form(name, file.folder + "/*" + file.ending));
+                     });
 }
 
 std::string result_files_table()

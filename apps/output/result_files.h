@@ -9,6 +9,13 @@
 namespace gestell::apps
 {
 
+/// Who writes a file of results.
+enum class WrittenBy
+{
+  write_results,
+  its_command ///< beside the others: `frf --export`, `size`, `modes --converge`
+};
+
 /// A file of results at the top of their folder.
 struct ResultFile
 {
@@ -19,12 +26,17 @@ struct ResultFile
   std::string folder{}, ending{}; ///< that hold what the file names, "motion" and ".vtp"
   /// Of a name with a star, "orbit_*.csv": names and contents of all such files.
   std::vector<std::pair<std::string, std::string>> (*several)(const Result &result) = nullptr;
-
-  bool has_name(const std::string &file) const; ///< the name is that, or of that form
+  WrittenBy by                                                                      = WrittenBy::write_results;
 };
 
 /// All of them, in the order of writing; what prepare_folder() removes, and the list of docs/results.md.
 const std::vector<ResultFile> &result_files();
+
+/// Names that write_results() may write, for OwnFolder::require_free(); of folders "motion/".
+std::vector<std::string> result_names();
+
+/// Whether a name, relative to the folder, is one of the list: of a result, or in a folder of results.
+bool is_result(const std::string &name);
 
 /// The rows of that list.
 std::string result_files_table();

@@ -1,5 +1,6 @@
 #include "apps/output/result_folder.h"
 
+#include "apps/output/folder/writing.h"
 #include "apps/output/paraview/paraview.h"
 #include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frequency_response_report.h"
@@ -7,13 +8,9 @@
 #include "apps/output/report/report.h"
 #include "apps/output/result_files.h"
 #include "apps/output/tables/result_tables.h"
-#include "apps/output/text/write_file.h"
-#include "coupling/frame/whole_file.h"
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
 
 namespace gestell::apps
@@ -28,50 +25,30 @@ namespace
                               "; name a folder that can be written with -o DIR.");
 }
 
+/// Not a file in the place of a folder.
+void require_folder(const fs::path &folder)
+{
+  std::error_code error;
+  if (folder.empty())
+    refuse(folder, "the name is empty");
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    refuse(folder, "this is a file, not a folder");
+}
+
+[[noreturn]] void refuse_unwritable(const fs::path &folder, const std::error_code &failure)
+{
+  std::error_code none;
+  refuse(folder, std::string("it cannot be ") + (fs::exists(folder, none) ? "written (" : "created (") +
+                     failure.message() + ")");
+}
+
 constexpr int     most_tries = 1000;           ///< while others make and remove the place
 const char *const complete   = "summary.json"; ///< the first to be removed and the last to be written
 
-template <typename Chosen>
-void remove_files(const fs::path &folder, const Chosen &chosen)
+bool is_full(const std::error_code &error)
 {
-  std::vector<fs::path> old;
-  for (const fs::directory_entry &entry : fs::directory_iterator(folder))
-    if (chosen(entry.path()) || coupling::abandoned(entry.path().string()))
-      old.push_back(entry.path());
-  for (const fs::path &path : old)
-    fs::remove(path);
-}
-
-void remove_earlier_results(const fs::path &folder)
-{
-  fs::remove(folder / complete);
-  for (const ResultFile &file : result_files())
-    fs::remove(folder / file.name);
-  remove_files(folder,
-               [](const fs::path &path)
-               {
-                 return std::any_of(result_files().begin(), result_files().end(),
-                                    [&](const ResultFile &file) { return file.has_name(path.filename().string()); });
-               });
-  for (const ResultFile &file : result_files())
-    if (const fs::path inner = folder / file.folder; !file.folder.empty() && fs::is_directory(inner))
-    {
-      remove_files(inner, [&](const fs::path &path) { return path.extension() == file.ending; });
-      if (fs::is_empty(inner))
-        fs::remove(inner);
-    }
-}
-
-/// Writes and removes a file in the folder; why that failed, or nothing.
-std::string probe(const fs::path &folder)
-{
-  const fs::path path     = folder / ".gestell-probe";
-  errno                   = 0;
-  const bool      written = static_cast<bool>(std::ofstream(path) << "probe" << std::flush);
-  const int       reason  = errno;
-  std::error_code error;
-  fs::remove(path, error);
-  return written ? "" : std::strerror(reason);
+  return error == std::errc::no_space_on_device || error == std::errc::io_error ||
+         error == std::error_code(EDQUOT, std::generic_category());
 }
 
 /// Files that one function each makes, where the result has something for them.
@@ -86,6 +63,25 @@ void write_tables(const Write &write, const Result &result)
       for (const auto &[name, content] : file.several(result))
         write(name, content);
   }
+}
+
+void write_all(const Result &result, Writing &writing)
+{
+  constexpr std::size_t for_warnings = 8192;
+  Result                told         = result;
+  if (const std::string warning = lacks_for_paraview(); !warning.empty())
+    told.warnings.push_back(warning);
+  writing.keep_room(complete, summary_json(told).size() + for_warnings);
+  write_tables([&](const std::string &name, const std::string &content) { writing.write(name, content); }, result);
+  const Report report = make_report(told);
+  writing.write("report.html", report.html);
+  for (const auto &[name, svg] : report.charts)
+    writing.write("charts/" + name + ".svg", svg);
+  for (const auto &series : paraview_series())
+    writing.together([&](OwnFolder &folder, std::vector<std::string> &names) { series(folder, result, names); });
+  told.warnings.insert(told.warnings.end(), writing.failures().begin(), writing.failures().end());
+  writing.give_room_back();
+  writing.write(complete, summary_json(told));
 }
 
 } // namespace
@@ -106,39 +102,40 @@ std::string incomplete_words(const fs::path &folder)
 
 void require_writable(const fs::path &folder)
 {
-  if (folder.empty())
-    refuse(folder, "the name is empty");
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    refuse(folder, "this is a file, not a folder");
-
+  require_folder(folder);
   // What is missing is made when there is something to put into it: others may be at the same place, and take away what
   // they made there.
-  std::string failure;
+  std::error_code failure;
   for (int tries = 0; tries < most_tries; ++tries)
-  {
-    fs::path there = fs::absolute(folder).lexically_normal();
-    while (!fs::exists(there, error) && there.has_relative_path())
-      there = there.parent_path();
-    failure = fs::is_directory(there, error) ? probe(there) : "Not a directory";
-    if (failure.empty() || fs::exists(there, error))
+    if (failure = probe(folder); failure != std::errc::no_such_file_or_directory)
       break;
-  }
-  if (!failure.empty())
-    refuse(folder,
-           std::string("it cannot be ") + (fs::exists(folder, error) ? "written (" : "created (") + failure + ")");
+  if (failure)
+    refuse_unwritable(folder, failure);
 }
 
-void prepare_folder(const fs::path &folder)
+void require_room(const fs::path &folder, const std::vector<std::string> &more, const std::vector<fs::path> &inputs)
 {
   require_writable(folder);
+  std::vector<std::string> names = result_names();
+  names.insert(names.end(), more.begin(), more.end());
+  OwnFolder(folder).require_free(names, inputs);
+}
+
+void prepare_folder(const fs::path &folder, const std::vector<fs::path> &inputs)
+{
+  require_folder(folder);
+  if (const std::error_code failure = probe(folder); failure && !is_full(failure))
+    refuse_unwritable(folder, failure);
+  OwnFolder own(folder);
+  own.require_free(result_names(), inputs);
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error)
+  if (error && !is_full(error))
     refuse(folder, "it cannot be created (" + error.message() + ")");
   try
   {
-    remove_earlier_results(folder);
+    own.remove(complete);
+    own.remove_all([&](const std::string &name) { return is_result(name) && !own.is_any_of(name, inputs); });
   }
   catch (const fs::filesystem_error &problem)
   {
@@ -148,35 +145,21 @@ void prepare_folder(const fs::path &folder)
 
 std::vector<std::string> write_results(const fs::path &folder, const Result &result)
 {
-  std::vector<std::string> names;
-  const auto               write = [&](const std::string &name, const std::string &content)
-  {
-    write_file(folder / name, content);
-    names.push_back(name);
-  };
-
-  write_tables(write, result);
-  Result told = result;
-  for (const std::string &warning : write_paraview(folder, result, names))
-    told.warnings.push_back(warning);
-  const Report report = make_report(told);
-  for (const auto &[name, svg] : report.charts)
-    write("charts/" + name + ".svg", svg);
-  write("report.html", report.html);
-  write(complete, summary_json(told));
-  return names;
+  return write_or_rescue(folder, [&](Writing &writing) { write_all(result, writing); });
 }
 
 void write_modes(const fs::path &folder, const Result &result)
 {
+  OwnFolder                own(folder);
   std::vector<std::string> names;
-  write_paraview(folder, result, names);
-  write_tables([&](const std::string &name, const std::string &content) { write_file(folder / name, content); },
+  write_tables([&](const std::string &name, const std::string &content) { own.write(name, content); },
                result); // without a run no history
+  for (const auto &series : paraview_series())
+    series(own, result, names);
   const auto write_pictures = [&](const Pictures &pictures)
   {
     for (const auto &[name, svg] : pictures)
-      write_file(folder / "charts" / (name + ".svg"), svg);
+      own.write("charts/" + name + ".svg", svg);
   };
   if (result.along)
     write_pictures(along_pictures(*result.along));

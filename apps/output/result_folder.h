@@ -9,30 +9,46 @@
 namespace gestell::apps
 {
 
-/// Makes sure, before anything is computed, that results could be written into `folder`; leaves everything as it was.
+/// Makes sure, before anything is computed, that files could be written into `folder`; leaves everything as it was.
 /// @throws std::invalid_argument with path, reason and remedy.
 void require_writable(const std::filesystem::path &folder);
 
 /**
- * Makes `folder` ready for results: as require_writable(), then creates it with its parents and removes what an
- * earlier run of ours left there (nothing else), so that no old result survives beside a new one.
+ * As require_writable(); and that no result takes the place of a file that is not ours, or that the command reads.
  *
- * @throws std::invalid_argument with path, reason and remedy.
+ * @param more    names that are written beside those of write_results(), see OwnFolder::require_free()
+ * @param inputs  files that the command reads
+ * @throws std::invalid_argument with the file in the way and the remedy
  */
-void prepare_folder(const std::filesystem::path &folder);
+void require_room(const std::filesystem::path &folder, const std::vector<std::string> &more = {},
+                  const std::vector<std::filesystem::path> &inputs = {});
 
 /**
- * Writes every file of docs/results.md that `result` has the values for: tables first, then the ParaView files, the
- * report, which tells what they could not show, and summary.json, whose presence says that the folder is complete.
+ * Makes `folder` ready for results: creates it with its parents and removes results of an earlier run that its list
+ * says are ours (OwnFolder), so that no old result survives beside a new one.  Inputs and the checkpoint stay.
+ *
+ * A full disk is no error here: what cannot be written is told by write_results().
+ *
+ * @throws std::invalid_argument with path, reason and remedy, as require_room().
+ */
+void prepare_folder(const std::filesystem::path &folder, const std::vector<std::filesystem::path> &inputs = {});
+
+/**
+ * Writes every file of docs/results.md that `result` has the values for: history and tables first, then the report and
+ * its charts, the ParaView files, and summary.json, whose place on the disk is taken first.
+ *
+ * What cannot be written is left out and told among the warnings of summary.json, a series of ParaView as a whole; all
+ * results then go into a new folder for temporary files, if they can.
  *
  * @return names of the files written, relative to the folder; summary.json last.
- * @throws std::runtime_error if a file cannot be written to its end (disk full).
+ * @throws coupling::WriteFailure if a file could not be written (disk full), when all others are: with the file, the
+ * reason, and where the results are.
  */
 std::vector<std::string> write_results(const std::filesystem::path &folder, const Result &result);
 
 /// Writes tables, charts and frame_modes.pvd of modes and frequency responses alone, into a folder whose other results
 /// stay.
-/// @throws std::runtime_error as write_results().
+/// @throws coupling::WriteFailure if a file cannot be written
 void write_modes(const std::filesystem::path &folder, const Result &result);
 
 /// Whether a run ended before all of its results were in `folder`: there are files of a run, but no summary.json.

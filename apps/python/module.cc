@@ -8,6 +8,7 @@
 #include "apps/python/errors.h"
 #include "apps/python/python_frame.h"
 #include "apps/python/python_result.h"
+#include "apps/session/checkpoint/input_files.h"
 #include "apps/version.h"
 
 #include <pybind11/complex.h>
@@ -97,10 +98,11 @@ Eigen::MatrixXd states_of(const PythonResult &result)
 
 std::vector<std::string> save(PythonResult &result, const py::object &folder)
 {
-  const std::string path = py::str(folder).cast<std::string>();
+  const std::string    path  = py::str(folder).cast<std::string>();
+  const apps::Request &asked = result.result().asked;
   apps::require_writable(path);
   const apps::FolderLock held(path);
-  apps::prepare_folder(path);
+  apps::prepare_folder(path, apps::input_files(asked.file, asked.set));
   return apps::write_results(path, result.whole_result());
 }
 

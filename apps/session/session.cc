@@ -418,12 +418,17 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
   now("integration", 0.);
   const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
   std::optional<coupling::RunCheckpoints> checkpoints;
+  std::vector<std::string>                not_kept;
   if (checkpoints_)
-    checkpoints = run_checkpoints(*checkpoints_, read_scene_file(path_, overrides_), machine_->machine, initial);
+    checkpoints =
+        run_checkpoints(*checkpoints_, read_scene_file(path_, overrides_), machine_->machine, initial, not_kept);
   try
   {
-    return coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
-                              checkpoints ? &*checkpoints : nullptr);
+    coupling::RunResult result =
+        coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
+                           checkpoints ? &*checkpoints : nullptr);
+    result.warnings.insert(result.warnings.end(), not_kept.begin(), not_kept.end());
+    return result;
   }
   catch (const std::invalid_argument &error)
   {

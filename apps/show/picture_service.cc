@@ -1,6 +1,8 @@
 // The door of the plugin.
+#include "apps/output/folder/own_folder.h"
 #include "apps/show/animated_png.h"
 #include "apps/show/renderer.h"
+#include "coupling/frame/whole_file.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -15,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <stdexcept>
 
@@ -76,16 +77,6 @@ std::string frequency_of(const Parts &parts)
   return "";
 }
 
-void write_png(vtkImageData *image, const fs::path &file)
-{
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->SetFileName(file.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != 0 || !fs::exists(file))
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
-}
-
 /// The bytes of the picture as PNG.
 std::string png_of(vtkImageData *image)
 {
@@ -98,20 +89,15 @@ std::string png_of(vtkImageData *image)
           static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
 
-void write_bytes(const std::string &bytes, const fs::path &file)
-{
-  if (!(std::ofstream(file, std::ios::binary) << bytes << std::flush))
-    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
-}
-
 /// Film of the images that are given to it, twice: for players of films and for browsers.
 class Film
 {
 public:
-  /// @param file  without ending
-  Film(const std::string &file, int rate) : file_(file), browser_(rate)
+  /// @param name  of its files, without ending
+  Film(OwnFolder &folder, const std::string &name, int rate)
+      : folder_(folder), name_(name), film_(folder.claim(name + ".ogv").string()), browser_(rate)
   {
-    writer_->SetFileName((file + ".ogv").c_str());
+    writer_->SetFileName(film_.place().c_str());
     writer_->SetRate(rate);
     writer_->SetQuality(2);
   }
@@ -122,19 +108,31 @@ public:
       writer_->Start();
     started_ = true;
     writer_->Write();
-    if (writer_->GetError())
-      throw std::runtime_error(file_ + ".ogv: cannot be written; is the disk full?");
+    require_written();
     browser_.add(png_of(image));
   }
   void end()
   {
     if (started_)
+    {
       writer_->End();
-    write_bytes(browser_.bytes(), file_ + ".apng");
+      require_written();
+      film_.finish();
+    }
+    folder_.write(name_ + ".apng", browser_.bytes());
   }
 
 private:
-  std::string                         file_;
+  /// The writer does not look at what the disk says: a probe beside the film does.
+  void require_written()
+  {
+    if (writer_->GetError() || probe(folder_.path()))
+      throw coupling::WriteFailure(film_.path(), std::make_error_code(std::errc::no_space_on_device));
+  }
+
+  OwnFolder                          &folder_;
+  std::string                         name_;
+  coupling::FileBeside                film_;
   vtkSmartPointer<vtkOggTheoraWriter> writer_ = vtkSmartPointer<vtkOggTheoraWriter>::New();
   AnimatedPng                         browser_;
   bool                                started_ = false;
@@ -144,7 +142,10 @@ private:
 class Drawing
 {
 public:
-  explicit Drawing(const PictureRequest &request) : request_(request), renderer_(request.width, request.height) {}
+  explicit Drawing(const PictureRequest &request)
+      : request_(request), folder_(request.folder), renderer_(request.width, request.height)
+  {
+  }
 
   std::vector<std::string> draw(const PictureSeries &series, double done)
   {
@@ -175,17 +176,15 @@ private:
                 frequency_of(parts));
   }
 
-  fs::path file(const std::string &name)
-  {
-    files_.push_back((request_.folder / name).string());
-    return files_.back();
-  }
+  void tell_file(const std::string &name) { files_.push_back((request_.folder / name).string()); }
 
-  Film film_of(const PictureSeries &series)
+  void write(const std::string &name, vtkImageData *image) { folder_.write(name, png_of(image)); }
+
+  std::unique_ptr<Film> film_of(const PictureSeries &series)
   {
-    file(series.name + ".ogv");
-    file(series.name + ".apng");
-    return Film((request_.folder / series.name).string(), request_.frames_per_second);
+    tell_file(series.name + ".ogv");
+    tell_file(series.name + ".apng");
+    return std::make_unique<Film>(folder_, series.name, request_.frames_per_second);
   }
 
   /// The largest swing as a picture, one cycle as a film that can be repeated.
@@ -194,25 +193,23 @@ private:
     const Parts       parts = read_parts(series.frames.front());
     const std::string words = caption(series, series.frames.front(), parts, times);
     tell(series, 0.);
-    write_png(renderer_.draw(parts, times, most, words, Renderer::Sizes::unknown), file(series.name + ".png"));
+    write(series.name + ".png", renderer_.draw(parts, times, most, words, Renderer::Sizes::unknown));
+    tell_file(series.name + ".png");
     if (!request_.films)
       return;
-    Film film = film_of(series);
+    const auto film = film_of(series);
     for (int k = 0; k < swing_frames; ++k)
-      film.add(
+      film->add(
           renderer_.draw(parts, times * std::sin(2. * M_PI * k / swing_frames), most, words, Renderer::Sizes::unknown));
-    film.end();
+    film->end();
   }
 
   void motion(const PictureSeries &series, double times, double most)
   {
-    const bool     one    = series.frames.size() == 1;
-    const fs::path folder = request_.folder / series.name;
-    if (!one && request_.films)
-      fs::create_directories(folder);
+    const bool            one = series.frames.size() == 1;
     std::unique_ptr<Film> film;
     if (!one && request_.films)
-      film = std::make_unique<Film>(film_of(series));
+      film = film_of(series);
     for (std::size_t k = 0; k < series.frames.size(); ++k)
     {
       if (!one && !request_.films) // its pictures are the frames of the film
@@ -224,14 +221,16 @@ private:
           renderer_.draw(parts, times, most, caption(series, frame, parts, times), Renderer::Sizes::told);
       char digits[32];
       std::snprintf(digits, sizeof digits, "%05zu", k);
-      write_png(image, one ? file(series.name + ".png") : folder / (series.name + "_" + digits + ".png"));
+      write(one ? series.name + ".png" : series.name + '/' + series.name + "_" + digits + ".png", image);
+      if (one)
+        tell_file(series.name + ".png");
       if (film)
         film->add(image);
     }
     if (film)
     {
       film->end();
-      files_.push_back((folder / "*.png").string());
+      tell_file(series.name + "/*.png");
     }
   }
 
@@ -242,6 +241,7 @@ private:
   }
 
   const PictureRequest    &request_;
+  OwnFolder                folder_;
   Renderer                 renderer_;
   std::vector<std::string> files_;
   double                   done_ = 0.;

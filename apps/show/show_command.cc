@@ -1,6 +1,7 @@
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
 #include "apps/show/result_collections.h"
 #include "apps/show/x_server.h"
@@ -38,6 +39,15 @@ DrawPictures *picture_service()
       coupling::function_of_plugin(coupling::load_plugin(file), "gestell_draw_pictures", show_library));
 }
 
+std::vector<std::string> names_of(const std::vector<PictureSeries> &all)
+{
+  std::vector<std::string> names;
+  for (const PictureSeries &series : all)
+    for (const char *const ending : {".png", ".ogv", ".apng", "/"})
+      names.push_back(series.name + ending);
+  return names;
+}
+
 int show(const ShowOptions &options)
 {
   if (options.width < 200 || options.width > 4000)
@@ -49,6 +59,7 @@ int show(const ShowOptions &options)
   request.folder = options.pictures.empty() ? std::filesystem::path(options.folder) / "pictures"
                                             : std::filesystem::path(options.pictures);
   const HeldFolder held(request.folder);
+  OwnFolder(request.folder).require_free(names_of(request.series));
   request.width       = options.width;
   request.height      = options.width * 4 / 5;
   request.enlargement = options.times;
@@ -56,9 +67,8 @@ int show(const ShowOptions &options)
   ProgressLine progress(options.quiet);
   request.progress = [&](const std::string &phase, double share) { progress.show(phase, share); };
 
-  const auto    draw = picture_service();
-  const XServer screen;
-  std::filesystem::create_directories(request.folder);
+  const auto                     draw = picture_service();
+  const XServer                  screen;
   const std::vector<std::string> files = draw(request);
   progress.done();
   for (const std::string &file : files)

@@ -1,3 +1,4 @@
+#include "apps/cli/chart/chart_files.h"
 #include "apps/cli/chart/chart_methods.h"
 #include "apps/cli/chart/chart_reductions.h"
 #include "apps/cli/chart/chart_reference.h"
@@ -7,10 +8,8 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/charts/work_precision.h"
-#include "apps/output/charts/work_precision_chart.h"
-#include "apps/output/report/work_precision_page.h"
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/write_file.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/session/prepared_machine.h"
@@ -332,22 +331,6 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
   return reference.values;
 }
 
-void write_chart(const std::filesystem::path &folder, const WorkPrecision &chart)
-{
-  prepare_folder(folder);
-  write_file(folder / "chart.csv", work_precision_csv(chart));
-  write_file(folder / "chart_settings.toml", work_precision_settings(chart));
-  for (std::size_t m = 0; m < chart.models.size(); ++m)
-  {
-    const std::string ending =
-        chart.models.size() == 1 ? ".svg" : "_m" + std::to_string(chart.models[m].modes) + ".svg";
-    write_file(folder / "charts" / ("work_precision" + ending), work_precision_svg(chart, int(m), WorkMeasure::cpu));
-    write_file(folder / "charts" / ("work_precision_counts" + ending),
-               work_precision_svg(chart, int(m), WorkMeasure::evaluations));
-  }
-  write_file(folder / "chart.html", work_precision_page(chart));
-}
-
 int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_options)
 {
   if (chart_options.reductions.asked)
@@ -368,6 +351,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   choose_methods(chart_options.methods, PeerChoice::with, 0);
   const std::filesystem::path folder = results_path(options, scene);
   const HeldFolder            held(folder);
+  OwnFolder(folder).require_free(chart_files(), inputs_of(options, {chart_options.reference}));
 
   ChartRequest request{options, chart_options, {}, {}};
   if (!chart_options.reference.empty())

@@ -3,8 +3,8 @@
 #include "apps/cli/interruption.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/charts/chart.h"
+#include "apps/output/folder/writing.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/text/write_file.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 #include "apps/sizing/reduction_comparison.h"
@@ -88,6 +88,20 @@ std::string svg_of(const ReductionComparison &comparison, const std::string &tit
   return curves.empty() ? "" : chart_svg(chart);
 }
 
+void write_comparison(const ReductionComparison &comparison, const std::string &scene, Writing &writing)
+{
+  const auto write = [&](const std::string &name, const std::string &svg)
+  {
+    if (!svg.empty())
+      writing.write("charts/" + name, svg);
+  };
+  writing.write("reductions.csv", csv_of(comparison));
+  write("reductions_cpu.svg", svg_of(comparison, "Reductions: " + scene, "CPU time of the run [s]",
+                                     [](const ReductionPoint &point) { return point.run_cpu; }));
+  write("reductions_coordinates.svg", svg_of(comparison, "Reductions: " + scene, "coordinates of the frame",
+                                             [](const ReductionPoint &point) { return double(point.coordinates); }));
+}
+
 } // namespace
 
 int chart_reductions(const CommonOptions &options, const ReductionChart &asked)
@@ -98,24 +112,16 @@ int chart_reductions(const CommonOptions &options, const ReductionChart &asked)
   const auto                  outputs = budget_outputs(scene, asked.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
   const HeldFolder            held(folder);
-  ComparisonOptions           how;
+  OwnFolder(folder).require_free({"reductions.csv", "charts/"}, inputs_of(options));
+  ComparisonOptions how;
   how.full     = asked.full;
   how.on_point = print_point;
   how.stop     = &interruption();
   how.modes    = asked.modes;
   std::cout << "  reduction         modes  coordinates  prepare [CPU s]  run [CPU s]  largest error, of which output\n";
   const ReductionComparison comparison = compare_reductions(scene, outputs, how);
-  prepare_folder(folder);
-  write_file(folder / "reductions.csv", csv_of(comparison));
-  const auto write = [&](const std::string &name, const std::string &svg)
-  {
-    if (!svg.empty())
-      write_file(folder / "charts" / name, svg);
-  };
-  write("reductions_cpu.svg", svg_of(comparison, "Reductions: " + scene.name, "CPU time of the run [s]",
-                                     [](const ReductionPoint &point) { return point.run_cpu; }));
-  write("reductions_coordinates.svg", svg_of(comparison, "Reductions: " + scene.name, "coordinates of the frame",
-                                             [](const ReductionPoint &point) { return double(point.coordinates); }));
+  OwnFolder(folder).remove_all([](const std::string &name) { return has_form(name, "charts/reductions_*"); });
+  write_or_rescue(folder, [&](Writing &writing) { write_comparison(comparison, scene.name, writing); });
   if (std::any_of(comparison.points.begin(), comparison.points.end(),
                   [](const auto &point) { return point.from_cache; }))
     std::cout << "  * read from the cache of frames; with GESTELL_CACHE on an empty folder each is made\n";

@@ -14,8 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-namespace fs = std::filesystem;
-
 using NamedMatrices = std::vector<std::pair<std::string, const Eigen::MatrixXd *>>;
 
 NamedMatrices matrices_of(const coupling::StateSpace &system)
@@ -31,17 +29,17 @@ std::vector<std::pair<std::string, const std::vector<std::string> *>> names_of(c
           {"coordinates", &model.coordinates}};
 }
 
-std::vector<std::string> write_matrix_market(const fs::path &folder, const StateSpaceModel &model)
+std::vector<std::string> write_matrix_market(OwnFolder &folder, const StateSpaceModel &model)
 {
   std::vector<std::string> files;
   for (const auto &[name, matrix] : matrices_of(model.system))
   {
     files.push_back("state_space_" + name + ".mtx");
-    coupling::write_matrix_market((folder / files.back()).string(), *matrix,
+    coupling::write_matrix_market(folder.claim(files.back()).string(), *matrix,
                                   model.scene + " linearised at " + model.at + ", x' = A x + B u, y = C x + D u");
   }
   files.push_back("state_space.csv");
-  coupling::WholeFile table((folder / files.back()).string());
+  coupling::WholeFile table(folder.claim(files.back()).string());
   table.stream() << "kind, number, name\n";
   for (const auto &[kind, names] : names_of(model))
     for (std::size_t i = 0; i < names->size(); ++i)
@@ -50,10 +48,10 @@ std::vector<std::string> write_matrix_market(const fs::path &folder, const State
   return files;
 }
 
-std::vector<std::string> write_mat(const fs::path &folder, const StateSpaceModel &model)
+std::vector<std::string> write_mat(OwnFolder &folder, const StateSpaceModel &model)
 {
   const std::string name = "state_space.mat";
-  MatFile           file(folder / name, "Gestell: " + model.scene + " linearised at " + model.at);
+  MatFile           file(folder.claim(name), "Gestell: " + model.scene + " linearised at " + model.at);
   for (const auto &[matrix_name, matrix] : matrices_of(model.system))
     file.add(matrix_name, *matrix);
   for (const auto &[kind, names] : names_of(model))
@@ -72,8 +70,13 @@ const std::vector<std::string> &exchange_formats()
   return formats;
 }
 
-std::vector<std::string> write_state_space(const fs::path &folder, const StateSpaceModel &model,
-                                           const std::string &format)
+std::vector<std::string> state_space_files(const std::string &format)
+{
+  return format == "mat" ? std::vector<std::string>{"state_space.mat"}
+                         : std::vector<std::string>{"state_space_*.mtx", "state_space.csv"};
+}
+
+std::vector<std::string> write_state_space(OwnFolder &folder, const StateSpaceModel &model, const std::string &format)
 {
   const auto &known = exchange_formats();
   if (std::find(known.begin(), known.end(), format) == known.end())

@@ -51,7 +51,7 @@ std::vector<ActingForce> forces_at(const Result &result, std::size_t k)
                                run.picture_forces[k]);
 }
 
-void write_force_files(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+void write_force_files(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   Collection collection;
   for (std::size_t k = 0; k < result.run->picture_states.size(); ++k)
@@ -60,12 +60,12 @@ void write_force_files(const fs::path &folder, const Result &result, std::vector
     if (forces.empty())
       return;
     const std::string file = numbered("forces/forces_", k);
-    write_forces(folder / file, forces);
     names.push_back(file);
+    write_forces(folder.claim(file), forces);
     collection.add(result.run->picture_times[k], 0, file);
   }
-  write_file(folder / "forces.pvd", collection.document());
   names.push_back("forces.pvd");
+  folder.write("forces.pvd", collection.document());
 }
 
 } // namespace gestell::apps

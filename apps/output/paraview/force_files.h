@@ -1,8 +1,8 @@
 #pragma once
 
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/values/result.h"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,6 +15,6 @@ std::vector<ActingForce> forces_at(const Result &result, std::size_t k);
 /// forces.pvd: a point where each element acts on each body, with "force [N]" and "torque [N m]" on that body, its
 /// "body" and "element", at the times of motion.pvd.
 /// @param names  gets those of the files
-void write_force_files(const std::filesystem::path &folder, const Result &result, std::vector<std::string> &names);
+void write_force_files(OwnFolder &folder, const Result &result, std::vector<std::string> &names);
 
 } // namespace gestell::apps

@@ -5,7 +5,6 @@
 #include "apps/output/paraview/view_macro.h"
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/pictures/skin_picture.h"
-#include "apps/output/text/write_file.h"
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -140,7 +139,7 @@ std::vector<Eigen::Vector3d> body_velocities(const Scenery &scenery, const Eigen
   return velocities;
 }
 
-void write_frame_modes(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   FrameSurface frame(result.scenery);
   if (frame.empty() || result.frame_modes.empty())
@@ -157,16 +156,16 @@ void write_frame_modes(const fs::path &folder, const Result &result, std::vector
       u *= shown_size * (frame.size() > 0. ? frame.size() : 1.) / largest;
     frame.note("frequency [Hz]", result.frame_modes[j].frequency_hz);
     const std::string file = numbered("frame_modes/mode_", j + 1);
-    frame.write(folder / file, u);
     names.push_back(file);
+    frame.write(folder.claim(file), u);
     collection.add(static_cast<double>(j + 1), 0, file);
   }
-  write_file(folder / "frame_modes.pvd", collection.document());
   names.push_back("frame_modes.pvd");
+  folder.write("frame_modes.pvd", collection.document());
 }
 
 /// Frame and mechanism together, as write_frame_modes() writes the frame.
-void write_coupled_modes(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
   if (result.coupled_modes.empty() || result.modes_at.size() == 0 ||
       (result.scenery.bodies.empty() && result.scenery.n_frame == 0))
@@ -183,7 +182,7 @@ void write_coupled_modes(const fs::path &folder, const Result &result, std::vect
     {
       names.push_back(numbered(std::string("coupled_modes/") + stem, j + 1));
       collection.add(static_cast<double>(j + 1), part++, names.back());
-      return folder / names.back();
+      return folder.claim(names.back());
     };
     frame.note("frequency [Hz]", mode.frequency_hz);
     if (!frame.empty())
@@ -194,8 +193,8 @@ void write_coupled_modes(const fs::path &folder, const Result &result, std::vect
     if (!state.shapes.empty())
       write_mechanism(file("mechanism_"), state.shapes);
   }
-  write_file(folder / "coupled_modes.pvd", collection.document());
   names.push_back("coupled_modes.pvd");
+  folder.write("coupled_modes.pvd", collection.document());
 }
 
 /// For the main peak, or the begin of a motion without one.
@@ -221,8 +220,10 @@ ViewMacro macro_of(const Result &result)
   return view;
 }
 
-void write_motion(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+void write_motion(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
+  if (!result.run || result.run->picture_states.empty())
+    return;
   const coupling::RunResult &run = *result.run;
   FrameSurface               frame(result.scenery);
 
@@ -235,7 +236,7 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
     {
       names.push_back(numbered(std::string("motion/") + stem, k));
       collection.add(run.picture_times[k], part++, names.back());
-      return folder / names.back();
+      return folder.claim(names.back());
     };
     const bool            moves = k < run.picture_velocities.size();
     const Eigen::VectorXd v     = moves ? run.picture_velocities[k] : Eigen::VectorXd();
@@ -246,16 +247,19 @@ void write_motion(const fs::path &folder, const Result &result, std::vector<std:
       write_mechanism(file("mechanism_"), shapes,
                       moves ? body_velocities(result.scenery, q, v) : std::vector<Eigen::Vector3d>());
   }
-  write_file(folder / "motion.pvd", collection.document());
   names.push_back("motion.pvd");
+  folder.write("motion.pvd", collection.document());
   write_force_files(folder, result, names);
-  write_file(folder / "view.py", view_macro(macro_of(result)));
   names.push_back("view.py");
+  folder.write("view.py", view_macro(macro_of(result)));
 }
 
-void write_stress(const fs::path &folder, const StressResult &stress, std::vector<std::string> &names)
+void write_stress(OwnFolder &folder, const Result &result, std::vector<std::string> &names)
 {
-  Collection collection;
+  if (!result.stress || result.stress->instants.empty())
+    return;
+  const StressResult &stress = *result.stress;
+  Collection          collection;
   for (std::size_t k = 0; k < stress.instants.size(); ++k)
   {
     const StressAt  &at = stress.instants[k];
@@ -276,25 +280,25 @@ void write_stress(const fs::path &folder, const StressResult &stress, std::vecto
     surface.add_field("first principal direction", first);
     surface.add_field("stress xx yy zz xy yz xz [Pa]", at.field.components);
     const std::string file = numbered("stress/stress_", k + 1);
-    surface.write(folder / file);
     names.push_back(file);
+    surface.write(folder.claim(file));
     collection.add(at.t, 0, file);
   }
-  write_file(folder / "stress.pvd", collection.document());
   names.push_back("stress.pvd");
+  folder.write("stress.pvd", collection.document());
 }
 
 } // namespace
 
-std::vector<std::string> write_paraview(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+std::string lacks_for_paraview()
 {
-  write_frame_modes(folder, result, names);
-  write_coupled_modes(folder, result, names);
-  if (result.run && !result.run->picture_states.empty())
-    write_motion(folder, result, names);
-  if (result.stress && !result.stress->instants.empty())
-    write_stress(folder, *result.stress, names);
-  return {};
+  return "";
+}
+
+const std::vector<WriteSeries *> &paraview_series()
+{
+  static const std::vector<WriteSeries *> series = {write_frame_modes, write_coupled_modes, write_motion, write_stress};
+  return series;
 }
 
 } // namespace gestell::apps

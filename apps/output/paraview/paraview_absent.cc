@@ -5,11 +5,16 @@
 namespace gestell::apps
 {
 
-std::vector<std::string> write_paraview(const std::filesystem::path &, const Result &, std::vector<std::string> &)
+std::string lacks_for_paraview()
 {
-  return {"This build has no VTK: motion.pvd, frame_modes.pvd and stress.pvd were left out. Install libvtk9-dev and "
-          "configure again "
-          "to have them."};
+  return "This build has no VTK: motion.pvd, frame_modes.pvd and stress.pvd were left out. Install libvtk9-dev and "
+         "configure again to have them.";
+}
+
+const std::vector<WriteSeries *> &paraview_series()
+{
+  static const std::vector<WriteSeries *> none;
+  return none;
 }
 
 std::string write_face_surface(const std::filesystem::path &, const coupling::MeshReport &)

@@ -4,6 +4,9 @@
 #include "coupling/simulation/resumable_run.h"
 
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -14,11 +17,14 @@ struct CheckpointRequest
   std::filesystem::path file;
   double                every  = 30.;   ///< [s] of wall time; 0: at an interruption alone
   bool                  resume = false; ///< from the state that stands there
+  std::function<void()> claim{};        ///< the place of the file, before it is written
 };
 
-/// The same for simulate(); `machine` must outlive it.
+/// The same for simulate(); `machine` and `warnings` must outlive it.
+/// @param warnings  gets, once, why states could not be kept: a full disk ends no run
 /// @throws std::invalid_argument as read_checkpoint()
 coupling::RunCheckpoints run_checkpoints(const CheckpointRequest &request, const SceneNode &scene,
-                                         const coupling::Machine &machine, const coupling::InitialState &start);
+                                         const coupling::Machine &machine, const coupling::InitialState &start,
+                                         std::vector<std::string> &warnings);
 
 } // namespace gestell::apps

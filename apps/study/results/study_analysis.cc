@@ -1,5 +1,6 @@
 #include "apps/study/results/study_analysis.h"
 
+#include "apps/output/folder/own_folder.h"
 #include "apps/study/optimum/side_by_side.h"
 #include "apps/version.h"
 #include "fem/values/number_text.h"
@@ -112,7 +113,9 @@ void StudyAnalysis::keep_row(const RunRow &row, const Eigen::VectorXd &levels)
   const std::lock_guard<std::mutex> alone(mutex_);
   if (!rows_)
   {
-    std::filesystem::remove(file_);
+    OwnFolder folder(file_.parent_path());
+    folder.claim(file_.filename().string());
+    folder.remove(file_.filename().string());
     rows_ = std::make_unique<RowsFile>(file_, text_);
   }
   rows_->append(text_.line(row, levels));

@@ -1,6 +1,6 @@
 #include "apps/study/results/study_files.h"
 
-#include "apps/output/text/write_file.h"
+#include "apps/output/folder/writing.h"
 #include "apps/study/report/study_report.h"
 #include "apps/study/report/study_tables.h"
 #include "apps/study/results/findings_text.h"
@@ -12,14 +12,12 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Makes the file where there is something to tell.
-void write_or_remove(const fs::path &file, bool told, const std::string &text)
+struct Table
 {
-  if (told)
-    write_file(file, text);
-  else
-    fs::remove(file);
-}
+  const char *name;
+  bool        told; ///< there is something to tell
+  std::string text;
+};
 
 } // namespace
 
@@ -34,26 +32,43 @@ Eigen::VectorXd levels_of(const StudyFindings &findings)
 void write_findings(const fs::path &folder, const StudyFile &study, const SceneVariants &variants,
                     const StudyFindings &findings)
 {
-  const bool surfaces = !findings.surfaces.empty();
-  write_or_remove(folder / "surface.csv", surfaces, surface_csv(findings.surfaces));
-  write_or_remove(folder / "surface_quality.csv", surfaces, surface_quality_csv(findings.surfaces));
-  write_or_remove(folder / "effects.csv", surfaces, effects_csv(findings.surfaces));
-  write_or_remove(folder / "front.csv", !findings.front.empty(), front_csv(findings));
-  write_or_remove(folder / "robust.csv", !findings.robust.empty(), robust_csv(findings.robust));
-  write_or_remove(folder / "optimum.toml", findings.optimum.has_value(),
-                  findings.optimum ? optimum_scene(study, variants, levels_of(findings), folder) : "");
-  std::string warnings;
+  const bool  surfaces = !findings.surfaces.empty();
+  std::string text;
   for (const std::string &warning : findings.warnings)
-    warnings += "warning: " + warning + '\n';
-  const std::string text = warnings + findings_text(findings);
-  write_or_remove(folder / "findings.txt", !text.empty(), text);
-  const StudyReport report = make_study_report(findings);
-  fs::remove_all(folder / "charts");
-  if (!report.pictures.empty())
-    fs::create_directories(folder / "charts");
-  for (const auto &[name, svg] : report.pictures)
-    write_file(folder / "charts" / (name + ".svg"), svg);
-  write_file(folder / "report.html", report.html);
+    text += "warning: " + warning + '\n';
+  text += findings_text(findings);
+  const StudyReport report   = make_study_report(findings);
+  const Table       tables[] = {{"surface.csv", surfaces, surface_csv(findings.surfaces)},
+                                {"surface_quality.csv", surfaces, surface_quality_csv(findings.surfaces)},
+                                {"effects.csv", surfaces, effects_csv(findings.surfaces)},
+                                {"front.csv", !findings.front.empty(), front_csv(findings)},
+                                {"robust.csv", !findings.robust.empty(), robust_csv(findings.robust)},
+                                {"optimum.toml", findings.optimum.has_value(),
+                           findings.optimum ? optimum_scene(study, variants, levels_of(findings), folder) : ""},
+                                {"findings.txt", !text.empty(), text}};
+  OwnFolder         own(folder);
+  own.remove_all([](const std::string &name) { return has_form(name, "charts/*"); });
+  for (const Table &table : tables)
+    if (!table.told)
+      own.remove(table.name);
+  write_or_rescue(folder,
+                  [&](Writing &writing)
+                  {
+                    for (const Table &table : tables)
+                      if (table.told)
+                        writing.write(table.name, table.text);
+                    writing.write("report.html", report.html);
+                    for (const auto &[name, svg] : report.pictures)
+                      writing.write("charts/" + name + ".svg", svg);
+                  });
+}
+
+const std::vector<std::string> &study_names()
+{
+  static const std::vector<std::string> names = {"surface.csv", "surface_quality.csv", "effects.csv",  "front.csv",
+                                                 "robust.csv",  "optimum.toml",        "findings.txt", "report.html",
+                                                 "charts/",     "optimum_runs.csv"};
+  return names;
 }
 
 } // namespace gestell::apps

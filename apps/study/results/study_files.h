@@ -4,6 +4,8 @@
 #include "apps/study/runs/study_runner.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace gestell::apps
 {
@@ -11,9 +13,13 @@ namespace gestell::apps
 /// The optimum in the units of the variables.
 Eigen::VectorXd levels_of(const StudyFindings &findings);
 
+/// Names of the files that a study writes beside its rows, for OwnFolder::require_free().  Rows are told from those of
+/// others by what stands in them.
+const std::vector<std::string> &study_names();
+
 /// Writes what was found beside the rows: tables, pictures, report.html and optimum.toml; what an earlier call found
 /// and this one did not is removed.
-/// @throws std::runtime_error if a file cannot be written to its end
+/// @throws coupling::WriteFailure as write_or_rescue()
 void write_findings(const std::filesystem::path &folder, const StudyFile &study, const SceneVariants &variants,
                     const StudyFindings &findings);
 

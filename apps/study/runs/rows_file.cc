@@ -2,13 +2,13 @@
 
 #include "apps/output/text/csv.h"
 #include "coupling/frame/number_in_file.h"
+#include "coupling/frame/whole_file.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <limits>
@@ -143,7 +143,7 @@ RowsFile::RowsFile(const std::filesystem::path &file, const RowsText &text) : pa
 {
   file_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   if (file_ < 0)
-    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+    throw coupling::WriteFailure(file.string(), std::error_code(errno, std::generic_category()));
   if (flock(file_, LOCK_EX | LOCK_NB) != 0)
   {
     close(file_);
@@ -156,7 +156,7 @@ RowsFile::RowsFile(const std::filesystem::path &file, const RowsText &text) : pa
   while (std::getline(in, line) && !in.eof())
     whole += off_t(line.size()) + 1;
   if (ftruncate(file_, whole) != 0 || lseek(file_, 0, SEEK_END) < 0)
-    throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
+    throw coupling::WriteFailure(file.string(), std::error_code(errno, std::generic_category()));
   if (whole == 0)
     append(text.head());
 }
@@ -168,11 +168,17 @@ RowsFile::~RowsFile()
 
 void RowsFile::append(const std::string &line)
 {
+  const off_t before = lseek(file_, 0, SEEK_CUR);
   for (std::size_t done = 0; done < line.size();)
   {
     const ssize_t n = write(file_, line.data() + done, line.size() - done);
     if (n < 0 && errno != EINTR)
-      throw std::runtime_error(path_.string() + ": cannot be written: " + std::strerror(errno));
+    {
+      const std::error_code reason(errno, std::generic_category());
+      if (ftruncate(file_, before) == 0) // else the line without an end is passed over
+        lseek(file_, before, SEEK_SET);
+      throw coupling::WriteFailure(path_.string(), reason);
+    }
     done += std::size_t(std::max<ssize_t>(n, 0));
   }
 }

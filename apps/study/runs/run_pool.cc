@@ -1,5 +1,7 @@
 #include "apps/study/runs/run_pool.h"
 
+#include "coupling/frame/whole_file.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -65,7 +67,14 @@ void write_all(int pipe, const std::string &text)
   }
 }
 
-// What a worker tells: "R row" and "U unit<tab>unit" of a run that ended, "E message" of a study that cannot go on.
+// What a worker tells: "R row" and "U unit<tab>unit" of a run that ended, "E message" of a study that cannot go on,
+// "W message" of a file that could not be written.
+
+std::string on_one_line(std::string message)
+{
+  std::replace(message.begin(), message.end(), '\n', '\x01');
+  return message;
+}
 
 std::string told(const RunRow &row, const std::string &line)
 {
@@ -135,6 +144,8 @@ public:
     while (listen())
       if (stop_)
         shared_->stop = true;
+    if (!disk_.empty())
+      throw coupling::WriteFailure(disk_);
     if (!failure_.empty())
       throw std::invalid_argument(failure_);
   }
@@ -167,11 +178,13 @@ private:
     {
       work(pipe, number, runner_, text_, orders_, first_, *shared_);
     }
+    catch (const coupling::WriteFailure &failure)
+    {
+      write_all(pipe, 'W' + on_one_line(failure.what()) + '\n');
+    }
     catch (const std::exception &error)
     {
-      std::string message = error.what();
-      std::replace(message.begin(), message.end(), '\n', '\x01');
-      write_all(pipe, 'E' + message + '\n');
+      write_all(pipe, 'E' + on_one_line(error.what()) + '\n');
     }
     _exit(0);
   }
@@ -216,10 +229,11 @@ private:
   void understand(Worker &worker, const std::string &line)
   {
     const std::string rest = line.substr(1);
-    if (line.front() == 'E')
+    if (line.front() == 'E' || line.front() == 'W')
     {
-      failure_ = rest;
-      std::replace(failure_.begin(), failure_.end(), '\x01', '\n');
+      std::string &failure = line.front() == 'E' ? failure_ : disk_;
+      failure              = rest;
+      std::replace(failure.begin(), failure.end(), '\x01', '\n');
       shared_->stop = true;
     }
     else if (line.front() == 'U')
@@ -267,7 +281,7 @@ private:
   const TakeRow               &take_;
   SharedMemory                 shared_;
   std::vector<Worker>          workers_;
-  std::string                  failure_;
+  std::string                  failure_, disk_; ///< of the study, and of writing what is kept of a run
 };
 
 } // namespace

@@ -23,6 +23,13 @@ namespace fs = std::filesystem;
 namespace
 {
 
+void write_paraview(const fs::path &folder, const Result &result, std::vector<std::string> &names)
+{
+  OwnFolder own(folder);
+  for (const auto &series : paraview_series())
+    series(own, result, names);
+}
+
 class ParaviewFiles : public ::testing::Test
 {
 protected:
@@ -67,7 +74,8 @@ protected:
 TEST_F(ParaviewFiles, MotionHoldsFrameAndMechanismAtEveryInstantWithTrueDisplacements)
 {
   const Result result = example_result();
-  EXPECT_TRUE(write_paraview(folder, result, names).empty());
+  EXPECT_TRUE(lacks_for_paraview().empty());
+  write_paraview(folder, result, names);
   const auto sets = data_sets("motion.pvd");
   ASSERT_EQ(sets.size(), 6u);
   EXPECT_EQ(std::get<0>(sets[2]), 0.2);

@@ -1,0 +1,40 @@
+// Whichever call fails that changes a file, the program tells it, leaves whole files alone and works the next time.
+
+#include "tests/apps/disk/disk_cases.h"
+
+namespace gestell::tests
+{
+namespace
+{
+
+TEST(FailedWrite, IsToldAndLeavesWholeFilesInEveryCommand)
+{
+  const DiskCases cases;
+  EXPECT_GT(fail_writes(cases, 4), 0);
+}
+
+// The history of a run whose folder is full is in the folder for temporary files.
+TEST(FailedWrite, LosesNoHistory)
+{
+  const DiskCases cases;
+  const Folder    folder("full_disk");
+  const DiskCase &run = cases.all().front();
+  ASSERT_EQ(run.name, "run");
+  std::filesystem::create_directories(folder.results());
+  std::ofstream(cases.path("calls"), std::ios::binary) << std::string(sizeof(long), '\0');
+  const std::string full = "GESTELL_DISK='" + (folder.results() / "history.csv").string() + "' GESTELL_DISK_COUNT='" +
+                           cases.path("calls").string() +
+                           "' GESTELL_DISK_CALL=1 GESTELL_DISK_FULL=1 LD_PRELOAD='" GESTELL_BINARY_DIR
+                           "/tests/gestell_failing_disk.so' ";
+  const Answer answer = shell(cases.command(run, folder.results(), "", full));
+  expect_answer(answer, 3,
+                {"history.csv: cannot be written (No space left on device)", "everything is in ", " instead"});
+  EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
+  EXPECT_NE(read(folder.results() / "summary.json").find("history.csv: cannot be written"), std::string::npos);
+  const auto                  begin     = answer.text.find("everything is in ") + 17;
+  const std::filesystem::path elsewhere = answer.text.substr(begin, answer.text.find(" instead") - begin);
+  EXPECT_GT(read(elsewhere / "history.csv").size(), 1000u);
+}
+
+} // namespace
+} // namespace gestell::tests
