@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr const char *lock_name  = ".lock";
+constexpr const char *lock_name  = ".gestell-lock";
 constexpr int         most_tries = 1000; ///< while others make and remove the same folder
 
 /// Locks of the system are those of a process: what it holds itself it must know.
@@ -146,7 +146,7 @@ bool FolderLock::open_file()
                   if (mkdir(folder.c_str(), 0777) == 0)
                     made_.push_back(folder);
                 });
-  file_ = open(path_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+  file_ = open(path_.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0644);
   return file_ >= 0 || errno != ENOENT;
 }
 

@@ -9,7 +9,7 @@ namespace gestell::apps
 
 /**
  * Holds a folder of results while it lives, so that no other process writes there at the same time: a lock of the
- * operating system on the file `.lock` in it, which ends with the process, however that ends.  The file names process,
+ * operating system on the file `.gestell-lock` in it, which ends with the process, however that ends.  The file names process,
  * computer and what they do; it goes with the lock, and so do folders that the lock made and nothing was put into.
  *
  * On file systems without locks nothing is held: note() says so.

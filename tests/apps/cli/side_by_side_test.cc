@@ -16,7 +16,7 @@ const std::string press = scene("press_minimal.toml") + " --quiet --set run.end=
 bool is_whole(const fs::path &folder, const std::string &history)
 {
   return read(folder / "history.csv") == history && read(folder / "report.html").find("</html>") != std::string::npos &&
-         fs::exists(folder / "summary.json") && !fs::exists(folder / ".lock");
+         fs::exists(folder / "summary.json") && !fs::exists(folder / ".gestell-lock");
 }
 
 /// The history of the run by itself.
@@ -61,7 +61,7 @@ namespace
 /// A run in the background that holds its folder, stopped; then `second`, and the first goes on.
 Answer beside_a_stopped_one(const Folder &folder, const std::string &second, const std::string &signal)
 {
-  const std::string lock = "'" + (folder.results() / ".lock").string() + "'";
+  const std::string lock = "'" + (folder.results() / ".gestell-lock").string() + "'";
   return gestell("run " + press + folder.option() + ">/dev/null & p=$!; while ! [ -s " + lock +
                  " ]; do sleep 0.005; done; kill -STOP $p; '" GESTELL_BINARY_DIR "/bin/gestell' " + second +
                  "; echo \"second: $?, first is $p\"; kill -" + signal + " $p; wait $p");
@@ -88,9 +88,9 @@ TEST(SideBySide, TheLockOfADeadProcessIsNone)
   const Folder folder("side_dead");
   const Answer dead = beside_a_stopped_one(folder, "--version", "KILL");
   EXPECT_EQ(dead.exit_code, 137) << dead.text;
-  ASSERT_TRUE(fs::exists(folder.results() / ".lock"));
+  ASSERT_TRUE(fs::exists(folder.results() / ".gestell-lock"));
   expect_answer(gestell("run " + press + folder.option()), 0, {"report: "});
-  EXPECT_FALSE(fs::exists(folder.results() / ".lock"));
+  EXPECT_FALSE(fs::exists(folder.results() / ".gestell-lock"));
 }
 
 TEST(SideBySide, ARunThatIsRefusedLeavesNoFolder)

@@ -238,7 +238,7 @@ Contents contents(const fs::path &folder)
   if (fs::exists(folder))
     for (const auto &entry : fs::recursive_directory_iterator(folder))
       if (const std::string name = entry.path().lexically_relative(folder).generic_string();
-          entry.is_regular_file() && entry.path().filename() != ".gestell-files" && entry.path().filename() != ".lock")
+          entry.is_regular_file() && entry.path().filename() != ".gestell-files" && entry.path().filename() != ".gestell-lock")
         all[name] = timeless(name, read(entry.path()));
   return all;
 }
