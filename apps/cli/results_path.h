@@ -20,16 +20,20 @@ inline std::filesystem::path results_path(const CommonOptions &options, const Sc
 
 /// A folder for results that can be written and is held, from before anything is computed until they are there; says
 /// where it cannot be held.
-class HeldFolder public :
-    /// @throws std::invalid_argument as require_writable() and FolderLock
-    explicit HeldFolder(const std::filesystem::path &folder)
-    : lock_((require_writable(folder), folder)) if (!lock_.note().empty()) std::cerr << "gestell: warning: "
-                                                                                     << lock_.note()
-                                                                                     << '\n';
+class HeldFolder
+{
+public:
+  /// @throws std::invalid_argument as require_writable() and FolderLock
+  explicit HeldFolder(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
+  {
+    if (!lock_.note().empty())
+      std::cerr << "gestell: warning: " << lock_.note() << '\n';
+  }
 
 private:
-FolderLock lock_;
+  FolderLock lock_;
 };
+
 /// Files that the command reads, which no result may replace: those of its scene, and others of its options.
 inline std::vector<std::filesystem::path> inputs_of(const CommonOptions            &options,
                                                     const std::vector<std::string> &others = {})

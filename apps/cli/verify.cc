@@ -164,8 +164,8 @@ int verify(const VerifyOptions &asked)
     list(files);
     return exit_done;
   }
-  const HeldFolder held(folder);
   const fs::path   folder = asked.folder;
+  const HeldFolder held(folder);
   OwnFolder(folder).require_free({"verification.html", "verification.md", "verification.csv"});
   if (!asked.docs.empty() && !fs::is_directory(asked.docs))
     throw std::invalid_argument("--renew: there is no folder '" + asked.docs +
