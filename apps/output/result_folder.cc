@@ -28,7 +28,7 @@ namespace
                               "; name a folder that can be written with -o DIR.");
 }
 
-constexpr int     most_tries = 1000;           ///< while others make and remove the place
+constexpr int     most_looks = 1000;           ///< while others make and remove the place
 const char *const complete   = "summary.json"; ///< the first to be removed and the last to be written
 
 template <typename Chosen>
@@ -115,7 +115,7 @@ void require_writable(const fs::path &folder)
   // What is missing is made when there is something to put into it: others may be at the same place, and take away what
   // they made there.
   std::string failure;
-  for (int tries = 0; tries < most_tries; ++tries)
+  for (int tries = 0; tries < most_looks; ++tries)
   {
     fs::path there = fs::absolute(folder).lexically_normal();
     while (!fs::exists(there, error) && there.has_relative_path())
