@@ -41,7 +41,7 @@ void *team_plugin()
 }
 
 template <typename Function>
-Function *function(const char *name)
+Function *team_function(const char *name)
 {
   return reinterpret_cast<Function *>(function_of_plugin(team_plugin(), name, team_library));
 }
@@ -54,7 +54,7 @@ TeamService *load_team()
   require_mpi(launched);
   if (find_plugin(team_library).empty())
     return nullptr;
-  TeamService *const team = function<TeamService *()>("gestell_team_service")();
+  TeamService *const team = team_function<TeamService *()>("gestell_team_service")();
   if (team->size() != launched.size)
     throw std::invalid_argument(std::string(launched.by) + ": started " + std::to_string(launched.size) +
                                 " processes, but MPI finds " + std::to_string(team->size()) +
@@ -84,7 +84,7 @@ TeamService *team_service()
 
 int ranks_called_otherwise(const std::string &words, const std::string &folder)
 {
-  return function<int(const char *, const char *)>("gestell_ranks_called_otherwise")(words.c_str(), folder.c_str());
+  return team_function<int(const char *, const char *)>("gestell_ranks_called_otherwise")(words.c_str(), folder.c_str());
 }
 
 } // namespace gestell::coupling
