@@ -42,7 +42,7 @@ void require_folder(const fs::path &folder)
                      failure.message() + ")");
 }
 
-constexpr int     most_tries = 1000;           ///< while others make and remove the place
+constexpr int     most_looks = 1000;           ///< while others make and remove the place
 const char *const complete   = "summary.json"; ///< the first to be removed and the last to be written
 
 bool is_full(const std::error_code &error)
@@ -106,7 +106,7 @@ void require_writable(const fs::path &folder)
   // What is missing is made when there is something to put into it: others may be at the same place, and take away what
   // they made there.
   std::error_code failure;
-  for (int tries = 0; tries < most_tries; ++tries)
+  for (int tries = 0; tries < most_looks; ++tries)
     if (failure = probe(folder); failure != std::errc::no_such_file_or_directory)
       break;
   if (failure)
