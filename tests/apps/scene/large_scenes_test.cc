@@ -1,5 +1,9 @@
+#include "apps/scene/build/build_machine.h"
 #include "apps/scene/file/parameters.h"
 #include "apps/scene/file/toml_text.h"
+#include "apps/scene/scene.h"
+#include "tests/support/limited_memory.h"
+#include "tests/support/scene_text.h"
 
 #include <gtest/gtest.h>
 
@@ -66,6 +70,28 @@ TEST(LargeScenes, PlacesStandWhereValuesBegin)
   EXPECT_EQ(array.elements[2].find("d")->place.line, 4);
   EXPECT_EQ(root.find("e")->elements[0].find("f")->place.line, 6);
   EXPECT_EQ(root.find("e")->elements[1].find("f")->place.line, 8);
+}
+
+/// Point masses in a row, each held to the one before it.
+std::string chain_of_masses(int n)
+{
+  std::string text = "name = \"row\"\n";
+  for (int i = 0; i < n; ++i)
+  {
+    const std::string own = std::to_string(i), from = i == 0 ? "ground" : "m" + std::to_string(i - 1);
+    text += "[body.m" + own + "]\ntype = \"point\"\nmass = 1\nposition = [\"" + own + " mm\", 0, 0]\n[element.s" + own +
+            "]\ntype = \"spring-damper\"\nfrom = \"" + from + "\"\nto = \"m" + own +
+            "\"\ndirection = [1, 0, 0]\nstiffness = 1e6\n";
+  }
+  return text;
+}
+
+/// Nine dense matrices of the 3000 coordinates would be 650 MB; sparse ones have a few numbers in a row.
+TEST(LargeScenes, AMachineOfManyMassesIsCheckedInLittleMemory)
+{
+  const Scene                scene = test::scene_of(chain_of_masses(1000));
+  const tests::LimitedMemory limited(std::size_t(100) << 20);
+  EXPECT_NO_THROW(check_scene(scene));
 }
 
 } // namespace

@@ -5,10 +5,10 @@
 #include "coupling/frame/petsc_binary.h"
 #include "coupling/integration/system/announced_size.h"
 #include "coupling/integration/system/state_archive.h"
+#include "tests/support/limited_memory.h"
 
 #include <gtest/gtest.h>
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -23,30 +23,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-/// While it lives the process may take no more than `spare` bytes beyond what it has; who tries gets std::bad_alloc.
-class LimitedMemory
-{
-public:
-  explicit LimitedMemory(std::size_t spare)
-  {
-    getrlimit(RLIMIT_AS, &before_);
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    rlimit limited   = before_;
-    limited.rlim_cur = pages * std::size_t(sysconf(_SC_PAGESIZE)) + spare;
-#if !defined(__SANITIZE_ADDRESS__) // whose shadow of all memory has no room below a limit
-    setrlimit(RLIMIT_AS, &limited);
-#endif
-  }
-  ~LimitedMemory()
-  {
-    setrlimit(RLIMIT_AS, &before_);
-  }
-
-private:
-  rlimit before_;
-};
+using tests::LimitedMemory;
 
 constexpr std::size_t spare = std::size_t(8) << 20; // beyond a file of some kB: a few pages of allocators and buffers
 
