@@ -35,10 +35,9 @@ using fem::ChildMessage;
 using fem::MessageReader;
 using fem::MessageWriter;
 
-constexpr std::uint64_t of_one_process  = 500;
-constexpr double        memory          = 1e9;  // beyond what the process has [byte]
-constexpr double        longest_alone   = 10.; // [s]
-constexpr const char   *seconds_to_read = "4";
+constexpr std::uint64_t of_one_process = 500;
+constexpr double        memory         = 1e9; // beyond what the process has [byte]
+constexpr double        longest_alone  = 10.; // [s]
 
 void hold_memory()
 {
@@ -236,14 +235,14 @@ Tally fuzz(const MeshTarget &target, std::uint64_t from, std::uint64_t to, const
   return Fuzz(target, options).run(from, to);
 }
 
-Judgement judge_alone(const std::string &path, std::uint64_t number)
+Judgement judge_alone(const std::string &path, std::uint64_t number, int seconds)
 {
   const fem::PassingFolder folder;
   Judge                    judge(
       [&](MessageWriter &out)
       {
         ::unsetenv("GESTELL_ONE_PROCESS");
-        ::setenv("GESTELL_READING_SECONDS", seconds_to_read, 1);
+        ::setenv("GESTELL_READING_SECONDS", std::to_string(seconds).c_str(), 1);
         ::setenv("TMPDIR", folder.path().c_str(), 1);
         tell(out, fuzz::judge(path, number));
       });

@@ -45,7 +45,8 @@ struct FuzzOptions
 Tally fuzz(const MeshTarget &target, std::uint64_t from, std::uint64_t to, const FuzzOptions &options = {});
 
 /// Reads one file as the program does, in a process of its own; a finding if that dies or does not end.
-Judgement judge_alone(const std::string &path, std::uint64_t number);
+/// @param seconds  limit of processor time for reading
+Judgement judge_alone(const std::string &path, std::uint64_t number, int seconds = 4);
 
 /// A file with these bytes in the folder.
 std::string write_file(const MeshTarget &target, const std::string &bytes, const std::string &folder);
