@@ -51,7 +51,7 @@ std::string chain_of_parameters(int n)
   std::string text = "[parameters]\np0 = 1\n";
   for (int i = 1; i <= n; ++i)
     text += "p" + std::to_string(i) + " = \"p" + std::to_string(i - 1) + " + 1\"\n";
-  return text + "[body.a]\ntype = \"slider\"\ndirection = [1, 0, 0]\nmass = \"(1 kg)*p" + std::to_string(n) + "\"\n";
+  return text + "[body.a]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"(1 kg)*p" + std::to_string(n) + "\"\n";
 }
 
 const std::vector<LongInput> &long_inputs()
@@ -62,8 +62,8 @@ const std::vector<LongInput> &long_inputs()
       {"KeyThatStandsTwice", "scene",
        "\"" + std::string(300000, 'a') + "\" = 1\n\"" + std::string(300000, 'a') + "\" = 1\n"},
       {"NamesThatDiffer", "scene",
-       "[body." + std::string(100000, 'a') + "]\ntype = \"slider\"\nmass = 1\ndirection = [1, 0, 0]\n[element.e]\n" +
-           "type = \"spring damper\"\nfrom = \"" + std::string(100001, 'a') + "\"\nto = \"ground\"\nstiffness = 1\n"},
+       "[body." + std::string(100000, 'a') + "]\ntype = \"slider\"\nmass = 1\naxis = [1, 0, 0]\n[element.e]\n" +
+           "type = \"spring-damper\"\nfrom = \"" + std::string(100001, 'a') + "\"\nto = \"ground\"\nstiffness = 1\n"},
       {"ChainOfParameters", "scene", chain_of_parameters(3000)},
       {"KeyOfAnOverride", "override", repeated("a.", 60000) + "a=1"},
       {"ValueOfAnOverride", "override", "run.step=[" + std::string(300000, '1')},

@@ -38,8 +38,8 @@ void read_whole_scene(const std::string &bytes)
 void read_an_override(const std::string &bytes)
 {
   static const SceneNode base = parse_toml_text("[parameters]\nm = \"2 kg\"\nc = \"3 kN/m\"\n[body.mass]\n"
-                                                "type = \"slider\"\nmass = \"m\"\ndirection = [1, 0, 0]\n"
-                                                "[element.spring]\ntype = \"spring damper\"\nfrom = \"mass\"\n"
+                                                "type = \"slider\"\nmass = \"m\"\naxis = [1, 0, 0]\n"
+                                                "[element.spring]\ntype = \"spring-damper\"\nfrom = \"mass\"\n"
                                                 "to = \"ground\"\nstiffness = \"c\"\n[run]\nmethod = \"bdf\"\n"
                                                 "step = \"1 ms\"\nend = \"1 s\"\n[output.signals]\n"
                                                 "x = \"mass.displacement\"\n",
@@ -85,7 +85,6 @@ void read_a_node_table(const std::string &bytes)
   static const std::string scene =
       file_of("chain.toml", "[frame]\nmass = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
                             "stiffness = [[2, -1, 0], [-1, 2, -1], [0, -1, 1]]\nnodes = \"nodes.csv\"\n"
-                            "[frame.interface.top]\nposition = [0, 0, 1]\n"
                             "[output.signals]\nz = \"frame.top.uz\"\n");
   file_of("nodes.csv", bytes);
   const Scene read = read_scene(scene);
