@@ -14,7 +14,7 @@ namespace gestell::fuzz
 namespace
 {
 
-constexpr unsigned n_mutations = 1000; ///< of a target: 22 000 in all, 10 s as measured
+constexpr unsigned n_mutations = 1000; ///< of a target
 
 /// What is found; "" if nothing.
 std::string finding(const Target &target, const std::string &bytes)
