@@ -66,7 +66,8 @@ int run_program(int argc, char **argv)
 int fail(int exit_code, const std::string &message, JsonAnswer &answer)
 {
   answer.failed(message);
-  if (!answer.wanted() && coupling::launch().rank == 0) // of all that mpirun started one speaks
+  if (!answer.wanted() && coupling::launch().rank == 0 &&
+      team_left().rank == 0) // of all that mpirun started one speaks
     std::cerr << "gestell: " << message << '\n';
   return exit_code;
 }
@@ -140,7 +141,7 @@ int main(int argc, char **argv)
 {
   secure_standard_streams();
   const bool apart  = has_word(argc, argv, "--apart") || apart_by_environment();
-  const bool speaks = apart || coupling::launch().rank == 0 || (argc > 1 && std::string(argv[1]) == "study");
+  const bool speaks = apart || coupling::launch().rank == 0;
   JsonAnswer answer(speaks && has_word(argc, argv, "--json"));
   const int  exit_code = run_guarded(argc, argv, answer);
   answer.finish(argc > 1 ? argv[1] : "", exit_code);

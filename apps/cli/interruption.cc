@@ -2,6 +2,7 @@
 
 #include "apps/cli/command.h"
 #include "apps/cli/json_answer.h"
+#include "fem/values/mesh_phase.h"
 
 #include <csignal>
 #include <ctime>
@@ -13,7 +14,8 @@ namespace gestell::apps
 namespace
 {
 std::atomic<bool> interrupted{false};
-std::atomic<bool> nothing_to_save{false};
+std::atomic<bool> nothing_to_save{false}; ///< and nothing to clean up: the end may come at once
+std::atomic<bool> meshing{false};         ///< the child process of gmsh ends first
 timespec          first_time{};
 
 double seconds_since_first()
@@ -36,8 +38,10 @@ extern "C" void note_interruption(int signal_number)
   if (!interrupted.exchange(true))
   {
     clock_gettime(CLOCK_MONOTONIC, &first_time);
-    constexpr char message[] = "\ngestell: interrupted; saving what was computed (once more: end at once)\n";
-    if (write(STDERR_FILENO, message, sizeof message - 1) < 0)
+    constexpr char saving[] = "\ngestell: interrupted; saving what was computed (once more: end at once)\n";
+    constexpr char ending[] = "\ngestell: interrupted; ending (once more: end at once)\n";
+    if ((meshing ? write(STDERR_FILENO, ending, sizeof ending - 1) : write(STDERR_FILENO, saving, sizeof saving - 1)) <
+        0)
       return;
   }
   // Whoever signals a process and its group sends two at once: that is one wish.
@@ -64,11 +68,13 @@ const std::atomic<bool> &interruption()
 
 coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress)
 {
-  nothing_to_save = !answers_in_json(); // of which there is a document in any case
-  return [phase, progress](const std::string &now, double share)
+  const bool plain = !answers_in_json(); // of which there is a document in any case
+  nothing_to_save  = plain;
+  return [phase, progress, plain, before = true](const std::string &now, double share) mutable
   {
-    if (now == phase)
-      nothing_to_save = false;
+    before          = before && now != phase;
+    meshing         = fem::may_be_stopped(now); // by an exception, which removes its files
+    nothing_to_save = plain && before && !meshing;
     if (progress)
       progress(now, share);
   };

@@ -1,5 +1,6 @@
 #include "apps/cli/team.h"
 
+#include "apps/cli/command.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/plugin.h"
 
@@ -112,22 +113,22 @@ namespace
 /// By a process of its own, as MPI cannot be left and begun again.  @return ranks that were called otherwise
 int called_otherwise(const std::string &words)
 {
-  constexpr int most = 200, failed = 255; // of what an exit code tells
+  constexpr int none = 50, most = 150; // as exit codes: MPI ends processes that it cannot begin with small ones
   const pid_t   child = fork();
   if (child == 0)
     try
     {
       coupling::team_service();
-      std::exit(std::min(most, coupling::ranks_called_otherwise(words, working_folder())));
+      std::exit(none + std::min(most, coupling::ranks_called_otherwise(words, working_folder())));
     }
     catch (const std::exception &)
     {
-      _exit(failed);
+      _exit(exit_failed);
     }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) == failed)
+  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status) || WEXITSTATUS(status) < none)
     return 0; // no MPI in common: ranks share files alone
-  return WEXITSTATUS(status);
+  return std::min(most, WEXITSTATUS(status) - none);
 }
 
 } // namespace

@@ -180,8 +180,9 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
         const bool known = fcntl(file_, F_GETLK, &lock) == 0;
         if (known && lock.l_type != F_UNLCK)
         {
-          const Holder holder = holder_in(file_); // of several the last one
-          refuse_held(told_, lock.l_pid > 0 ? std::to_string(lock.l_pid) : holder.process, holder.host,
+          const Holder      holder  = holder_in(file_); // of several the last one
+          const std::string process = lock.l_pid > 0 ? std::to_string(lock.l_pid) : holder.process;
+          refuse_held(told_, process, process == holder.process ? holder.host : "",
                       holder.doing.empty() ? computes : holder.doing, way_out);
         }
         close(file_); // it has just been let go

@@ -71,8 +71,8 @@ const char *const way_of_cases = "--apart (or GESTELL_APART=1) for a case of its
 Launch launch()
 {
   for (const auto &[by, size, rank] : launchers)
-    if (const char *many = std::getenv(size), *own = std::getenv(rank); many && own && std::atoi(many) > 1)
-      return {std::atoi(own), std::atoi(many), by};
+    if (const char *many = std::getenv(size), *own = std::getenv(rank); many && own)
+      return std::atoi(many) > 1 ? Launch{std::atoi(own), std::atoi(many), by} : Launch{}; // the innermost decides
   return {};
 }
 
@@ -84,7 +84,8 @@ TeamService *team_service()
 
 int ranks_called_otherwise(const std::string &words, const std::string &folder)
 {
-  return team_function<int(const char *, const char *)>("gestell_ranks_called_otherwise")(words.c_str(), folder.c_str());
+  return team_function<int(const char *, const char *)>("gestell_ranks_called_otherwise")(words.c_str(),
+                                                                                          folder.c_str());
 }
 
 } // namespace gestell::coupling

@@ -22,7 +22,9 @@ public:
   {
     std::error_code none;
     const fs::path  memory = "/dev/shm";
-    std::string     name   = ((fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) / "gestell_XXXXXX");
+    std::string     name =
+        ((!std::getenv("TMPDIR") && fs::is_directory(memory, none) ? memory : fs::temp_directory_path()) /
+         "gestell_XXXXXX");
     if (!::mkdtemp(name.data()))
       throw std::runtime_error("no folder can be made: " + name);
     path_ = name;

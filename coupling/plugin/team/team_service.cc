@@ -4,6 +4,7 @@
 #include "fem/parallel/ranks.h"
 
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <unistd.h>
 
@@ -62,8 +63,10 @@ int gestell_ranks_called_otherwise(const char *words, const char *folder)
   std::string               words_of_first = words, folder_of_first = folder;
   ranks.broadcast(words_of_first);
   ranks.broadcast(folder_of_first);
-  const bool elsewhere = folder_of_first != folder && access(folder_of_first.c_str(), F_OK) == 0;
-  double     others    = words_of_first != words || elsewhere ? 1. : 0.;
+  std::error_code none; // one folder may have two names, and on another computer another disk
+  const bool      elsewhere = folder_of_first != folder && std::filesystem::exists(folder_of_first, none) &&
+                         !std::filesystem::equivalent(folder_of_first, folder, none);
+  double others = words_of_first != words || elsewhere ? 1. : 0.;
   ranks.sum(&others, 1);
   return int(others);
 }

@@ -12,6 +12,8 @@ namespace
 namespace fs = std::filesystem;
 
 const std::string press = scene("press_minimal.toml") + " --quiet --set run.end=0.01 ";
+/// Takes longer than a process needs to see that it has begun; energy and pictures keep it busy.
+const std::string long_press = scene("press_minimal.toml") + " --quiet --set run.end=2 ";
 
 bool is_whole(const fs::path &folder, const std::string &history)
 {
@@ -62,8 +64,8 @@ namespace
 Answer beside_a_stopped_one(const Folder &folder, const std::string &second, const std::string &signal)
 {
   const std::string lock = "'" + (folder.results() / ".gestell-lock").string() + "'";
-  return gestell("run " + press + folder.option() + ">/dev/null & p=$!; while ! [ -s " + lock +
-                 " ]; do sleep 0.005; done; kill -STOP $p; '" GESTELL_BINARY_DIR "/bin/gestell' " + second +
+  return gestell("run " + long_press + folder.option() + ">/dev/null & p=$!; while kill -0 $p 2>/dev/null && ! [ -s " +
+                 lock + " ]; do sleep 0.005; done; kill -STOP $p; '" GESTELL_BINARY_DIR "/bin/gestell' " + second +
                  "; echo \"second: $?, first is $p\"; kill -" + signal + " $p; wait $p");
 }
 

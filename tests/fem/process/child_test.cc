@@ -321,7 +321,7 @@ Waiting wait_for_child()
 {
   const files::path told = files::path(::testing::TempDir()) / ("gestell_child_" + std::to_string(getpid()));
   Waiting           waiting{waiting_process(told), 0, {}};
-  while (!files::exists(told))
+  for (int i = 0; i < 60000 && !files::exists(told); ++i)
     usleep(1000);
   std::string folder;
   std::ifstream(told) >> waiting.child >> folder;
