@@ -51,7 +51,9 @@ void CoordinateSystems::resolve(const TextFile &file, long number)
 {
   std::vector<long> chain;
   std::set<long>    in_chain;
-  for (auto card = cards_.find(number); systems_.count(number) == 0 && card != cards_.end(); card = cards_.find(number))
+  for (auto card = cards_.find(number);
+       systems_.count(number) == 0 && card != cards_.end() && without_place_.count(number) == 0;
+       card = cards_.find(number))
   {
     if (!in_chain.insert(number).second)
       file.fail_at(card->second.line, "coordinate system " + std::to_string(number) + " refers to itself");
@@ -61,8 +63,10 @@ void CoordinateSystems::resolve(const TextFile &file, long number)
   for (; !chain.empty(); chain.pop_back())
   {
     const Card &card = cards_.at(chain.back());
-    if (const System *reference = find(card.reference)) // else of one that is not rectangular
+    if (const System *reference = find(card.reference))
       add(file, chain.back(), card, *reference);
+    else // of one that is not rectangular, or missing
+      without_place_.insert(chain.back());
   }
 }
 

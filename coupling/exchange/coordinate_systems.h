@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace gestell::coupling
@@ -46,6 +47,7 @@ private:
 
   std::map<long, Card>   cards_;
   std::map<long, System> systems_;
+  std::set<long>         without_place_; ///< based on one that is not rectangular, or missing
 };
 
 } // namespace gestell::coupling

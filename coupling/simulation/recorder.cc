@@ -66,6 +66,16 @@ void require_finite(const std::vector<Signal> &signals, const SignalSample &samp
 
 } // namespace
 
+std::string no_number_words(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  if (q.allFinite() && v.allFinite())
+    return "";
+  std::ostringstream message;
+  message << "a coordinate is no finite number at t = " << t
+          << " s; a formula or law gives none there, or the motion grew beyond all numbers";
+  return message.str();
+}
+
 std::vector<int> coordinates_of(const std::vector<Signal> &signals)
 {
   std::set<int> coordinates;
@@ -300,6 +310,8 @@ void Recorder::picture(double t)
     integrator_.interpolate(inside, between_.local);
     forces_on_measures(machine_, between_.local, p_);
   }
+  if (const std::string words = no_number_words(t, between_.q, between_.v); !words.empty())
+    throw ConvergenceFailure(words);
   result_.picture_times.push_back(t);
   result_.picture_forces.push_back(p_);
   result_.picture_states.push_back(between_.q);

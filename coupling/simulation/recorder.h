@@ -17,6 +17,9 @@ namespace gestell::coupling
 
 class StateArchive;
 
+/// Why a motion is none: a coordinate or its rate is no finite number; "" if all are.
+std::string no_number_words(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+
 /// Coordinates that signals read by their positions or rates, ascending.
 std::vector<int> coordinates_of(const std::vector<Signal> &signals);
 

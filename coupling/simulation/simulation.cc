@@ -368,6 +368,8 @@ void Run::finish(const InitialState &initial)
   recorder_.finish();
   result_.events    = driver_.events();
   result_.end_state = integrator_->instant().q;
+  if (result_.failure.empty())
+    result_.failure = no_number_words(integrator_->time(), result_.end_state, integrator_->instant().v);
   add(switch_warnings(machine_, options_.begin, result_.events, result_.failure.empty() && !result_.interrupted),
       result_.warnings);
   take_work(integrator_->work(), driver_, options_, result_);

@@ -13,12 +13,15 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -29,8 +32,8 @@ namespace gestell::fem
 namespace
 {
 
-constexpr int    told_again = 100;  // [ms]
-constexpr size_t words_kept = 4096; // of the child's standard error
+constexpr std::chrono::milliseconds told_again{100};
+constexpr size_t                    words_kept = 4096; // of the child's standard error
 
 struct Pipe
 {
@@ -76,7 +79,7 @@ void limit(__rlimit_resource_t resource, double value)
   if (::getrlimit(resource, &now) != 0)
     return;
   const double soft = now.rlim_cur == RLIM_INFINITY ? HUGE_VAL : static_cast<double>(now.rlim_cur);
-  if (value < soft)
+  if (value < std::min(soft, 1e18))
     now.rlim_cur = static_cast<rlim_t>(std::ceil(value));
   ::setrlimit(resource, &now);
 }
@@ -178,13 +181,16 @@ public:
   bool listen(const EndedBySignal &ended)
   {
     pollfd polled[] = {{messages_, POLLIN, 0}, {words_, POLLIN, 0}};
-    while (polled[0].fd >= 0)
+    while (polled[0].fd >= 0 && !answer_) // a child of another thread may hold the other end
     {
-      const int n = ::poll(polled, 2, told_again);
+      const int n = ::poll(polled, 2, int(told_again.count()));
       if (ended.asked())
         return false;
-      if (n <= 0 && progress_)
+      if (const auto now = std::chrono::steady_clock::now(); progress_ && now - told_ >= told_again)
+      {
+        told_ = now;
         progress_(phase_, share_);
+      }
       if (n > 0 && polled[1].revents && !hear_words())
         polled[1].fd = -1;
       if (n > 0 && polled[0].revents && !hear_messages())
@@ -201,7 +207,7 @@ public:
     const int status = wait();
     if (answer_ && WIFEXITED(status))
       return answer(*answer_);
-    if (ran_out_of_memory_ || (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL))
+    if (ran_out_of_memory_)
       throw std::invalid_argument(task_.head + ": " + out_of_memory());
     if (reads() && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
       throw std::invalid_argument(task_.head + ": " + never_ends());
@@ -239,7 +245,8 @@ private:
       switch (message->kind)
       {
       case ChildMessage::progress:
-        std::tie(share_, phase_) = progress_in(message->text);
+        if (const std::string before = phase_; std::tie(share_, phase_) = progress_in(message->text), phase_ != before)
+          ran_out_of_memory_ = false; // survived
         if (progress_)
           progress_(phase_, share_);
         break;
@@ -263,6 +270,8 @@ private:
     case ChildMessage::invalid_argument:
       throw std::invalid_argument(ran_out_of_memory_ ? task_.head + ": " + out_of_memory() : message.text);
     default:
+      if (ran_out_of_memory_)
+        throw std::invalid_argument(task_.head + ": " + out_of_memory());
       throw std::runtime_error(message.text);
     }
   }
@@ -281,7 +290,9 @@ private:
            (task_.limits.bytes > 0.
                 ? ": more than " + text(std::round(task_.limits.bytes / 1e8) / 10.) + " GB for " + size_text(task_.path)
                 : "") +
-           "; " + way_out() + ", or take a machine with more memory.";
+           "; " + way_out() +
+           ", or take a machine with more memory; GESTELL_ONE_PROCESS=1 in the environment reads it without "
+           "a limit.";
   }
 
   std::string never_ends() const
@@ -294,8 +305,10 @@ private:
 
   std::string how_it_died(int status) const
   {
+    const bool        killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
     const std::string how =
-        WIFSIGNALED(status)
+        killed ? "was killed: memory ran out, or a limit of the system or somebody ended it"
+        : WIFSIGNALED(status)
             ? "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" + ::strsignal(WTERMSIG(status)) + ")"
             : "ended the process (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
     return "gmsh " + how + " (" + phase_ + ")" + last_words() + "; " + way_out() + ".";
@@ -310,15 +323,16 @@ private:
     return words.empty() ? "" : ", saying \"" + words.substr(0, longest) + "\"";
   }
 
-  const ChildTask           &task_;
-  const ChildProgress       &progress_;
-  pid_t                      child_;
-  int                        messages_, words_;
-  std::string                phase_, said_;
-  double                     share_             = -1.;
-  bool                       ran_out_of_memory_ = false;
-  MessageReader              reader_;
-  std::optional<TextMessage> answer_;
+  const ChildTask                      &task_;
+  const ChildProgress                  &progress_;
+  pid_t                                 child_;
+  int                                   messages_, words_;
+  std::string                           phase_, said_;
+  double                                share_             = -1.;
+  std::chrono::steady_clock::time_point told_              = std::chrono::steady_clock::now();
+  bool                                  ran_out_of_memory_ = false;
+  MessageReader                         reader_;
+  std::optional<TextMessage>            answer_;
 };
 
 /// For malloc's failures in the child: a message, before the exception which a library may hide.
@@ -339,7 +353,8 @@ void tell_out_of_memory()
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent)
     ::_exit(1);
-  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC); // a question of a script would wait for ever
+  ::dup2(nowhere, STDIN_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(words, STDERR_FILENO);
   out_of_memory_told_to = messages;

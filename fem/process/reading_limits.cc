@@ -14,7 +14,7 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double megabyte = 1e6;
+constexpr double megabyte = 1e6, least_memory = 5e8; // [byte]: the kernel judges better when there is little
 
 double size_of(const std::string &path)
 {
@@ -40,8 +40,8 @@ ReadingLimits reading_limits(const std::string &path, FileContent content, doubl
   const bool    program = content == FileContent::program;
   const double  size    = size_of(path);
   ReadingLimits limits;
-  limits.seconds = program ? 1200. : 300. + 60. * size / megabyte;
-  limits.bytes   = program ? available : std::min(available, 2e9 + 400. * size);
+  limits.seconds = std::max(program ? 1200. : 0., 300. + 60. * size / megabyte);
+  limits.bytes   = std::max(least_memory, program ? available : std::min(available, 2e9 + 400. * size));
   if (const char *chosen = std::getenv("GESTELL_READING_SECONDS"))
     limits.seconds = chosen_seconds(chosen);
   if (!std::isfinite(limits.bytes))

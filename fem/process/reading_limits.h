@@ -21,7 +21,8 @@ enum class FileContent
 
 /**
  * Judged from the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory, of programs
- * 1200 s and all the memory there is.  A STEP file of 0.5 MB takes less than a second and 0.1 GB.
+ * 1200 s at least and all the memory there is, never below 0.5 GB.  A STEP file of 0.5 MB takes less than a second and
+ * 0.1 GB.
  *
  * The environment's GESTELL_READING_SECONDS says another time, 0 for none.
  *
@@ -30,7 +31,7 @@ enum class FileContent
  */
 ReadingLimits reading_limits(const std::string &path, FileContent content, double available);
 
-/// The same as text: "a file of 0.5 MB"
+/// The size of a file as text: "0.5 MB"
 std::string size_text(const std::string &path);
 
 } // namespace gestell::fem

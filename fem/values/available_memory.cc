@@ -37,10 +37,22 @@ double of_system()
   return infinite;
 }
 
+/// What the system keeps of files for the group, and gives back where memory is needed.
+double given_back()
+{
+  std::ifstream in("/sys/fs/cgroup/memory.stat");
+  double        sum = 0., value = 0.;
+  for (std::string key; in >> key >> value;)
+    if (key == "inactive_file" || key == "active_file" || key == "slab_reclaimable")
+      sum += value;
+  return sum;
+}
+
 double of_group()
 {
   const double allowed = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
-  return std::isfinite(allowed) && std::isfinite(used) ? std::max(0., allowed - used) : infinite;
+  return std::isfinite(allowed) && std::isfinite(used) ? std::max(0., allowed - std::max(0., used - given_back()))
+                                                       : infinite;
 }
 
 double of_process()

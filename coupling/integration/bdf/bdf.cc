@@ -234,6 +234,13 @@ void Bdf::advance()
 
 void Bdf::cut(double t)
 {
+  if (!(t > step_begin())) // the step is rejected: nothing of its end, which may be no number, counts
+  {
+    cut_point_ = past(n_past_ > 1 ? 1 : 0);
+    cut_       = true;
+    present(cut_point_);
+    return;
+  }
   interpolate(t, cut_point_.q, cut_point_.v);
   interpolate(t, base_);
   keep_held_rates(system_, base_.v);

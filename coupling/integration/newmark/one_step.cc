@@ -208,12 +208,17 @@ void OneStep::motion_at(double t, const std::vector<int> &coordinates, Eigen::Ve
 
 void OneStep::cut(double t)
 {
+  cut_ = true;
+  if (!(t > step_begin())) // the step is rejected: nothing of its end, which may be no number, counts
+  {
+    cut_point_ = stepped_ ? begin_ : end_;
+    return;
+  }
   Instant &here = cut_point_.motion;
   interpolate(t, here.q, here.v);
   interpolate(t, here.local);
   keep_held_rates(system_, here.local.v);
   here.t = t;
-  cut_   = true;
   if (system_.joints().n_rows() > 0) // multipliers as accurate as q and q': a limiter may look at them
     start_.solve(here.q, here.v, cut_point_.a, here.local, work_);
 }
