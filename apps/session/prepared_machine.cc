@@ -15,6 +15,7 @@
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/substructures/parts_recipe.h"
 #include "coupling/substructures/reduced_parts.h"
+#include "fem/values/available_memory.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -308,6 +309,42 @@ void add_poles(const Scene &scene, coupling::Machine &machine, const Eigen::Vect
     result.poles.resize(scene.modes.number);
 }
 
+/// Coordinates of a machine of which a run tells modes unasked: they take the cube of that number, a motion much less.
+constexpr int most_coordinates = 600;
+
+/// Dense matrices [n x n] that modes of n coordinates have at once: M, B, K, Z, those of the free motions, the modes,
+/// and the state [2n x 2n] with its vectors, twice as wide as they are complex.
+constexpr double matrices_of_modes = 24.;
+
+/// Why there are no modes; empty: there are.
+/// @throws std::invalid_argument if memory does not hold what they take
+std::string without_modes(const Scene &scene, const std::string &command, const coupling::Machine &machine)
+{
+  const int n = machine.size();
+  if (scene.modes.number == 0 && command == "modes")
+    throw std::invalid_argument(
+        "modes.number = 0 leaves out what `gestell modes` tells; give it --set modes.number=20");
+  if (scene.modes.number == 0)
+    return "not asked for";
+  if (command == "run" && n > most_coordinates)
+    return "of " + std::to_string(n) + " coordinates, more than " + std::to_string(most_coordinates) +
+           ", modes take longer than most runs (the cube of their number) and are left out of the report; `gestell "
+           "modes` tells them, modes.number = 0 leaves this note out";
+  fem::require_available("modes: dense matrices of " + std::to_string(n) + " coordinates",
+                         matrices_of_modes * 8. * n * n,
+                         "modes.number = 0 leaves modes out; give the machine fewer bodies.");
+  return "";
+}
+
+void add_modes(const Scene &scene, coupling::Machine &machine, const coupling::Linearisation &how, Result &result)
+{
+  const Eigen::VectorXd &q = result.modes_at;
+  result.frame_modes       = coupling::frame_modes(machine, scene.modes.number);
+  result.coupled_modes     = coupling::linearised_modes(machine, q, how, scene.modes.number);
+  if (!result.coupled_modes.empty())
+    result.energy_shares = coupling::energy_shares(machine, q, scene.modes.open, result.coupled_modes);
+}
+
 } // namespace
 
 Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
@@ -315,21 +352,19 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
 {
   coupling::Machine &small = prepared.small();
   Result             result;
-  result.scene         = scene.name;
-  result.description   = scene.description;
-  result.version       = version;
-  result.commit        = commit();
-  result.command       = command;
-  result.model         = model_facts(prepared);
-  result.model.damping = damping_text(scene.frame);
-  result.model.mesh    = mesh_text(scene.frame);
-  result.frame_modes   = coupling::frame_modes(small, scene.modes.number);
+  result.scene                          = scene.name;
+  result.description                    = scene.description;
+  result.version                        = version;
+  result.commit                         = commit();
+  result.command                        = command;
+  result.model                          = model_facts(prepared);
+  result.model.damping                  = damping_text(scene.frame);
+  result.model.mesh                     = mesh_text(scene.frame);
+  result.modes_at                       = modes_configuration(scene, small);
+  const std::string             without = without_modes(scene, command, small);
   const coupling::Linearisation how{scene.modes.open, geometric};
-  const Eigen::VectorXd         q = modes_configuration(scene, small);
-  result.coupled_modes            = coupling::linearised_modes(small, q, how, scene.modes.number);
-  if (!result.coupled_modes.empty())
-    result.energy_shares = coupling::energy_shares(small, q, scene.modes.open, result.coupled_modes);
-  result.modes_at = q;
+  if (without.empty())
+    add_modes(scene, small, how, result);
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
@@ -338,7 +373,10 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
-  add_poles(scene, small, q, how, result);
+  if (without.empty())
+    add_poles(scene, small, result.modes_at, how, result);
+  else if (scene.modes.number > 0)
+    result.warnings.push_back(without);
   result.scenery        = scenery_of(small);
   result.scenery.forces = forces_in_space(scene, small);
   for (const BodyRequest &body : scene.bodies)
