@@ -123,6 +123,13 @@ void bind_errors(py::module_ &module)
           else
             PyErr_SetString(input.ptr(), text.c_str());
         }
+        catch (const std::bad_alloc &)
+        {
+          PyErr_SetString(PyExc_MemoryError,
+                          "memory is at its end: take a coarser mesh (mesh.size), fewer modes (reduction.modes), a "
+                          "larger step of what is kept (output.step, output.picture_step, output.stress.step), or a "
+                          "machine with more memory");
+        }
         catch (const std::runtime_error &none)
         {
           PyErr_SetString(failed.ptr(), none.what());

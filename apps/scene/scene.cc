@@ -194,8 +194,8 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
   const SceneTable table = scene.table("modes").declared(modes_keys());
   modes.at               = read_optional_coordinates(table, "at", names, false, false, true);
   modes.number           = table.whole("number");
-  if (modes.number < 1)
-    throw table.error("number", "needs a number of modes of 1 or more");
+  if (modes.number < 0)
+    throw table.error("number", "needs a number of modes of 1 or more, or 0 for none");
   if (table.has("open"))
     modes.open = table.texts("open");
   std::vector<std::string> elements;

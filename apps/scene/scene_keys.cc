@@ -155,7 +155,11 @@ const std::vector<Key> &modes_keys()
                  "names of elements taken as open: play not closed, rope slack; what acts all the same, such as the "
                  "oil film of a rod, stays. An element that acts in every position is refused")
           .by_default("none"),
-      key::plain("number", Key::Form::whole, "how many").by_default(ModesRequest().number)};
+      key::plain(
+          "number", Key::Form::whole,
+          "how many; 0: none, so that a run tells its motion alone. Runs of more than 600 coordinates leave them "
+          "out by themselves, and say so")
+          .by_default(ModesRequest().number)};
   return keys;
 }
 

@@ -3,6 +3,7 @@
 #include "apps/session/option_value.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/periodic/trace_orbit.h"
+#include "fem/values/available_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,8 @@ namespace
 using Eigen::VectorXd;
 
 constexpr int    usual_points = 60, samples = 256;
-constexpr double excursions = 2.; ///< of the motions, that the plane reaches to either side
+constexpr double bytes_of_start = 8.; ///< the motion it settles to, and after how many periods
+constexpr double excursions     = 2.; ///< of the motions, that the plane reaches to either side
 
 /// A side of the plane, as it is typed.
 struct PlaneSide
@@ -131,6 +133,9 @@ void check_basins(const coupling::Machine &machine, const coupling::PeriodicProb
   if (request.basins.empty())
     return;
   sides_of(machine, request.basins);
+  fem::require_available("--basin-points " + std::to_string(request.basin_points) +
+                             ": the plane of that many starts a side",
+                         bytes_of_start * request.basin_points * double(request.basin_points), "Ask for fewer.");
   if (!request.along.empty())
     throw std::invalid_argument("--basins belong to one machine; with --along there are many: leave one of them out");
   if (coupling::has_joints(machine))

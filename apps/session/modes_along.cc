@@ -1,6 +1,7 @@
 #include "apps/session/modes_along.h"
 
 #include "apps/session/option_value.h"
+#include "fem/values/available_memory.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -60,7 +61,11 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
   coupling::AlongOptions          along;
   AlongResult                     result;
   set_range(coordinate, options, along);
-  along.positions          = options.positions;
+  along.positions = options.positions;
+  fem::require_available("--positions " + std::to_string(options.positions) + ": the modes at each",
+                         double(options.positions) * std::min(scene.modes.number, machine.size()) *
+                             (sizeof(coupling::Mode) + 8. * machine.size()),
+                         "Ask for fewer positions, or for fewer modes (modes.number).");
   along.configuration      = options.configuration == "undeformed" ? coupling::Configuration::undeformed
                                                                    : coupling::Configuration::equilibrium;
   along.lines              = scene.modes.number;

@@ -7,6 +7,7 @@
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/trace_orbit.h"
+#include "fem/values/available_memory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +18,12 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
-constexpr int    harmonics_told  = 10;    ///< of the drive
-constexpr double neutral         = 1e-9;  ///< distance of a multiplier from 1 that is none
-constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
-constexpr int    least_samples   = 4096;  ///< of a period, for extremes
+constexpr int    few_coordinates     = 3;     ///< up to which all solutions are looked for unasked
+constexpr int    harmonics_told      = 10;    ///< of the drive
+constexpr double neutral             = 1e-9;  ///< distance of a multiplier from 1 that is none
+constexpr double fine_steps          = 1e-11; ///< tolerance of the steps that trace a motion
+constexpr double samples_of_harmonic = 16.;   ///< of all measures, at most
+constexpr int    least_samples       = 4096;  ///< of a period, for extremes
 
 using coupling::PeriodicSolution;
 
@@ -141,10 +143,25 @@ void check_options(const PeriodicRequest &request, const std::string &method)
   }
 }
 
+namespace
+{
+
+/// Newton's matrix and its factor, [n x n] of n = n_u (2 H + 1) unknowns: the harmonics of all measures.
+void require_memory_of_harmonics(const coupling::Machine &machine, int harmonics)
+{
+  const double n = double(machine.forces().directions().cols()) * (2. * harmonics + 1.);
+  if (harmonics > 0)
+    fem::require_available("--harmonics " + std::to_string(harmonics) + ": the equations of all measures",
+                           2. * 8. * n * n + 8. * samples_of_harmonic * n, "Ask for fewer harmonics, or leave it out.");
+}
+
+} // namespace
+
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
                                            const coupling::Machine &machine)
 {
   coupling::PeriodicOptions options;
+  require_memory_of_harmonics(machine, request.harmonics);
   options.harmonics = request.harmonics;
   if (request.starts > 0)
     options.starts = request.starts;

@@ -15,6 +15,7 @@
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/substructures/parts_recipe.h"
 #include "coupling/substructures/reduced_parts.h"
+#include "fem/values/available_memory.h"
 #include "fem/values/mesh_phase.h"
 
 #include <algorithm>
@@ -372,6 +373,33 @@ void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coup
   result.warnings.push_back("no modes are told: " + why);
 }
 
+/// Coordinates of a machine of which a run tells modes unasked: they take the cube of that number, a motion much less.
+constexpr int most_coordinates = 600;
+
+/// Dense matrices [n x n] that modes of n coordinates have at once: M, B, K, Z, those of the free motions, the modes,
+/// and the state [2n x 2n] with its vectors, twice as wide as they are complex.
+constexpr double matrices_of_modes = 24.;
+
+/// Why there are no modes; empty: there are.
+/// @throws std::invalid_argument if memory does not hold what they take
+std::string without_modes(const Scene &scene, const std::string &command, const coupling::Machine &machine)
+{
+  const int n = machine.size();
+  if (scene.modes.number == 0 && command == "modes")
+    throw std::invalid_argument(
+        "modes.number = 0 leaves out what `gestell modes` tells; give it --set modes.number=20");
+  if (scene.modes.number == 0)
+    return "not asked for";
+  if (command == "run" && n > most_coordinates)
+    return "of " + std::to_string(n) + " coordinates, more than " + std::to_string(most_coordinates) +
+           ", modes take longer than most runs (the cube of their number) and are left out of the report; `gestell "
+           "modes` tells them, modes.number = 0 leaves this note out";
+  fem::require_available("modes: dense matrices of " + std::to_string(n) + " coordinates",
+                         matrices_of_modes * 8. * n * n,
+                         "modes.number = 0 leaves modes out; give the machine fewer bodies.");
+  return "";
+}
+
 } // namespace
 
 Result begin_result(const Scene &scene, const std::string &command, PreparedMachine &prepared,
@@ -379,28 +407,34 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
 {
   coupling::Machine &small = prepared.small();
   Result             result;
-  result.scene         = scene.name;
-  result.description   = scene.description;
-  result.version       = version;
-  result.commit        = commit();
-  result.command       = command;
-  result.model         = model_facts(prepared);
-  result.model.damping = damping_text(scene.frame);
-  result.model.mesh    = mesh_text(scene.frame);
-  result.frame_modes   = coupling::frame_modes(small, scene.modes.number);
+  result.scene              = scene.name;
+  result.description        = scene.description;
+  result.version            = version;
+  result.commit             = commit();
+  result.command            = command;
+  result.model              = model_facts(prepared);
+  result.model.damping      = damping_text(scene.frame);
+  result.model.mesh         = mesh_text(scene.frame);
+  const std::string without = without_modes(scene, command, small);
+  if (without.empty())
+    result.frame_modes = coupling::frame_modes(small, scene.modes.number);
   for (int i = 0; i < small.size(); ++i)
     result.coordinate_names.push_back(small.coordinate_name(i));
   result.warnings = prepared.warnings;
   const coupling::Linearisation how{scene.modes.open, geometric};
   if (command == "modes")
     add_modes(scene, small, modes_configuration(scene, small), how, result);
-  else
+  else if (without.empty())
     add_modes_beside(scene, small, how, result);
+  else
+    result.modes_at = modes_configuration(scene, small);
   for (const auto &warnings :
        {carried_warnings(scene, small.model()), idle_bodies(scene, small.model()), remote_joints(scene, small.model())})
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
+  if (!without.empty() && scene.modes.number > 0)
+    result.warnings.push_back(without);
   result.scenery        = scenery_of(small);
   result.scenery.forces = forces_in_space(scene, small);
   for (const BodyRequest &body : scene.bodies)

@@ -71,6 +71,17 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   }
 }
 
+/// What add_damping() finds without dampers.
+void leave_undamped(std::vector<Mode> &result)
+{
+  for (Mode &mode : result)
+  {
+    const bool vibrates      = mode.frequency_hz > 0.;
+    mode.damped_frequency_hz = vibrates ? mode.frequency_hz : 0.;
+    mode.damping_ratio       = vibrates ? 0. : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 /// Matrices [n x n] and loads M R [n x 3] of a unit acceleration; the effective mass of a mode v is (v . load)^2.
 struct ModalProblem
 {
@@ -96,7 +107,7 @@ std::vector<Mode> modes_of(const ModalProblem &problem, int n_modes)
       result[j].effective_mass[d] = std::pow(v.dot(loads.col(d)), 2);
   }
   if (damped && !result.empty())
-    add_damping(modes, B, result);
+    B.isZero(0.) ? leave_undamped(result) : add_damping(modes, B, result);
   return result;
 }
 
@@ -252,6 +263,16 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
   return found;
 }
 
+/// Some element feeds the machine, or has a virtual coordinate: others add nothing to its modes.
+bool may_have_drives(const Machine &machine)
+{
+  const auto &elements = machine.model().elements();
+  return !machine.linear().virtual_coordinates().empty() ||
+         std::any_of(elements.begin(), elements.end(),
+                     [](const ElementPlacement &placement)
+                     { return placement.element->work() == mechanism::Work::input; });
+}
+
 constexpr double slowest = 1.; ///< [rad/s] weight of motions without frequency in the state
 
 /// d/dt (Omega y, y', x) of motions V y and virtual coordinates x.
@@ -307,9 +328,11 @@ double Pole::damping_ratio() const
 std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double t,
                                   const Linearisation &linearisation)
 {
-  Linear            linear = linearised(machine, q, linearisation);
   std::vector<Pole> poles;
-  LocalState        local;
+  if (!may_have_drives(machine))
+    return poles;
+  Linear     linear = linearised(machine, q, linearisation);
+  LocalState local;
   local.resize(machine);
   machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
   const auto      &Z = linear.Z;

@@ -17,6 +17,7 @@
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/resumable_run.h"
 #include "coupling/simulation/run_method.h"
+#include "fem/values/available_memory.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 
@@ -55,6 +56,21 @@ void check_load_period(const Machine &machine, const RunOptions &options)
          " s, so that it would be missed; take at most a twentieth of it, ", period / 20., " s");
 }
 
+/// Of what a run keeps.
+struct KeptBytes
+{
+  double history, pictures, states;
+};
+
+KeptBytes kept_bytes(const Machine &machine, const RunOptions &options, std::size_t n_signals)
+{
+  const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.),
+               picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
+               state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.;
+  return {8. * columns * (length / output_step(options) + 1.), 32. * machine.size() * (length * picture_rate + 1.),
+          8. * machine.size() * (length * state_rate + 1.)};
+}
+
 void check_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {
   constexpr double most_pictures = 2e4;
@@ -62,12 +78,7 @@ void check_size(const Machine &machine, const RunOptions &options, std::size_t n
   if (!options.allow_large && count > most_pictures)
     refuse("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
            options.picture_step, " s, or say output.allow_large = true if that is what you want");
-  const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.);
-  const double history      = 8. * columns * (length / output_step(options) + 1.),
-               picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
-               state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.,
-               pictures     = 32. * machine.size() * (length * picture_rate + 1.),
-               states       = 8. * machine.size() * (length * state_rate + 1.);
+  const auto [history, pictures, states] = kept_bytes(machine, options, n_signals);
   if (!options.allow_large && states > most_bytes)
     refuse("the run would keep ", states / 1e9,
            " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",
@@ -397,6 +408,9 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
 {
   const NoTinyNumbers while_it_runs;
   check_run(machine, options, signals.size());
+  const auto [history, pictures, states] = kept_bytes(machine, options, signals.size());
+  fem::require_available("the rows of history, and states for pictures and stresses,", history + pictures + states,
+                         "Give output.step, output.picture_step or output.stress.step a larger value.");
   machine.will_read(signals);
   const MethodOptions method = with_largest_step(machine, options);
   RunResult           result;
