@@ -119,6 +119,7 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
   try
   {
     make_own_folder(fs::path(file).parent_path());
+    remove_abandoned(fs::path(file).parent_path().string());
     write_reduced_frame(file, frame, origin);
     fs::permissions(file, written_by_others, fs::perm_options::remove);
     return {};

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <filesystem>
 #include <random>
-#include <stdexcept>
 #include <unistd.h>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -25,41 +25,75 @@ std::string name_beside(const std::string &path)
       .string();
 }
 
-} // namespace
-
-WholeFile::WholeFile(const std::string &path) : path_(path), beside_(name_beside(path))
+/// unfinished-PROCESS-NUMBER: a file of a user may begin alike.
+bool is_unfinished(const std::string &name)
 {
-  errno = 0; // for the reason that finish() gives
-  out_.open(beside_, std::ios::binary | std::ios::trunc);
+  const std::string first  = unfinished;
+  const auto        bar    = name.find('-', first.size());
+  const auto        digits = [&](std::size_t begin, std::size_t end)
+  { return begin < end && name.find_first_not_of("0123456789", begin) >= end; };
+  return name.compare(0, first.size(), first) == 0 && bar != std::string::npos && digits(first.size(), bar) &&
+         digits(bar + 1, name.size());
 }
 
-WholeFile::~WholeFile()
+} // namespace
+
+WriteFailure::WriteFailure(const std::string &path, const std::error_code &reason)
+    : std::runtime_error(path + ": cannot be written (" + reason.message() +
+                         "); check the folder, its permissions and the space left, or name another folder")
+{
+}
+
+FileBeside::FileBeside(const std::string &path) : path_(path), beside_(name_beside(path)) {}
+
+FileBeside::~FileBeside()
 {
   std::error_code none;
   if (!beside_.empty())
     fs::remove(beside_, none);
 }
 
+void FileBeside::finish()
+{
+  std::error_code error;
+  fs::rename(beside_, path_, error);
+  if (error)
+    throw WriteFailure(path_, error);
+  beside_.clear();
+}
+
+WholeFile::WholeFile(const std::string &path) : file_(path)
+{
+  errno = 0; // for the reason that finish() gives
+  out_.open(file_.place(), std::ios::binary | std::ios::trunc);
+}
+
 void WholeFile::finish()
 {
   out_.close();
-  std::error_code error;
   if (!out_)
-    error = std::error_code(errno != 0 ? errno : EIO, std::generic_category());
-  else
-    fs::rename(beside_, path_, error);
-  if (error)
-    throw std::runtime_error(path_ + ": cannot be written (" + error.message() +
-                             "); check the folder, its permissions and the space left, or name another folder");
-  beside_.clear();
+    throw WriteFailure(file_.path(), std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
+  file_.finish();
 }
 
 bool abandoned(const std::string &path)
 {
   std::error_code error;
-  const auto      touched = fs::last_write_time(path, error);
-  return !error && fs::path(path).filename().string().rfind(unfinished, 0) == 0 &&
+  const bool      plain   = fs::symlink_status(path, error).type() == fs::file_type::regular;
+  const auto      touched = plain ? fs::last_write_time(path, error) : fs::file_time_type();
+  return plain && !error && is_unfinished(fs::path(path).filename().string()) &&
          touched < fs::file_time_type::clock::now() - writing;
+}
+
+void remove_abandoned(const std::string &folder)
+{
+  std::error_code       none;
+  std::vector<fs::path> old;
+  for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none))
+    if (abandoned(at->path().string()))
+      old.push_back(at->path());
+  for (const fs::path &path : old)
+    fs::remove(path, none);
 }
 
 } // namespace gestell::coupling

@@ -1,7 +1,7 @@
 #include "apps/output/exchange/mat_file.h"
 
+#include <cerrno>
 #include <stdexcept>
-#include <unistd.h>
 
 #ifdef GESTELL_MATIO
 #include <matio.h>
@@ -15,13 +15,18 @@ namespace gestell::apps
 namespace
 {
 
+[[noreturn]] void fail_matrices(const std::string &path)
+{
+  throw coupling::WriteFailure(path, std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
+}
+
 /// Takes the variable, whose numbers were copied by Mat_VarCreate().
 void write(void *file, matvar_t *variable, const std::string &path)
 {
   const bool written = variable && Mat_VarWrite(static_cast<mat_t *>(file), variable, MAT_COMPRESSION_NONE) == 0;
   Mat_VarFree(variable);
   if (!written)
-    throw std::runtime_error(path + ": cannot be written; is the disk full?");
+    fail_matrices(path);
 }
 
 matvar_t *text_variable(const std::string &text)
@@ -38,40 +43,32 @@ bool MatFile::available()
 }
 
 MatFile::MatFile(const std::filesystem::path &path, const std::string &title)
-    : path_(path.string()), beside_(path_ + ".unfinished-" + std::to_string(getpid())),
-      file_(Mat_CreateVer(beside_.c_str(), title.c_str(), MAT_FT_MAT5))
+    : place_(path.string()), file_((errno = 0, Mat_CreateVer(place_.place().c_str(), title.c_str(), MAT_FT_MAT5)))
 {
   if (!file_)
-    throw std::runtime_error(path_ + ": cannot be written; check folder and permissions");
+    fail_matrices(place_.path());
 }
 
 MatFile::~MatFile()
 {
-  if (!file_)
-    return;
-  Mat_Close(static_cast<mat_t *>(file_));
-  std::error_code error;
-  std::filesystem::remove(beside_, error);
+  if (file_)
+    Mat_Close(static_cast<mat_t *>(file_));
 }
 
 void MatFile::finish()
 {
-  std::error_code error;
-  const bool      closed = Mat_Close(static_cast<mat_t *>(file_)) == 0;
-  file_                  = nullptr;
-  if (closed)
-    std::filesystem::rename(beside_, path_, error);
-  if (closed && !error)
-    return;
-  std::filesystem::remove(beside_, error);
-  throw std::runtime_error(path_ + ": cannot be written; is the disk full?");
+  const bool closed = Mat_Close(static_cast<mat_t *>(file_)) == 0;
+  file_             = nullptr;
+  if (!closed)
+    fail_matrices(place_.path());
+  place_.finish();
 }
 
 void MatFile::add(const std::string &name, const Eigen::MatrixXd &matrix)
 {
   std::size_t size[] = {std::size_t(matrix.rows()), std::size_t(matrix.cols())};
   write(file_, Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, const_cast<double *>(matrix.data()), 0),
-        path_);
+        place_.path());
 }
 
 void MatFile::add(const std::string &name, const std::vector<std::string> &texts)
@@ -80,7 +77,7 @@ void MatFile::add(const std::string &name, const std::vector<std::string> &texts
   std::vector<matvar_t *> cells;
   for (const std::string &text : texts)
     cells.push_back(text_variable(text));
-  write(file_, Mat_VarCreate(name.c_str(), MAT_C_CELL, MAT_T_CELL, 2, size, cells.data(), 0), path_);
+  write(file_, Mat_VarCreate(name.c_str(), MAT_C_CELL, MAT_T_CELL, 2, size, cells.data(), 0), place_.path());
 }
 
 #else
@@ -90,7 +87,7 @@ bool MatFile::available()
   return false;
 }
 
-MatFile::MatFile(const std::filesystem::path &, const std::string &)
+MatFile::MatFile(const std::filesystem::path &path, const std::string &) : place_(path.string())
 {
   throw std::invalid_argument("--export mat: this build has no libmatio; install libmatio-dev and build again, or take "
                               "matrix-market");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "coupling/frame/whole_file.h"
+
 #include <Eigen/Core>
 
 #include <filesystem>
@@ -16,18 +18,18 @@ class MatFile
 public:
   static bool available(); ///< built with libmatio
 
-  /// @throws std::runtime_error if it cannot be written
+  /// @throws coupling::WriteFailure if it cannot be written, as the others
   MatFile(const std::filesystem::path &path, const std::string &title);
   ~MatFile();
   MatFile(const MatFile &) = delete;
 
   void add(const std::string &name, const Eigen::MatrixXd &matrix);
   void add(const std::string &name, const std::vector<std::string> &texts); ///< a column of cells
-  void finish();                                                            ///< @throws std::runtime_error
+  void finish();                                                            ///< @throws coupling::WriteFailure
 
 private:
-  std::string path_, beside_;
-  void       *file_ = nullptr;
+  coupling::FileBeside place_;
+  void                *file_ = nullptr;
 };
 
 } // namespace gestell::apps

@@ -1,9 +1,9 @@
 #include "apps/output/exchange/zip_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <stdexcept>
 
-#include <unistd.h>
 #ifdef GESTELL_MINIZIP
 #include <minizip/zip.h>
 #endif
@@ -20,7 +20,7 @@ constexpr std::size_t plain = 0xffffffff;           ///< size from which an entr
 
 [[noreturn]] void fail_archive(const std::string &path)
 {
-  throw std::runtime_error(path + ": cannot be written; is the disk full, or the folder not writable?");
+  throw coupling::WriteFailure(path, std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
 }
 
 } // namespace
@@ -31,19 +31,16 @@ bool ZipFile::available()
 }
 
 ZipFile::ZipFile(const std::filesystem::path &path)
-    : path_(path.string()), beside_(path_ + ".part" + std::to_string(getpid())),
-      zip_(zipOpen64(beside_.c_str(), APPEND_STATUS_CREATE))
+    : place_(path.string()), zip_((errno = 0, zipOpen64(place_.place().c_str(), APPEND_STATUS_CREATE)))
 {
   if (!zip_)
-    fail_archive(path_);
+    fail_archive(place_.path());
 }
 
 ZipFile::~ZipFile()
 {
   if (zip_)
     zipClose(zip_, nullptr);
-  std::error_code ignored;
-  std::filesystem::remove(beside_, ignored);
 }
 
 void ZipFile::add(const std::string &name, const std::string &bytes)
@@ -56,18 +53,16 @@ void ZipFile::add(const std::string &name, const std::string &bytes)
   for (std::size_t at = 0; written && at < bytes.size(); at += piece)
     written = zipWriteInFileInZip(zip_, bytes.data() + at, unsigned(std::min(piece, bytes.size() - at))) == ZIP_OK;
   if (!written || zipCloseFileInZip(zip_) != ZIP_OK)
-    fail_archive(path_);
+    fail_archive(place_.path());
 }
 
 void ZipFile::finish()
 {
   const bool closed = zipClose(zip_, nullptr) == ZIP_OK;
   zip_              = nullptr;
-  std::error_code failed;
-  if (closed)
-    std::filesystem::rename(beside_, path_, failed);
-  if (!closed || failed)
-    fail_archive(path_);
+  if (!closed)
+    fail_archive(place_.path());
+  place_.finish();
 }
 #else
 bool ZipFile::available()
@@ -75,7 +70,7 @@ bool ZipFile::available()
   return false;
 }
 
-ZipFile::ZipFile(const std::filesystem::path &)
+ZipFile::ZipFile(const std::filesystem::path &path) : place_(path.string())
 {
   throw std::runtime_error("this build has no minizip, which writes archives: install libminizip-dev and build again");
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "coupling/frame/whole_file.h"
+
 #include <filesystem>
 #include <string>
 
@@ -13,18 +15,18 @@ class ZipFile
 public:
   static bool available(); ///< built with minizip
 
-  /// @throws std::runtime_error if it cannot be written
+  /// @throws coupling::WriteFailure if it cannot be written
   explicit ZipFile(const std::filesystem::path &path);
   ~ZipFile(); ///< removes what was not finished
   ZipFile(const ZipFile &) = delete;
 
   /// @param name  "resources/scene.toml"
   void add(const std::string &name, const std::string &bytes);
-  void finish(); ///< @throws std::runtime_error
+  void finish(); ///< @throws coupling::WriteFailure
 
 private:
-  std::string path_, beside_;
-  void       *zip_ = nullptr;
+  coupling::FileBeside place_;
+  void                *zip_ = nullptr;
 };
 
 } // namespace gestell::apps

@@ -89,7 +89,7 @@ TEST_F(WholeFile, OnAFullDiskIsAnErrorWithPathAndReasonAndLeavesWhatStoodInItsPl
 
 TEST_F(WholeFile, OfAKilledProcessIsTakenForAbandonedAfterAnHour)
 {
-  const fs::path being_written = folder / "unfinished-1-2", of_a_user = folder / "notes.txt";
+  const fs::path being_written = folder / "unfinished-1-2", of_a_user = folder / "unfinished-thesis.txt";
   std::ofstream(being_written) << "x";
   std::ofstream(of_a_user) << "x";
   EXPECT_FALSE(coupling::abandoned(being_written.string()));
