@@ -1,5 +1,6 @@
 #include "apps/verify/case_run.h"
 
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/result_files.h"
 #include "apps/output/text/csv.h"
 #include "apps/scene/file/scene_file.h"
@@ -200,7 +201,7 @@ DataTable CaseRun::table(const std::string &name, const DataTable &expected) con
   for (const ResultFile &file : result_files())
   {
     names.push_back(file.name);
-    if (file.several && file.has_name(name))
+    if (file.several && has_form(name, file.name))
       for (const auto &[one, text] : file.several(result_))
         if (one == name)
           return table_of(name, text);
