@@ -10,6 +10,7 @@
 #include "mechanism/elements/regularised_friction.h"
 #include "mechanism/elements/rope.h"
 #include "mechanism/elements/speed_drive.h"
+#include "mechanism/elements/wheel.h"
 #include "mechanism/functions/profile.h"
 #include "tests/support/prescribed_path.h"
 #include "tests/support/refusal.h"
@@ -158,6 +159,25 @@ TEST(Rope, PullsAndNeverPushes)
   EXPECT_GT(past(rope, 0, probe1(3e-3, -0.21), history.data()), 0.);
   EXPECT_LT(past(rope, 0, probe1(3e-3, -0.19), history.data()), 0.);
   EXPECT_EQ(rope.stored_energy(probe1(1e-3, 0.).motion(), history.data()), 0.);
+}
+
+// --- wheel
+
+TEST(Wheel, TouchesDownWhereItsTyreIsPressedAndPushes)
+{
+  const Wheel     wheel({1e5, 200.});
+  Eigen::VectorXd history = started(wheel, probe1(1e-3, -1.));
+  EXPECT_EQ(force(wheel, probe1(1e-3, -1.), history.data())[0], 0.);
+  EXPECT_EQ(force(wheel, probe1(-1e-3, 0.), history.data())[0], 100.);
+  EXPECT_EQ(force(wheel, probe1(-1e-3, 0.6), history.data())[0], 0.); // -20 N of the damper would pull
+  EXPECT_LT(past(wheel, 0, probe1(1e-4, -1.), history.data()), 0.) << "above the ground";
+  EXPECT_GT(past(wheel, 0, probe1(-1e-4, -1.), history.data()), 0.);
+  EXPECT_LT(past(wheel, 0, probe1(-1e-3, 0.6), history.data()), 0.) << "it rises faster than the tyre";
+  EXPECT_GT(past(wheel, 0, probe1(-1e-3, 0.4), history.data()), 0.);
+  wheel.transition(0, probe1(0., -1.).motion(true), history.data());
+  EXPECT_EQ(wheel.guards(history.data())[0].kind, "lift_off");
+  EXPECT_GT(past(wheel, 0, probe1(-1e-3, 0.6), history.data()), 0.) << "before the tyre is unloaded";
+  EXPECT_LT(past(wheel, 0, probe1(-1e-3, 0.4), history.data()), 0.);
 }
 
 // --- contact after Hertz
