@@ -117,7 +117,7 @@ std::vector<double> hann_amplitudes(std::vector<double> samples)
   transform.fwd(lines, samples);
   std::vector<double> amplitudes;
   for (std::size_t k = 0; k <= n / 2; ++k)
-    amplitudes.push_back(2. / sum * std::abs(lines[k]));
+    amplitudes.push_back((2 * k == n ? 1. : 2.) / sum * std::abs(lines[k])); // half the rate is its own mirror image
   return amplitudes;
 }
 

@@ -11,7 +11,9 @@ namespace gestell::apps
 
 /// Amplitudes of a sum of cosines, in a window after Hann:
 ///
-///     A(k) = 2 / sum(w) |sum_j w_j (y_j - mean) exp(-2 pi i j k / n)|,   k = 0 .. n / 2.
+///     A(k) = 2 / sum(w) |sum_j w_j (y_j - mean) exp(-2 pi i j k / n)|,   k = 0 .. n / 2,
+///
+/// and half of it at k = n / 2, half the rate of the samples, where lines from below and above are one.
 ///
 /// @param samples  at equal distances; fast where their number has no large prime factor
 std::vector<double> hann_amplitudes(std::vector<double> samples);

@@ -23,6 +23,17 @@ TEST(Spectra, OfACosineIsItsAmplitudeAndHalfOfItBeside)
   EXPECT_NEAR(a[100], 0., 1e-12);
 }
 
+/// At half the rate of samples lines from above and below are one.
+TEST(Spectra, OfWhatTurnsItsSignFromRowToRowAreItsAmplitude)
+{
+  std::vector<double> y;
+  for (int j = 0; j < 1024; ++j)
+    y.push_back(j % 2 == 0 ? 3. : -3.);
+  const std::vector<double> a = hann_amplitudes(y);
+  EXPECT_NEAR(a[512], 3., 1e-12);
+  EXPECT_NEAR(a[510], 0., 1e-12);
+}
+
 /// Rows at unequal distances, two at an event: sampled anew on their straight lines.
 TEST(Spectra, FindAFrequencyInAHistoryWithEvents)
 {

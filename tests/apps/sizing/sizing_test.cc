@@ -103,6 +103,24 @@ TEST(ErrorBudget, IsNearTheTrueErrorOfStepsAndModes)
   }
 }
 
+/// Joints leave no exact method: half the step tells 3/4 of an error of second order, and the budget the whole of it.
+TEST(ErrorBudget, OfStepsAloneIsTheErrorThatTheirOrderTells)
+{
+  const auto with = [](const std::string &method)
+  {
+    return "gravity = [0, 0, -10]\n" + planar_body("bar", "2 kg", "0.1 kg m^2", "[0, 0, '-0.5 m']") +
+           revolute("pin", "ground", "bar", "[0, 0, 0]") + start("q = { 'bar.angle' = 1 }") +
+           "[output.signals]\nphi = 'bar.angle'\n[run]\nend = 0.5\n" + method;
+  };
+  const Read steps(with("method = 'bdf'\norder = 2\nstep = 1e-3\n")),
+      fine(with("method = 'bdf'\nstep = 0.05\ntolerance = 1e-11\n"));
+  const auto        outputs = of_scene(steps.scene, "phi.final");
+  const ErrorBudget budget  = budget_of(steps.scene, outputs);
+  const double      error   = std::abs(budget.entries.at(0).value - answer_of(fine.scene, {}, outputs).values.at(0));
+  EXPECT_EQ(budget.entries[0].time.reason, "against half the step");
+  EXPECT_NEAR(*budget.entries[0].time.error, error, 0.03 * error) << "but for what is of third order";
+}
+
 /// Modes count against the coordinates of frame and mechanism together, also where the frame has but one.
 TEST(ErrorBudget, OfASuperpositionCountsTheModesLeftOut)
 {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace gestell::tests
 {
@@ -61,6 +63,55 @@ TEST(EventDetection, TimesAreExactToTheFourthOrderOfTheCubic)
   const double coarse = worst_error(0.1), fine = worst_error(0.05);
   EXPECT_LT(coarse, 1e-6); // h^4/384 max|u''''| / |u'| = 3e-7
   EXPECT_GT(std::log2(coarse / fine), 3.);
+}
+
+/// With one guard that is any function of the state and rises.
+class WatchedSystem final : public SmallSystem
+{
+public:
+  explicit WatchedSystem(std::function<double(const LocalState &)> guard_function)
+      : SmallSystem(watched_oscillator(0.)), function(std::move(guard_function))
+  {
+  }
+  int           n_guards() const override { return transitions == 0 ? 1 : 0; }
+  void          guard_values(const LocalState &state, Vector &g) const override { g[0] = function(state); }
+  GuardCrossing crossing(int) const override { return GuardCrossing::rising; }
+
+  std::function<double(const LocalState &)> function;
+};
+
+/// u = t^3, with a force, an acceleration and a multiplier that grow along lines.
+LocalState cubic_at(double t)
+{
+  LocalState state = at(t);
+  state.u[0]       = t * t * t;
+  state.v[0]       = 3. * t * t;
+  state.a[0]       = 6. * t;
+  state.p          = Eigen::VectorXd::Constant(1, 5. - 4. * t);
+  state.lambda     = Eigen::VectorXd::Constant(1, 2. + 7. * t);
+  return state;
+}
+
+TEST(EventDetection, OfACubicMotionWithLinearForcesHasNoError)
+{
+  // Whatever of a state a guard looks at is found between the instants as it is there, in a step of any length.
+  const double                                                             t = 1.31, begin = 0.4, end = 2.;
+  const std::pair<const char *, std::function<double(const LocalState &)>> guards[] = {
+      {"displacement", [&](const LocalState &state) { return state.u[0] - t * t * t; }},
+      {"rate", [&](const LocalState &state) { return state.v[0] - 3. * t * t; }},
+      {"acceleration", [&](const LocalState &state) { return state.a[0] - 6. * t; }},
+      {"force", [&](const LocalState &state) { return 5. - 4. * t - state.p[0]; }},
+      {"multiplier", [&](const LocalState &state) { return state.lambda[0] - 2. - 7. * t; }}};
+  for (const auto &[what, guard] : guards)
+  {
+    WatchedSystem      system(guard);
+    EventDetection     detection(system);
+    std::vector<Event> events;
+    detection.begin(cubic_at(begin));
+    detection.step(cubic_at(begin), cubic_at(end), events);
+    ASSERT_EQ(events.size(), 1u) << what;
+    EXPECT_NEAR(events[0].t, t, 1e-11 * (end - begin)) << what << ": located to 1e-12 of the step";
+  }
 }
 
 TEST(EventDetection, TakesTheTransitionsOfOneStepInTheirOrder)

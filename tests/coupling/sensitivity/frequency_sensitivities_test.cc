@@ -1,10 +1,12 @@
 // Derivatives of natural frequencies by eigenvectors.
 
 #include "coupling/sensitivity/frequency_sensitivities.h"
+#include "tests/support/linear_joint.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 namespace
 {
@@ -63,6 +65,44 @@ TEST(FrequencySensitivities, OfTwoMassesAreThoseOfTheClosedFormula)
       const double slope = (frequency(above, sign) - frequency(below, sign)) / (2. * way);
       EXPECT_NEAR(found(mode, k), slope, 1e-6 * frequency(x, sign) / x[k]) << mode << ' ' << k;
     }
+}
+
+/// ground - c - m_1, which a gear of the ratio n joins to m_2: x_2 = n x_1; x = (m_1, m_2, c, n)
+Machine geared(const VectorXd &x)
+{
+  MachineModel model;
+  const int    a = model.add_slider("a", {1., 0., 0.}, x[0], "ground");
+  const int    b = model.add_slider("b", {1., 0., 0.}, x[1], "ground");
+  model.add_linear("spring", {{a, 1.}}, {x[2], 0., 0., 0.}, "N");
+  model.attach("gear", std::make_shared<gestell::tests::LinearJoint>(std::vector<double>{x[3], -1.}),
+               {{{a, 1.}}, {{b, 1.}}});
+  return Machine(std::move(model));
+}
+
+// omega^2 = c / (m_1 + n^2 m_2); the ratio of the gear turns its joint and nothing else.
+TEST(FrequencySensitivities, SeeWhatAParameterMakesOfAJoint)
+{
+  const VectorXd                 x = (VectorXd(4) << 3., 1.5, 4000., 0.7).finished();
+  const std::vector<std::string> open;
+  const VectorXd                 rest    = VectorXd::Zero(2);
+  const Machine                  machine = geared(x);
+  const auto                     modes   = linearised_modes(machine, rest, {}, 1);
+  const double                   mass = x[0] + x[3] * x[3] * x[1], f = std::sqrt(x[2] / mass) / (2. * M_PI);
+  ASSERT_EQ(modes.size(), 1u);
+  ASSERT_NEAR(modes[0].frequency_hz, f, 1e-12 * f);
+  const VectorXd slope =
+      f * (VectorXd(4) << -0.5 / mass, -0.5 * x[3] * x[3] / mass, 0.5 / x[2], -x[3] * x[1] / mass).finished();
+  for (int k = 0; k < 4; ++k)
+  {
+    const double step  = 1e-6 * x[k];
+    VectorXd     below = x, above = x;
+    below[k] -= step;
+    above[k] += step;
+    const Machine         minus = geared(below), plus = geared(above);
+    const Eigen::MatrixXd found =
+        frequency_sensitivities({&machine, rest, &open}, modes, {{{&minus, rest, &open}, {&plus, rest, &open}, step}});
+    EXPECT_NEAR(found(0, 0), slope[k], 1e-8 * std::abs(slope[k])) << k; // rounding of a quotient
+  }
 }
 
 } // namespace

@@ -184,6 +184,32 @@ TEST(Bolts, TellTheForceThatBendsThem)
   EXPECT_NEAR(force(both.matrices, "joint.flange.my", q), 100. * part_length, 1e-6);
 }
 
+TEST(JointDampers, ActAsTheSpringsBesideThemDoAtTheRateInPlaceOfTheWay)
+{
+  // Dampers of a time constant times the stiffness: the force of rates v is that of the deflection times it.
+  constexpr double   tau = 2e-4;
+  std::vector<Piece> bars{bar("base", average, rigid), bar("arm", rigid, average, part_length)};
+  FrameJoint         flange       = weld("flange", {"base", "front"}, {"arm", "rear"});
+  flange.kind                     = JointKind::bolts;
+  flange.bolts.stiffness          = {3e8, 1e8, 2e8};
+  flange.bolts.rotational         = {1e6, 2e6, 3e6};
+  flange.bolts.damping            = tau * flange.bolts.stiffness;
+  flange.bolts.rotational_damping = tau * flange.bolts.rotational;
+  const auto   bolted             = joined(bars, described(bars, {flange}), 2).matrices;
+  const auto   column             = column_between();
+  FrameOfParts tied               = tightened(column, 0.);
+  tied.joints[2].rod.damping      = tau * 210e9 * M_PI / 4. * 0.03 * 0.03 / part_length;
+  const auto     rod              = joined(column, tied, 2).matrices;
+  const VectorXd rod_on_q         = output(rod, "joint.rod.force").on_q;
+  EXPECT_LT((output(rod, "joint.rod.force").on_v - tau * rod_on_q).norm(), 1e-12 * tau * rod_on_q.norm());
+  for (const std::string name : {"fx", "fy", "fz", "mx", "my", "mz"})
+  {
+    const fem::FrameOutput &row = output(bolted, "joint.flange." + name);
+    ASSERT_GT(row.on_q.norm(), 0.) << name;
+    EXPECT_LT((row.on_v - tau * row.on_q).norm(), 1e-9 * tau * row.on_q.norm()) << name;
+  }
+}
+
 std::string refused(const std::vector<Piece> &pieces, const FrameOfParts &frame)
 {
   return refusal([&] { joined(pieces, frame, 2); });
