@@ -78,6 +78,24 @@ Eigen::VectorXd foundation_row(const SupportedPatch &supported, int d, Vector3 S
   return row;
 }
 
+/// The rows of foundations that belong to displacements a clamp holds, summed.
+Eigen::VectorXd held_foundations_row(const std::vector<SupportedPatch> &supports, Vector3 Support::*totals,
+                                     const std::vector<char> &held)
+{
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(held.size());
+  for (const auto &[support, patch] : supports)
+    if (support.kind == SupportKind::foundation)
+    {
+      const Eigen::Matrix3d per_area = directed(support, totals) / patch.area;
+      for (int column = 0; column < patch.S.outerSize(); ++column)
+        for (Eigen::SparseMatrix<double>::InnerIterator entry(patch.S, column); entry; ++entry)
+          for (int d = 0; d < 3; ++d)
+            if (held[3 * patch.nodes[entry.row()] + d])
+              row.segment<3>(3 * patch.nodes[column]) += entry.value() * per_area.col(d);
+    }
+  return row;
+}
+
 void require_orthonormal(const Support &support)
 {
   Eigen::Matrix3d A;
@@ -181,6 +199,8 @@ std::vector<FrameOutput> support_forces(const std::vector<SupportedPatch> &suppo
           }
         output.on_q = affine.gather(clamped_row(counted, C));
         output.on_v = rayleigh_stiffness * output.on_q;
+        output.on_q += affine.gather(held_foundations_row(supports, &Support::stiffness, counted));
+        output.on_v += affine.gather(held_foundations_row(supports, &Support::damping, counted));
       }
       outputs.push_back(std::move(output));
     }

@@ -43,8 +43,9 @@ BlockMatrix assemble_foundations(const std::vector<SupportedPatch> &supports, Ve
  * Forces of supports on the frame, "support.NAME.x", ".y", ".z" [N]; a foot pressed down gives z > 0.
  *
  * Foundation:  -K/A int u dA - D/A int u' dA,  K = sum_d k_d a_d a_d^T  and D alike.
- * Clamped:      sum over held nodes of the row of C for direction d, and beta times it of damping after Rayleigh;
- *               less their weight, so that at rest the supports carry all of the frame.  Their inertia M u'', which
+ * Clamped:      sum over held nodes of the row of C for direction d, and beta times it of damping after Rayleigh; with
+ *               what foundations that share nodes with it push them by; less their weight, so that at rest the supports
+ *               carry all of the frame.  Their inertia M u'', which
  *               moves only with the elements at the clamp, is not contained, nor alpha M u'.  Damping by modal ratios
  *               has no force on a support.  A node of several supports counts for the first.
  *

@@ -78,6 +78,30 @@ TEST(Clamp, CarriesTheWeightOfTheNodesItHoldsToo)
   }
 }
 
+TEST(Clamp, AnswersWhatAFoundationPushesTheNodesTheyShareToo)
+{
+  // A wall holds the edge of the feet: their springs and dampers act on its nodes as well, and all balance the load.
+  auto specification     = bar_on_springs();
+  specification.supports = {clamped("wall", {"x0"}), foundation("feet", {"z0"}, {{2e8, 3e8, 4e8}}, {{2e3, 3e3, 4e3}})};
+  specification.interfaces    = {};
+  const auto            frame = discretise(bar_mesh(), specification);
+  const Eigen::Vector3d g     = {1., -2., -9.81};
+  const Eigen::VectorXd q     = statics(frame, frame.acceleration_load * g);
+  const Eigen::VectorXd rates = q; // what dampers do to any rates is balanced by the free nodes' alone
+  for (int d = 0; d < 3; ++d)
+  {
+    double force = 0., damping = 0.;
+    for (const std::string support : {"wall", "feet"})
+    {
+      const auto &one = output(frame, "support." + support + "." + "xyz"[d]);
+      force += one.on_q.dot(q) + one.under_acceleration.dot(g);
+      damping += one.on_v.dot(rates);
+    }
+    EXPECT_NEAR(force, -frame.mass * g[d], 1e-9 * frame.mass * 9.81) << d;
+    EXPECT_NEAR(damping, -frame.translations.col(d).dot(frame.B * rates), 1e-9 * std::abs(damping)) << d;
+  }
+}
+
 TEST(Rayleigh, DampsInProportionToMassAndStiffnessOfTheMaterial)
 {
   auto damped                = bar_on_springs();
