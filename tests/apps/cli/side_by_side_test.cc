@@ -62,7 +62,7 @@ namespace
 Answer beside_a_stopped_one(const Folder &folder, const std::string &second, const std::string &signal)
 {
   const std::string lock = "'" + (folder.results() / ".lock").string() + "'";
-  return gestell("run " + press + folder.option() + ">/dev/null & p=$!; while ! [ -s " + lock +
+  return gestell("run " + press + "--set run.end=0.3 " + folder.option() + ">/dev/null & p=$!; while ! [ -s " + lock +
                  " ]; do sleep 0.005; done; kill -STOP $p; '" GESTELL_BINARY_DIR "/bin/gestell' " + second +
                  "; echo \"second: $?, first is $p\"; kill -" + signal + " $p; wait $p");
 }
