@@ -64,7 +64,7 @@ std::string timeless(const std::string &name, const std::string &text)
   return text;
 }
 
-void remove_all(const fs::path &folder)
+void clear(const fs::path &folder)
 {
   std::error_code none;
   fs::remove_all(folder, none);
@@ -96,7 +96,7 @@ struct Trial
   }
   Contents undisturbed(const std::string &more = "") const
   {
-    remove_all(folder);
+    clear(folder);
     fs::create_directories(folder);
     const Answer answer = call(more);
     EXPECT_EQ(answer.exit_code, 0) << one.name << ": " << answer.text;
@@ -169,7 +169,7 @@ bool fail_at(const Trial &trial, long call, bool full, const Contents &before, c
   if (const std::string path = elsewhere(answer); !path.empty())
   {
     expect_part(path, right, where + "elsewhere: ");
-    remove_all(path);
+    clear(path);
   }
   return true;
 }
@@ -265,7 +265,7 @@ int fail_writes(const DiskCases &cases, int per_case)
     const Trial    trial{cases, one};
     const Contents right = trial.undisturbed();
     reset_calls(cases);
-    remove_all(trial.folder);
+    clear(trial.folder);
     fs::create_directories(trial.folder);
     EXPECT_EQ(trial.call("", failing(trial, 0, false)).exit_code, 0);
     const long n       = calls(cases);
@@ -275,7 +275,7 @@ int fail_writes(const DiskCases &cases, int per_case)
     {
       const Contents before = contents(trial.results);
       if (one.name == "reduce" || i % 3 == 0) // into a new folder, too
-        remove_all(trial.folder), fs::create_directories(trial.folder);
+        clear(trial.folder), fs::create_directories(trial.folder);
       noticed += fail_at(trial, 1 + (i * n) / per_case, i % 2 == 1, before, right);
       const Answer again = trial.again();
       EXPECT_EQ(again.exit_code, 0) << one.name << ' ' << i << ": " << again.text;
@@ -302,7 +302,7 @@ int kill_often(const DiskCases &cases, int per_case, unsigned seed)
     int                                    met = 0, resumed = 0;
     for (int i = 0; i < per_case; ++i)
     {
-      remove_all(trial.folder);
+      clear(trial.folder);
       fs::create_directories(trial.folder);
       met += killed(cases.command(one, trial.results), instants(random));
       const bool   goes_on = !one.resume.empty() && fs::exists(trial.results / one.known);

@@ -24,6 +24,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
+using apps::OwnFolder;
 using apps::Result;
 using apps::Session;
 using Eigen::Vector3d;
@@ -137,7 +138,8 @@ TEST_P(ForcesOnBodies, WithWeightAreMassTimesAcceleration)
   Session                  session(shipped(given.scene + ".toml"), given.overrides);
   const Result             result = session.run();
   std::vector<std::string> files;
-  write_force_files(folder, result, files);
+  OwnFolder own(folder);
+  write_force_files(own, result, files);
   ASSERT_GT(files.size(), 10u);
   ASSERT_EQ(files.size(), result.run->picture_times.size() + 1); // and forces.pvd
   const auto  smooth = smooth_pictures(result);
@@ -211,7 +213,8 @@ TEST_P(ForcesOnTheFrame, AreWhatItsMassesSpringsAndDampersAnswer)
   Session                  session(shipped(given.scene + ".toml"), given.overrides);
   const Result             result = session.run();
   std::vector<std::string> files;
-  write_force_files(folder, result, files);
+  OwnFolder own(folder);
+  write_force_files(own, result, files);
   const auto  smooth = smooth_pictures(result);
   const auto &scene  = session.scene();
   for (const char *name : {"frame.crown", "frame.table"})
