@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -44,6 +46,15 @@ fs::path plugin_of(const fs::path &file, const char *library)
   return {};
 }
 
+std::mutex loaded_changes;
+
+/// Names of the files of plugins that this process has loaded.
+std::set<std::string> &loaded()
+{
+  static std::set<std::string> names;
+  return names;
+}
+
 } // namespace
 
 fs::path find_plugin(const char *library)
@@ -62,13 +73,15 @@ void *load_plugin(const fs::path &file)
   if (!handle)
     throw std::invalid_argument("plugin: " + file.string() + " cannot be loaded: " + dlerror() +
                                 "; install the libraries it names");
+  const std::lock_guard<std::mutex> alone(loaded_changes);
+  loaded().insert(file.filename().string());
   return handle;
 }
 
 bool plugin_is_loaded(const char *library)
 {
-  const fs::path file = find_plugin(library);
-  return !file.empty() && dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
+  const std::lock_guard<std::mutex> alone(loaded_changes);
+  return loaded().count(library) > 0;
 }
 
 void *function_of_plugin(void *plugin, const char *name, const char *library)

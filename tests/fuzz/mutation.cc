@@ -153,6 +153,10 @@ std::vector<std::string> seeds_of(const std::string &target, const std::string &
 {
   const std::string        place = source_folder + "/tests/fuzz/seeds/" + target;
   std::vector<std::string> seeds;
+  if (target == "any_matrix")
+    for (const char *kind : {"matrix_market", "petsc", "dmig", "calculix", "substructure", "harwell_boeing"})
+      for (const auto &[name, content] : files_in(source_folder + "/tests/fuzz/seeds/" + kind))
+        seeds.push_back(content);
   for (const auto &[name, content] : files_in(place))
     seeds.push_back(content);
   std::istringstream lines(content_of(place + ".txt"));

@@ -37,8 +37,8 @@ void read_whole_scene(const std::string &bytes)
 
 void read_an_override(const std::string &bytes)
 {
-  static const SceneNode base = parse_toml_text("[parameters]\nm = \"2 kg\"\nc = \"3 kN/m\"\n[body.mass]\n"
-                                                "type = \"slider\"\nmass = \"m\"\naxis = [1, 0, 0]\n"
+  static const SceneNode base = parse_toml_text("[parameters]\nload = \"2 kg\"\nc = \"3 kN/m\"\n[body.mass]\n"
+                                                "type = \"slider\"\nmass = \"load\"\naxis = [1, 0, 0]\n"
                                                 "[element.spring]\ntype = \"spring-damper\"\nfrom = \"mass\"\n"
                                                 "to = \"ground\"\nstiffness = \"c\"\n[run]\nmethod = \"bdf\"\n"
                                                 "step = \"1 ms\"\nend = \"1 s\"\n[output.signals]\n"

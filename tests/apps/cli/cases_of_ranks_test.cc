@@ -96,7 +96,7 @@ TEST(CasesOfRanks, OfStudiesAreRefusedToo)
 {
   const Cases       cases(2);
   const std::string study =
-      "[scene]\nfile = 'case.toml'\n[variables.step]\nkey = 'run.step'\nfrom = '0.1 ms'\nto = '1 ms'\n"
+      "[scene]\nfile = 'case.toml'\n[variables.h_run]\nkey = 'run.step'\nfrom = '0.1 ms'\nto = '1 ms'\n"
       "[outputs]\nx = 'signals.x.max'\n[design]\ntype = 'Sobol'\nruns = 4\n";
   for (const char *file : {"in0/s0.toml", "in1/s1.toml", "in0/both.toml"})
     cases.folder.file(file, study);

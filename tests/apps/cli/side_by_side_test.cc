@@ -64,9 +64,11 @@ namespace
 Answer beside_a_stopped_one(const Folder &folder, const std::string &second, const std::string &signal)
 {
   const std::string lock = "'" + (folder.results() / ".gestell-lock").string() + "'";
-  return gestell("run " + long_press + folder.option() + ">/dev/null & p=$!; while kill -0 $p 2>/dev/null && ! [ -s " +
-                 lock + " ]; do sleep 0.005; done; kill -STOP $p; '" GESTELL_BINARY_DIR "/bin/gestell' " + second +
-                 "; echo \"second: $?, first is $p\"; kill -" + signal + " $p; wait $p");
+  return shell("(GESTELL_CACHE='" GESTELL_BINARY_DIR "/tests/cache' '" GESTELL_BINARY_DIR "/bin/gestell' run " +
+               long_press + folder.option() + ">/dev/null & p=$!; while kill -0 $p 2>/dev/null && ! [ -s " + lock +
+               " ]; do sleep 0.005; done; kill -STOP $p; '" GESTELL_BINARY_DIR "/bin/gestell' " + second +
+               "; echo \"second: $?, first is $p\"; kill -" + signal +
+               " $p; wait $p)"); // the brackets for its error output, too
 }
 
 } // namespace

@@ -9,22 +9,30 @@ namespace
 
 const std::string modes = "modes " + scene("press_minimal.toml");
 
+/// With redirections that are those of the program alone, not of what this test hears.
+Answer redirected(const std::string &arguments)
+{
+  return shell("(GESTELL_CACHE='" GESTELL_BINARY_DIR "/tests/cache' '" GESTELL_BINARY_DIR "/bin/gestell' " + arguments +
+               ")");
+}
+
 TEST(StandardOutput, ThatIsFullIsAnErrorAndResultsAreThere)
 {
   const Folder folder("full_output");
-  expect_answer(gestell(modes + folder.option() + ">/dev/full"), 3, {"standard output: cannot be written (No space"});
+  expect_answer(redirected(modes + folder.option() + ">/dev/full"), 3,
+                {"standard output: cannot be written (No space"});
   EXPECT_TRUE(std::filesystem::exists(folder.results() / "summary.json"));
-  expect_answer(gestell("help run.step >/dev/full"), 3, {"standard output"});
-  expect_answer(gestell(modes + " --json" + folder.option() + ">/dev/full"), 3, {"standard output"});
+  expect_answer(redirected("help run.step >/dev/full"), 3, {"standard output"});
+  expect_answer(redirected(modes + " --json" + folder.option() + ">/dev/full"), 3, {"standard output"});
 }
 
 // The first file that is opened would get its number.
 TEST(StandardOutput, ThatIsClosedDoesNotGoIntoAFile)
 {
   const Folder folder("closed_output"), open("open_output");
-  EXPECT_EQ(gestell(modes + folder.option() + ">&-").exit_code, 3);
-  EXPECT_EQ(gestell(modes + folder.option() + "2>&- >/dev/null").exit_code, 0);
-  EXPECT_EQ(gestell(modes + open.option()).exit_code, 0);
+  EXPECT_EQ(redirected(modes + folder.option() + ">&-").exit_code, 3);
+  EXPECT_EQ(redirected(modes + folder.option() + "2>&- >/dev/null").exit_code, 0);
+  EXPECT_EQ(redirected(modes + open.option()).exit_code, 0);
   EXPECT_EQ(read(folder.results() / "modes.csv"), read(open.results() / "modes.csv"));
 }
 

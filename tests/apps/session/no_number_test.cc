@@ -65,14 +65,15 @@ void expect_end_before(double t, const std::string &text)
       coupling::RunOptions options = scene.run.options;
       options.method               = method;
       options.energy               = energy;
+      options.force_unstable       = true;
       coupling::Machine machine    = apps::build_machine(scene);
       const auto        found      = apps::scene_signals(scene, machine);
       const auto        run        = coupling::simulate(machine, apps::initial_state(scene, machine), options, found);
       EXPECT_NE(run.failure, "");
       EXPECT_TRUE(all_finite(run.rows));
-      ASSERT_GE(run.rows.size(), 2 * run.columns.size());
+      ASSERT_GE(run.rows.size(), run.columns.size()); // a first long step may fail
       const double last = run.rows[run.rows.size() - run.columns.size()];
-      EXPECT_LE(last, t);
+      EXPECT_LE(last, t + 1e-4); // errors of phase at steps of 1 ms
       for (const coupling::SignalSummary &signal : run.signals)
         EXPECT_TRUE(all_finite({signal.min, signal.t_min, signal.max, signal.t_max, signal.final})) << signal.name;
     }
