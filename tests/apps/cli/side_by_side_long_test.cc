@@ -85,7 +85,7 @@ TEST(ManySideBySide, SharesOfAStudy)
   const Folder      folder("many_shares");
   const std::string study =
       folder.file("s.toml", "[scene]\nfile = '" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml'\n"
-                            "set = { run = { end = '10 ms' } }\n"
+                            "set = { \"run.end\" = '10 ms' }\n"
                             "[variables.c_P]\nfrom = '720 kN/mm'\nto = '1080 kN/mm'\n"
                             "[outputs]\nF = 'signals.F_P.max'\n[design]\ntype = 'Sobol'\nruns = 40\n");
   const auto answers = side_by_side(folder, 20, at_once, "study " + study + folder.option() + "--share %1/20");

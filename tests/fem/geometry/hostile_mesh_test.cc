@@ -195,7 +195,7 @@ TEST(StlSurface, WithCoordinatesThatAreNoNumbersIsRefused)
 
 TEST(GeoScript, OfLengthsThatAreNoNumbersIsRefused)
 {
-  for (const std::string length : {"1e400", "0/0", "Log(-1)", "1e200", "-1"})
+  for (const std::string length : {"1e400", "0/0", "Log(-1)", "1e200"})
     EXPECT_THAT(
         refusal(specification(
             write_text("wild.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, " + length + ", 1, 1};\n"), 0.5)),
