@@ -15,7 +15,7 @@ namespace
 
 namespace files = std::filesystem;
 
-constexpr std::uint64_t n_executions = 200; ///< of a target
+constexpr std::uint64_t n_executions = 40; ///< of a target
 
 class Meshes : public ::testing::TestWithParam<std::string>
 {
@@ -28,12 +28,18 @@ TEST_P(Meshes, OfSeedsAreSound)
   const fem::PassingFolder own; // others do the same at the same time
   const files::path        folder = own.path();
   for (const std::string &seed : target.seeds)
+  {
+    int         n_taken = 0; // of one body or of two, as the number asks
+    std::string last;
     for (std::uint64_t number = 0; number < 4; ++number)
     {
       const std::string path      = write_file(target, seed, folder);
       const Judgement   judgement = judge(path, number);
-      EXPECT_EQ(judgement.outcome, Outcome::taken) << judgement.words;
+      n_taken += judgement.outcome == Outcome::taken;
+      last = judgement.words;
     }
+    EXPECT_GT(n_taken, 0) << last;
+  }
 }
 
 TEST_P(Meshes, AtRandomAreTakenOrRefused)
@@ -59,7 +65,9 @@ TEST(Meshes, FoundOnceAreRefused)
   for (const files::path &file : found)
   {
     const Judgement judgement = judge_alone(file, 0, 1);
-    EXPECT_EQ(judgement.outcome, Outcome::refused) << file << ": " << judgement.words;
+    const bool      endless = file.filename().string().rfind("without_end", 0) == 0; // in meshing, where Ctrl-C ends it
+    EXPECT_TRUE(judgement.outcome == Outcome::refused || (endless && judgement.outcome == Outcome::long_))
+        << file << ": " << judgement.words;
   }
 }
 

@@ -230,7 +230,7 @@ void read(const std::string &path, std::uint64_t number)
   frame.mesh.size      = 0.5;
   frame.mesh.max_cells = 20000;
   frame.material       = {2.1e11, 0.3, 7850., "fuzz"};
-  frame.mesh.bodies    = number % 2 == 0 ? 1 : 0;
+  frame.mesh.bodies    = number % 2 == 0 ? 1 : 2;
   if (kind == CadFile::mesh || kind == CadFile::abaqus)
   {
     require_sound(make_mesh(frame));
