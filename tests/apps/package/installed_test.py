@@ -109,8 +109,8 @@ class Prefix(Tree):
 
 class DebianPackage(Tree):
     def test_runs_unpacked(self):
-        called("cpack", "--config", BUILD / "CPackConfig.cmake", "-G", "DEB", "-B", self.folder / "packed",
-                      folder=self.folder)
+        called("cpack", "--config", BUILD / "CPackConfig.cmake", "-G", "DEB", "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip",
+               "-B", self.folder / "packed", folder=self.folder)
         package, = (self.folder / "packed").glob("gestell_*.deb")
         begin = time.monotonic()
         called("dpkg-deb", "-x", package, self.folder / "root", folder=self.folder)

@@ -15,7 +15,7 @@ namespace
 
 namespace files = std::filesystem;
 
-constexpr std::uint64_t n_executions = 40; ///< of a target
+constexpr std::uint64_t n_executions = 16; ///< of a target
 
 class Meshes : public ::testing::TestWithParam<std::string>
 {
