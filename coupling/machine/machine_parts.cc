@@ -141,6 +141,7 @@ void MachineParts::finish()
   add_watches();
   place_elements(n);
   place_switches();
+  known_signals = signals();
 }
 
 void MachineParts::assemble_dense(int n)

@@ -146,7 +146,7 @@ struct MachineParts
   std::vector<Load>                   loads;
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
-  std::map<std::string, Signal>       superposed_signals;     ///< of a machine in modes: all there are
+  std::map<std::string, Signal>       known_signals;          ///< of an assembled machine: all there are, by path
   Eigen::VectorXd                     superposed_frequencies; ///< [m] rad/s; empty: it is not in modes
 
   // finished

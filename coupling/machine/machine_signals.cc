@@ -233,7 +233,7 @@ private:
 
 std::map<std::string, Signal> MachineParts::signals() const
 {
-  return superposed_signals.empty() ? SignalList(*this).all() : superposed_signals;
+  return known_signals.empty() ? SignalList(*this).all() : known_signals;
 }
 
 std::vector<std::string> MachineModel::signal_paths() const
@@ -249,7 +249,8 @@ Signal MachineParts::signal(const std::string &path) const
   const bool        minus    = !path.empty() && path[0] == '-';
   const auto        begin    = minus ? path.find_first_not_of("- ") : 0;
   const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" alone names nothing
-  const auto        known    = signals();
+  const auto        made     = known_signals.empty() ? signals() : std::map<std::string, Signal>();
+  const auto       &known    = known_signals.empty() ? made : known_signals;
   const auto        found    = known.find(positive);
   if (found == known.end())
   {

@@ -111,7 +111,7 @@ std::unique_ptr<MachineParts> MachineParts::in_modes(const ModalCoordinates &mod
   for (ElementPlacement &placement : other->elements)
     placement.measures = coupling::in_modes(placement.measures, V);
   for (auto &[path, signal] : signals())
-    other->superposed_signals.emplace(path, coupling::in_modes(signal, V));
+    other->known_signals.emplace(path, coupling::in_modes(signal, V));
   other->switch_requests = switch_requests;
   for (PlacedSwitch own : switches)
   {

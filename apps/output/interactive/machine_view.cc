@@ -94,9 +94,16 @@ double round_enlargement(double x)
   return digit >= 0. ? std::round(x / std::pow(10., digit)) * std::pow(10., digit) : std::round(10. * x) / 10.;
 }
 
+/// Of many parts fewer instants, so that the page stays light.
+std::size_t instants_of(std::size_t n_parts)
+{
+  constexpr std::size_t fewest = 24;
+  return n_parts <= most_instants ? most_instants : std::max(fewest, most_instants * most_instants / n_parts);
+}
+
 Json motion_json(const SeenMachine &machine, const Result &result)
 {
-  const SeenInstants            seen = seen_instants(result, most_instants);
+  const SeenInstants            seen = seen_instants(result, instants_of(machine.parts().size()));
   const std::vector<float>      times(seen.times.begin(), seen.times.end());
   const std::vector<PartMotion> motions = machine.motion(seen.states);
   double                        most    = 0.;

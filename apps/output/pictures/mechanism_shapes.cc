@@ -19,6 +19,20 @@ constexpr double rod_breadth = 0.08; ///< of its length
 constexpr double plate_radius = 0.012, bar_radius = 0.005, point_radius = 0.02, bar_of_body = 0.01;
 constexpr double pin_radius = 0.6; ///< of that of a plate
 
+/// Roundness of what is drawn: of many bodies each has fewer corners, so that pictures and page stay light.
+struct Roundness
+{
+  int sphere = 8, bar = 12; ///< bands from pole to pole; corners
+
+  explicit Roundness(std::size_t n_drawn)
+  {
+    if (n_drawn > 300)
+      sphere = 2, bar = 4;
+    else if (n_drawn > 60)
+      sphere = 4, bar = 6;
+  }
+};
+
 Vector3d vector(const std::array<double, 3> &x)
 {
   return {x[0], x[1], x[2]};
@@ -160,7 +174,8 @@ Eigen::Matrix3d rotation(const coupling::Body &body, const Eigen::VectorXd &q)
 }
 
 /// A planar body, a rigid one or a point; `number` counts them.
-Shape free_shape(const coupling::Body &body, int number, double machine_size, const Eigen::VectorXd &q)
+Shape free_shape(const coupling::Body &body, int number, double machine_size, const Roundness &roundness,
+                 const Eigen::VectorXd &q)
 {
   const bool            planar = body.kind == coupling::BodyKind::planar;
   const Vector3d        centre = vector(body.position), moved = translation(body.marker, q);
@@ -181,11 +196,11 @@ Shape free_shape(const coupling::Body &body, int number, double machine_size, co
     add_plate(shape, corners, vector(body.axis), radius, radius * (1. - 0.08 * (number % 6)));
   }
   else if (body.kind == coupling::BodyKind::point || body.radius > 0. || body.points.empty())
-    add_sphere(shape, centre, radius);
+    add_sphere(shape, centre, radius, roundness.sphere);
   if (body.kind == coupling::BodyKind::rigid)
     for (const auto &x : body.points)
       if (const Vector3d arm = vector(x) - centre; arm.norm() > 1e-6 * machine_size)
-        add_bar(shape, centre, centre + arm, bar_of_body * machine_size);
+        add_bar(shape, centre, centre + arm, bar_of_body * machine_size, roundness.bar);
   for (Vector3d &x : shape.points)
     x = centre + moved + turned * (x - centre);
   shape.displacement.assign(shape.points.size(), Vector3d::Zero());
@@ -228,7 +243,8 @@ const DrawnPart *part_of(const Scenery &scenery, const std::string &body)
   return part != scenery.parts.end() ? &*part : nullptr;
 }
 
-Shape bar_shape(const coupling::DrawnBar &bar, double radius, const Split &split, const Eigen::VectorXd &q)
+Shape bar_shape(const coupling::DrawnBar &bar, double radius, int n_corners, const Split &split,
+                const Eigen::VectorXd &q)
 {
   const Vector3d from = position(bar.from, split.bodies), to = position(bar.to, split.bodies), way = to - from;
   const Vector3d at_from = position(bar.from, q) - from, at_to = position(bar.to, q) - to;
@@ -237,7 +253,7 @@ Shape bar_shape(const coupling::DrawnBar &bar, double radius, const Split &split
   shape.name = bar.name;
   if (!(way.norm() > 0.))
     return shape;
-  add_bar(shape, from, to, radius);
+  add_bar(shape, from, to, radius, n_corners);
   for (const Vector3d &x : shape.points)
     shape.displacement.push_back(at_from + (x - from).dot(way) / way.squaredNorm() * (at_to - at_from));
   return shape;
@@ -263,13 +279,14 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
   using coupling::BodyKind;
   const double       size = scenery.size();
   const Split        split(scenery, q);
+  const Roundness    roundness(scenery.bodies.size() + scenery.bars.size());
   int                n_free = 0;
   std::vector<Shape> shapes;
   for (const coupling::Body &body : scenery.bodies)
     if (const DrawnPart *part = part_of(scenery, body.name))
       shapes.push_back(part_shape(scenery, *part, body, q));
     else if (body.kind == BodyKind::point || body.kind == BodyKind::planar || body.kind == BodyKind::rigid)
-      shapes.push_back(free_shape(body, n_free++, size, q));
+      shapes.push_back(free_shape(body, n_free++, size, roundness, q));
     else if (body.kind == BodyKind::rotor && body.radius > 0.)
       shapes.push_back(rotor_shape(scenery, body, q));
     else if (body.kind == BodyKind::slider && vector(body.size).minCoeff() > 0.)
@@ -281,7 +298,7 @@ std::vector<Shape> mechanism_shapes(const Scenery &scenery, const Eigen::VectorX
       shapes.push_back(rod_shape(scenery, rod, *crank, *slider, q));
   }
   for (const coupling::DrawnBar &bar : scenery.bars)
-    shapes.push_back(bar_shape(bar, bar_radius * size, split, q));
+    shapes.push_back(bar_shape(bar, bar_radius * size, roundness.bar, split, q));
   if (!scenery.pins.empty())
     shapes.push_back(pins_shape(scenery, plate_radius * size, split, q));
   return shapes;

@@ -16,9 +16,7 @@ using Eigen::Vector3d;
 
 constexpr double pi       = 3.14159265358979323846;
 constexpr int    n_rim    = 36; ///< corners of a disc
-constexpr int    n_bar    = 12; ///< of a bar
 constexpr int    n_corner = 24; ///< of a full circle around a corner of a plate
-constexpr int    n_rings  = 8;  ///< of a sphere from pole to pole
 
 Vector3d on_circle(const Vector3d &e1, const Vector3d &e2, int i, int n)
 {
@@ -105,16 +103,16 @@ void add_disc(Shape &shape, const Vector3d &centre, const Vector3d &e1, const Ve
   add_prism(shape, rim, half_width * axis);
 }
 
-void add_bar(Shape &shape, const Vector3d &a, const Vector3d &b, double radius)
+void add_bar(Shape &shape, const Vector3d &a, const Vector3d &b, double radius, int n_corners)
 {
   const Vector3d        half = 0.5 * (b - a), along = half.normalized(), e1 = across(along, Vector3d::UnitZ());
   std::vector<Vector3d> rim;
-  for (int i = 0; i < n_bar; ++i)
-    rim.push_back(a + half + radius * on_circle(e1, along.cross(e1), i, n_bar));
+  for (int i = 0; i < n_corners; ++i)
+    rim.push_back(a + half + radius * on_circle(e1, along.cross(e1), i, n_corners));
   add_prism(shape, rim, half);
 }
 
-void add_sphere(Shape &shape, const Vector3d &centre, double radius)
+void add_sphere(Shape &shape, const Vector3d &centre, double radius, int n_rings)
 {
   const int first = static_cast<int>(shape.points.size()), n = 2 * n_rings;
   for (int j = 1; j < n_rings; ++j) // from the lower pole up

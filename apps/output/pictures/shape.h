@@ -33,10 +33,11 @@ void add_prism(Shape &shape, const std::vector<Eigen::Vector3d> &outline, const 
 void add_disc(Shape &shape, const Eigen::Vector3d &centre, const Eigen::Vector3d &e1, const Eigen::Vector3d &axis,
               double radius, double half_width);
 
-/// Adds a round bar from a to b, which are apart.
-void add_bar(Shape &shape, const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radius);
+/// Adds a round bar from a to b, which are apart, of so many corners.
+void add_bar(Shape &shape, const Eigen::Vector3d &a, const Eigen::Vector3d &b, double radius, int n_corners = 12);
 
-void add_sphere(Shape &shape, const Eigen::Vector3d &centre, double radius);
+/// Adds a sphere of n_rings >= 2 bands from pole to pole: 2 n_rings (n_rings - 1) + 2 points.
+void add_sphere(Shape &shape, const Eigen::Vector3d &centre, double radius, int n_rings = 8);
 
 /// Adds a plate with round corners: all that lies within `radius` of the convex hull of the points, seen along the unit
 /// vector n, and along n from the lowest point to the highest and `half_width` beyond both.
