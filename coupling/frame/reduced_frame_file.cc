@@ -3,6 +3,8 @@
 #include "coupling/frame/hdf5_file.h"
 #include "coupling/frame/reduced_stress_file.h"
 #include "coupling/frame/sealed_file.h"
+#include "fem/process/child.h"
+#include "fem/values/available_memory.h"
 
 #include <array>
 #include <cmath>
@@ -334,10 +336,17 @@ FrameSummary read_frame_summary(const std::string &name)
   }
 }
 
-StoredFrame read_stored_frame(const std::string &name)
+namespace
+{
+
+void require_sealed(const std::string &name)
 {
   if (const std::string defect = seal_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
+}
+
+StoredFrame read_content(const std::string &name)
+{
   const Hdf5File file(name);
   StoredFrame    stored;
   stored.origin = read_origin(file);
@@ -347,6 +356,31 @@ StoredFrame read_stored_frame(const std::string &name)
   return stored;
 }
 
+/// HDF5 follows the addresses of a file wherever they lead, and who forges a file can forge its seal: what it dies of is
+/// a message, as the file is read in a child before it is read here.
+void try_in_child(const std::string &name)
+{
+  const fem::ChildTask task{name,       name + ": not a whole reduced frame",
+                            "reading",  fem::reading_limits(name, fem::FileContent::geometry, fem::available_memory()),
+                            true,       "HDF5",
+                            "make it anew with `gestell reduce`"};
+  if (!fem::in_one_process())
+    fem::bytes_from_child(task, {},
+                          [&](const fem::ChildProgress &)
+                          {
+                            read_content(name);
+                            return std::string();
+                          });
+}
+
+} // namespace
+
+StoredFrame read_stored_frame(const std::string &name)
+{
+  require_sealed(name);
+  return read_content(name);
+}
+
 ReducedFrame read_reduced_frame(const std::string &file)
 {
   std::error_code error;
@@ -354,7 +388,9 @@ ReducedFrame read_reduced_frame(const std::string &file)
     throw std::invalid_argument(file + ": no such file; make it with `gestell reduce`");
   try
   {
-    return read_stored_frame(file).frame;
+    require_sealed(file);
+    try_in_child(file);
+    return read_content(file).frame;
   }
   catch (const std::runtime_error &failure)
   {

@@ -278,7 +278,7 @@ private:
 
   std::string way_out() const
   {
-    return reads() ? "the file is probably damaged: export the model again, or in another format"
+    return reads() ? task_.way_out
                    : "choose another mesh.size, or repair the geometry in the CAD program";
   }
 
@@ -311,7 +311,7 @@ private:
         : WIFSIGNALED(status)
             ? "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" + ::strsignal(WTERMSIG(status)) + ")"
             : "ended the process (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
-    return "gmsh " + how + " (" + phase_ + ")" + last_words() + "; " + way_out() + ".";
+    return task_.library + " " + how + " (" + phase_ + ")" + last_words() + "; " + way_out() + ".";
   }
 
   /// The last line that the child wrote to its standard error.

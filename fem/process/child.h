@@ -20,6 +20,8 @@ struct ChildTask
   std::string   phase;        ///< that reads: the first; once another is told of, the limits are lifted
   ReadingLimits limits;       ///< of reading
   bool          alone = true; ///< false: no child, see in_one_process()
+  std::string   library = "gmsh"; ///< that reads, for messages
+  std::string   way_out = "the file is probably damaged: export the model again, or in another format"; ///< of reading
 };
 
 /// Whether the environment's GESTELL_ONE_PROCESS is set (not to 0): for debuggers, and where processes are scarce.

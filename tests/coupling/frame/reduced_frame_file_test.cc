@@ -1,13 +1,17 @@
 #include "coupling/frame/reduced_frame_file.h"
 
+#include "coupling/frame/sha256.h"
 #include "tests/support/frame_folder.h"
 #include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace gestell
 {
@@ -132,6 +136,53 @@ TEST_F(ReducedFrameFile, DamagedFilesAreRefused)
   }
   std::ofstream(file) << "[frame]\n";
   EXPECT_THROW(coupling::read_reduced_frame(file), std::invalid_argument);
+}
+
+/// The seal of whoever forged it.
+std::string sealed_anew(const std::string &bytes)
+{
+  constexpr std::size_t head = 512, digits = 64;
+  const std::size_t     at   = bytes.find("sha256 ") + 7;
+  return bytes.substr(0, at) + coupling::Sha256().update(bytes.substr(head)).hexadecimal() + bytes.substr(at + digits);
+}
+
+/// Places of 8 bytes that may be an address within the file.
+std::vector<std::size_t> addresses_in(const std::string &bytes)
+{
+  std::vector<std::size_t> places;
+  for (std::size_t at = 512; at + 8 <= bytes.size(); at += 8)
+  {
+    std::uint64_t value;
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    if (value >= 96 && value < bytes.size())
+      places.push_back(at);
+  }
+  return places;
+}
+
+TEST_F(ReducedFrameFile, ForgedAddressesAreAMessageWhateverTheLibraryDoes)
+{
+  coupling::write_reduced_frame(file, some_frame());
+  const std::string              whole  = bytes(file);
+  const std::vector<std::size_t> places = addresses_in(whole);
+  ASSERT_GT(places.size(), 100u);
+  int refused = 0;
+  for (std::size_t i = 0; i < places.size(); i += places.size() / 12)
+    for (const std::uint64_t address : {std::uint64_t(8), std::uint64_t(whole.size() - 4), std::uint64_t(1) << 40})
+    {
+      std::string forged = whole;
+      std::memcpy(forged.data() + places[i], &address, sizeof address);
+      std::ofstream(file, std::ios::binary) << sealed_anew(forged);
+      try
+      {
+        coupling::read_reduced_frame(file); // names and times are addresses by chance only
+      }
+      catch (const std::invalid_argument &)
+      {
+        ++refused;
+      }
+    }
+  EXPECT_GT(refused, 10);
 }
 
 TEST_F(ReducedFrameFile, PartsThatDoNotFitAreRefused)
