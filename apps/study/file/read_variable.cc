@@ -39,6 +39,7 @@ void read_words(const SceneNode &levels, VariableRequest &request)
     request.variable.words.push_back(word);
     request.variable.levels.push_back(double(request.variable.words.size()) - 1.);
   }
+  request.folder        = levels.folder;
   request.variable.from = 0.;
   request.variable.to   = double(request.variable.words.size()) - 1.;
 }

@@ -32,6 +32,7 @@ SceneNode value_node(const VariableRequest &request, double level)
     return request.choices.at(std::size_t(std::lround(level)));
   SceneNode node;
   node.place.file = request.place;
+  node.folder     = request.folder;
   node.text       = request.text(level);
   node.type       = SceneNode::Type::text;
   if (node.text == "true" || node.text == "false")

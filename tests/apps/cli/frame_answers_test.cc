@@ -207,6 +207,20 @@ TEST_F(FrameAnswers, AScriptThatRunsProgramsIsRefusedUnlessItIsTrusted)
   EXPECT_TRUE(std::filesystem::exists(did));
 }
 
+TEST_F(FrameAnswers, AStudyGoesOnWithoutTheRunsWhoseDrawingKillsItsReader)
+{
+  expect_answer(gestell("new frame '" + (folder_ / "table.toml").string() + "'"), 0, {"written: "});
+  const std::string study = folder_.file(
+      "s.toml", "[scene]\nfile = 'table.toml'\nset = { 'run.end' = '2 ms', 'frame.mesh.size' = '200 mm' }\n"
+                "[variables.drawing]\nkey = 'frame.cad'\nlevels = ['table.geo', '" GESTELL_SOURCE_DIR
+                "/tests/fuzz/mesh/found/segmentation_fault.step']\n"
+                "[outputs]\nu = 'signals.u_z.min'\n[design]\ntype = 'full factorial'\n");
+  expect_answer(gestell("study " + study + folder_.option()), 0, {"2 runs made, 1 failed"});
+  const std::string rows = read(folder_.results() / "runs.csv");
+  EXPECT_EQ(count(rows, ",done,"), 1) << rows;
+  EXPECT_EQ(count(rows, "gmsh was ended by signal"), 1) << rows;
+}
+
 TEST_F(FrameAnswers, AConvergenceKeepsTheRowsOfItsMeshes)
 {
   const Answer answer = ask("modes", block(support), " --converge 1e-4 --max-coordinates 6000");
