@@ -2,9 +2,14 @@
 
 #include "apps/cli/command.h"
 #include "apps/cli/json_answer.h"
+#include "apps/output/folder_lock.h"
 #include "fem/values/mesh_phase.h"
+#include "fem/values/passing_folder.h"
+
+#include <sys/wait.h>
 
 #include <csignal>
+#include <cstring>
 #include <ctime>
 #include <unistd.h>
 
@@ -26,13 +31,31 @@ double seconds_since_first()
          1e-9 * static_cast<double>(now.tv_nsec - first_time.tv_nsec);
 }
 
-// Only what is safe in a signal handler: an atomic, clock_gettime, write, _exit, signal, raise.
+std::atomic<const char *> leaving{nullptr}; ///< for a shell: remove the lock, empty folders and temporary files
+
+/// Nobody unwinds the stack of a computation that hears nothing.
+void leave_nothing()
+{
+  const char *const words = leaving;
+  const pid_t       shell = words == nullptr ? -1 : _Fork();
+  if (shell == 0)
+  {
+    close(STDERR_FILENO);
+    execl("/bin/sh", "sh", "-c", words, static_cast<char *>(nullptr));
+    _exit(127);
+  }
+  if (shell > 0)
+    waitpid(shell, nullptr, 0);
+}
+
+// Only what is safe in a signal handler: an atomic, clock_gettime, write, _Fork, execl, waitpid, _exit, signal, raise.
 extern "C" void note_interruption(int signal_number)
 {
   if (nothing_to_save)
   {
     constexpr char              message[] = "\ngestell: interrupted; nothing was computed yet that could be saved\n";
     [[maybe_unused]] const auto written   = write(STDERR_FILENO, message, sizeof message - 1);
+    leave_nothing();
     _exit(exit_interrupted);
   }
   if (!interrupted.exchange(true))
@@ -66,10 +89,16 @@ const std::atomic<bool> &interruption()
   return interrupted;
 }
 
+void note_what_is_left()
+{
+  leaving = strdup((words_of_release() + fem::words_of_removal()).c_str()); // never freed: a signal may be reading
+}
+
 coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress)
 {
   const bool plain = !answers_in_json(); // of which there is a document in any case
-  nothing_to_save  = plain;
+  note_what_is_left();
+  nothing_to_save = plain;
   return [phase, progress, plain, before = true](const std::string &now, double share) mutable
   {
     before          = before && now != phase;

@@ -12,6 +12,9 @@ namespace gestell::apps
 /// ends the program at once.
 const std::atomic<bool> &interruption();
 
+/// Notes what the process would leave behind if a signal ended it now: locks of folders and temporary files.
+void note_what_is_left();
+
 /// What `progress` hears, until a phase of this name begins: before, there is nothing to save, and an interruption ends
 /// the program at once, with exit code 130, however long what is under way would take.
 coupling::Progress nothing_to_save_before(const std::string &phase, const coupling::Progress &progress);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/cli/command.h"
+#include "apps/cli/interruption.h"
 #include "apps/output/folder_lock.h"
 #include "apps/output/result_folder.h"
 #include "apps/scene/values/requests.h"
@@ -26,6 +27,7 @@ public:
   /// @throws std::invalid_argument as require_writable() and FolderLock
   explicit HeldFolder(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
   {
+    note_what_is_left();
     if (!lock_.note().empty())
       std::cerr << "gestell: warning: " << lock_.note() << '\n';
   }

@@ -19,6 +19,19 @@ namespace gestell::apps
 namespace
 {
 
+/// Of the archive; a host may have threads that a child would not get.
+coupling::ReducedFrame frame_at_hand(const Scene &scene)
+{
+  try
+  {
+    return coupling::read_stored_frame(scene.frame.reduced_file).frame;
+  }
+  catch (const std::runtime_error &failure)
+  {
+    throw std::invalid_argument(scene.frame.reduced_file + ": " + failure.what() + "; export the FMU again");
+  }
+}
+
 coupling::Machine machine_at_hand(const Scene &scene)
 {
   switch (frame_path(scene))
@@ -27,7 +40,7 @@ coupling::Machine machine_at_hand(const Scene &scene)
   case FramePath::dense:
     return build_machine(scene);
   case FramePath::from_file:
-    return build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
+    return build_machine(scene, frame_at_hand(scene));
   default:
     throw std::invalid_argument(scene.file + ": its frame is still to be reduced; export the FMU again");
   }

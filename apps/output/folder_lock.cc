@@ -1,11 +1,13 @@
 #include "apps/output/folder_lock.h"
 
+#include "fem/values/passing_folder.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <map>
 #include <mutex>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <sys/stat.h>
@@ -27,17 +29,30 @@ public:
   bool add(const fs::path &folder)
   {
     const std::lock_guard<std::mutex> while_changed(mutex_);
-    return folders_.insert(folder).second;
+    return releases_.emplace(folder, "").second;
+  }
+  void set_release(const fs::path &folder, const std::string &words)
+  {
+    const std::lock_guard<std::mutex> while_changed(mutex_);
+    releases_[folder] = words;
+  }
+  std::string release()
+  {
+    const std::lock_guard<std::mutex> while_changed(mutex_);
+    std::string                       words;
+    for (const auto &entry : releases_)
+      words += entry.second;
+    return words;
   }
   void remove(const fs::path &folder)
   {
     const std::lock_guard<std::mutex> while_changed(mutex_);
-    folders_.erase(folder);
+    releases_.erase(folder);
   }
 
 private:
-  std::mutex         mutex_;
-  std::set<fs::path> folders_;
+  std::mutex                      mutex_;
+  std::map<fs::path, std::string> releases_; ///< words for a shell, by folder
 };
 
 OwnLocks &own_locks()
@@ -105,6 +120,7 @@ FolderLock::FolderLock(const fs::path &folder, Kind kind, const std::string &doi
   try
   {
     take(doing, way_out);
+    own_locks().set_release(folder_, release());
   }
   catch (...)
   {
@@ -120,6 +136,21 @@ FolderLock::~FolderLock()
   if (file_ >= 0 && kind_ == Kind::alone)
     unlink(path_.c_str());
   give_up();
+}
+
+std::string FolderLock::release() const
+{
+  if (file_ < 0 || kind_ != Kind::alone)
+    return "";
+  std::string words = "rm -f -- " + fem::shell_word(path_.string()) + "; ";
+  std::for_each(made_.rbegin(), made_.rend(),
+                [&](const fs::path &folder) { words += "rmdir -- " + fem::shell_word(folder.string()) + "; "; });
+  return words;
+}
+
+std::string words_of_release()
+{
+  return own_locks().release();
 }
 
 /// Folders go if nothing is in them: rmdir takes no others.

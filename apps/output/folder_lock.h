@@ -9,8 +9,9 @@ namespace gestell::apps
 
 /**
  * Holds a folder of results while it lives, so that no other process writes there at the same time: a lock of the
- * operating system on the file `.gestell-lock` in it, which ends with the process, however that ends.  The file names process,
- * computer and what they do; it goes with the lock, and so do folders that the lock made and nothing was put into.
+ * operating system on the file `.gestell-lock` in it, which ends with the process, however that ends.  The file names
+ * process, computer and what they do; it goes with the lock, and so do folders that the lock made and nothing was put
+ * into.
  *
  * On file systems without locks nothing is held: note() says so.
  */
@@ -38,10 +39,11 @@ public:
   const std::string &note() const { return note_; }
 
 private:
-  bool open_file();
-  bool is_still_there() const;
-  void take(const std::string &doing, const std::string &way_out);
-  void give_up();
+  bool        open_file();
+  bool        is_still_there() const;
+  void        take(const std::string &doing, const std::string &way_out);
+  void        give_up();
+  std::string release() const;
 
   std::filesystem::path              told_, folder_, path_; ///< the folder as it was given, whole, and its file
   Kind                               kind_;
@@ -50,5 +52,9 @@ private:
   std::string                        note_;
   int                                file_ = -1; ///< -1: nothing is held
 };
+
+/// Words for a shell that remove what the locks of this process would: for a process that ends without their
+/// destructors.
+std::string words_of_release();
 
 } // namespace gestell::apps

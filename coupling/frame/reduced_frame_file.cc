@@ -3,8 +3,7 @@
 #include "coupling/frame/hdf5_file.h"
 #include "coupling/frame/reduced_stress_file.h"
 #include "coupling/frame/sealed_file.h"
-#include "fem/process/child.h"
-#include "fem/values/available_memory.h"
+#include "coupling/frame/tried_file.h"
 
 #include <array>
 #include <cmath>
@@ -311,7 +310,8 @@ void write_reduced_frame(const std::string &name, const ReducedFrame &frame, con
     fs::create_directories(path.parent_path(), error);
   if (error)
     throw std::runtime_error(name + ": its folder cannot be made: " + error.message());
-  Hdf5File file;
+  const auto alone = hdf5_alone();
+  Hdf5File   file;
   file.write("made_from", text_of(origin.recipe));
   file.write("scene", origin.scene);
   file.write("source", origin.source);
@@ -324,6 +324,7 @@ FrameSummary read_frame_summary(const std::string &name)
 {
   if (const std::string defect = head_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
+  const auto alone = hdf5_alone();
   try
   {
     const Hdf5File file(name);
@@ -339,12 +340,6 @@ FrameSummary read_frame_summary(const std::string &name)
 namespace
 {
 
-void require_sealed(const std::string &name)
-{
-  if (const std::string defect = seal_defect(name, title); !defect.empty())
-    throw std::runtime_error(defect);
-}
-
 StoredFrame read_content(const std::string &name)
 {
   const Hdf5File file(name);
@@ -356,28 +351,27 @@ StoredFrame read_content(const std::string &name)
   return stored;
 }
 
-/// HDF5 follows the addresses of a file wherever they lead, and who forges a file can forge its seal: what it dies of is
-/// a message, as the file is read in a child before it is read here.
-void try_in_child(const std::string &name)
+/// Why the content cannot be read; "" if it can.
+std::string reading_defect(const std::string &name)
 {
-  const fem::ChildTask task{name,       name + ": not a whole reduced frame",
-                            "reading",  fem::reading_limits(name, fem::FileContent::geometry, fem::available_memory()),
-                            true,       "HDF5",
-                            "make it anew with `gestell reduce`"};
-  if (!fem::in_one_process())
-    fem::bytes_from_child(task, {},
-                          [&](const fem::ChildProgress &)
-                          {
-                            read_content(name);
-                            return std::string();
-                          });
+  try
+  {
+    read_content(name);
+    return "";
+  }
+  catch (const std::runtime_error &failure)
+  {
+    return failure.what();
+  }
 }
 
 } // namespace
 
 StoredFrame read_stored_frame(const std::string &name)
 {
-  require_sealed(name);
+  const auto alone = hdf5_alone();
+  if (const std::string defect = seal_defect(name, title); !defect.empty())
+    throw std::runtime_error(defect);
   return read_content(name);
 }
 
@@ -386,17 +380,21 @@ ReducedFrame read_reduced_frame(const std::string &file)
   std::error_code error;
   if (!fs::is_regular_file(file, error))
     throw std::invalid_argument(file + ": no such file; make it with `gestell reduce`");
-  try
-  {
-    require_sealed(file);
-    try_in_child(file);
-    return read_content(file).frame;
-  }
-  catch (const std::runtime_error &failure)
-  {
-    throw std::invalid_argument(file + ": not a whole reduced frame (" + failure.what() +
-                                "); make it anew with `gestell reduce`");
-  }
+  const auto  alone  = hdf5_alone();
+  std::string defect = seal_defect(file, title);
+  if (defect.empty())
+    defect = defect_in_child(file, [&] { return reading_defect(file); });
+  if (defect.empty())
+    try
+    {
+      return read_content(file).frame;
+    }
+    catch (const std::runtime_error &failure) // where there was no child
+    {
+      defect = failure.what();
+    }
+  throw std::invalid_argument(file + ": not a whole reduced frame (" + defect +
+                              "); make it anew with `gestell reduce`");
 }
 
 } // namespace gestell::coupling

@@ -27,7 +27,8 @@ struct FrameOrigin
  */
 void write_reduced_frame(const std::string &file, const ReducedFrame &frame, const FrameOrigin &origin = {});
 
-/// Reads what write_reduced_frame() wrote, bit by bit.
+/// Reads what write_reduced_frame() wrote, bit by bit; a file that this process has not read yet in a forked child
+/// first (tried_file.h), as somebody may have forged it.  read_stored_frame() makes none: it is for files of our own.
 /// @throws std::invalid_argument if the file is missing, damaged, of another version or not a reduced frame.
 ReducedFrame read_reduced_frame(const std::string &file);
 

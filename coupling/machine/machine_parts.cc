@@ -138,10 +138,10 @@ void MachineParts::finish()
       for (const auto &[coordinate, value] : load.u)
         excitation.add_harmonic(coordinate, part.omega, value * part.amplitude * std::sin(part.phase),
                                 value * part.amplitude * std::cos(part.phase));
+  known_signals = signals(); // watches tell none
   add_watches();
   place_elements(n);
   place_switches();
-  known_signals = signals();
 }
 
 void MachineParts::assemble_dense(int n)

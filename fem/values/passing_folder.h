@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace gestell::fem
 {
@@ -19,5 +20,11 @@ public:
 private:
   std::filesystem::path path_;
 };
+
+/// Words for a shell that remove all that this process has: for one that ends without their destructors.
+std::string words_of_removal();
+
+/// A text as one word of a shell: in single quotes.
+std::string shell_word(const std::string &text);
 
 } // namespace gestell::fem

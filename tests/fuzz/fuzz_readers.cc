@@ -21,6 +21,7 @@
 #include <cstring>
 #include <ctime>
 #include <exception>
+#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
@@ -30,9 +31,9 @@ namespace
 using namespace gestell::fuzz;
 
 constexpr std::uint64_t of_one_process = 50000;
-constexpr double        patience       = 5.;              // processor time of an execution [s]
-constexpr rlim_t        memory         = rlim_t(1) << 30; // beyond what the process has [byte]
-constexpr std::size_t   words_kept     = 4000;
+constexpr double        patience = 5., longest = 120.; // processor time and time of an execution [s]
+constexpr double        memory     = 1e9;              // beyond what the process has [byte]
+constexpr std::size_t   words_kept = 4000;
 
 /// What a process that executes leaves for the one that watches it.
 struct Slate
@@ -51,7 +52,11 @@ Slate &shared_slate()
 
 void hold_memory()
 {
-  rlimit limit = {memory + (rlim_t(1) << 29), memory + (rlim_t(1) << 29)}, no_core = {0, 0};
+  std::ifstream in("/proc/self/statm");
+  double        data = 0., skipped;
+  in >> skipped >> skipped >> skipped >> skipped >> skipped >> data;
+  const auto   bytes = static_cast<rlim_t>(data * double(::sysconf(_SC_PAGESIZE)) + memory);
+  const rlimit limit = {bytes, bytes}, no_core = {0, 0};
   ::setrlimit(RLIMIT_DATA, &limit);
   ::setrlimit(RLIMIT_CORE, &no_core);
 }
@@ -85,6 +90,7 @@ int watched(pid_t process, const Slate &slate)
 {
   std::uint64_t number = slate.number;
   double        begin  = processor_seconds(process);
+  auto          since  = std::chrono::steady_clock::now();
   int           status = 0;
   while (::waitpid(process, &status, WNOHANG) == 0)
   {
@@ -93,8 +99,10 @@ int watched(pid_t process, const Slate &slate)
     {
       number = slate.number;
       begin  = processor_seconds(process);
+      since  = std::chrono::steady_clock::now();
     }
-    else if (processor_seconds(process) > begin + patience)
+    else if (processor_seconds(process) > begin + patience ||
+             std::chrono::steady_clock::now() > since + std::chrono::duration<double>(longest))
       ::kill(process, SIGXCPU);
   }
   return status;
@@ -116,7 +124,10 @@ std::string in_process(const Target &target, const std::vector<std::string> &see
     ::dup2(nowhere, STDOUT_FILENO);
     ::dup2(nowhere, STDERR_FILENO);
     if (alone)
+    {
       ::unsetenv("GESTELL_ONE_PROCESS");
+      ::setenv("GESTELL_READING_SECONDS", "4", 1);
+    }
     else
       ::setenv("GESTELL_ONE_PROCESS", "1", 1);
     hold_memory();
@@ -126,7 +137,7 @@ std::string in_process(const Target &target, const std::vector<std::string> &see
   const int status = watched(process, slate);
   if (WIFSIGNALED(status))
     return "died by signal " + std::to_string(WTERMSIG(status)) + " (" + ::strsignal(WTERMSIG(status)) + ")";
-  if (WEXITSTATUS(status) != 0)
+  if (WEXITSTATUS(status) != 0 || slate.number < to)
     return slate.words[0] != '\0' ? slate.words : "ended the process";
   return "";
 }
@@ -139,11 +150,14 @@ bool fuzz(const Target &target, std::uint64_t from, std::uint64_t to)
   int        n_findings = 0, n_told = 0;
   for (slate.number = from; slate.number < to;)
   {
-    const std::uint64_t end = std::min(to, slate.number + of_one_process);
+    const std::uint64_t first = slate.number, end = std::min(to, first + of_one_process);
     if (in_process(target, seeds, end, false, slate).empty())
       continue;
     const std::uint64_t number = slate.number;
-    const std::string   how    = in_process(target, seeds, number + 1, true, slate);
+    std::string         how    = in_process(target, seeds, number + 1, true, slate);
+    slate.number               = number;
+    if (how.empty() && in_process(target, seeds, number + 1, false, slate).empty())
+      how = "dies only after others from " + std::to_string(first) + " on";
     if (!how.empty())
       std::cout << target.name << ' ' << number << ": " << how << std::endl;
     n_findings += !how.empty();
@@ -177,12 +191,15 @@ int run(int argc, char **argv)
   if (::access("/dev/shm", W_OK) == 0)
     ::setenv("TMPDIR", "/dev/shm", 0); // files there are quick
   file_of("first", "");                // its folder is this process's, which removes it
+  const std::uint64_t to = std::stoull(argv[3]);
+  if (name != "all")
+    target(name);
+  if (from >= to || to > UINT32_MAX)
+    throw std::invalid_argument("needs FROM < TO <= 4294967295");
   bool none = true;
   for (const Target &target : targets())
     if (name == "all" || name == target.name)
-      none = fuzz(target, from, std::stoull(argv[3])) && none;
-  if (name != "all")
-    target(name);
+      none = fuzz(target, from, to) && none;
   return none ? 0 : 1;
 }
 

@@ -94,7 +94,7 @@ double round_enlargement(double x)
   return digit >= 0. ? std::round(x / std::pow(10., digit)) * std::pow(10., digit) : std::round(10. * x) / 10.;
 }
 
-/// Of many parts fewer instants, so that the page stays light.
+/// Of many parts fewer instants, so that the page stays light; no motion between them is made up then.
 std::size_t instants_of(std::size_t n_parts)
 {
   constexpr std::size_t fewest = 24;
@@ -103,19 +103,21 @@ std::size_t instants_of(std::size_t n_parts)
 
 Json motion_json(const SeenMachine &machine, const Result &result)
 {
-  const SeenInstants            seen = seen_instants(result, instants_of(machine.parts().size()));
+  const std::size_t             most    = instants_of(machine.parts().size());
+  const SeenInstants            seen    = seen_instants(result, most);
+  const bool                    thinned = most < most_instants && seen.times.size() < result.run->picture_times.size();
   const std::vector<float>      times(seen.times.begin(), seen.times.end());
   const std::vector<PartMotion> motions = machine.motion(seen.states);
-  double                        most    = 0.;
+  double                        top     = 0.;
   for (const PartMotion &part : motions)
-    most = std::max(most, largest_displacement(part.displacement));
-  const double enlargement = most > 0. ? round_enlargement(motion_size * machine.size() / most) : 1.;
+    top = std::max(top, largest_displacement(part.displacement));
+  const double enlargement = top > 0. ? round_enlargement(motion_size * machine.size() / top) : 1.;
 
   Json show = {{"kind", "motion"},
                {"name", "motion"},
                {"times", base64(times)},
-               {"smooth", is_smooth(motions, seen.times, machine)},
-               {"top", most},
+               {"smooth", !thinned && is_smooth(motions, seen.times, machine)},
+               {"top", top},
                {"enlarge", enlargement},
                {"parts", Json::array()}};
   for (const PartMotion &part : motions)

@@ -84,8 +84,19 @@ StudyRecord record_of(const StudyFile &study, const SceneVariants &variants, int
   flatten(without_words(variants.root()), "scene", record.entries);
   add_contents(variants.root(), record.entries);
   for (const VariableRequest &request : study.variables)
+  {
     for (const SceneNode &choice : request.choices)
       add_contents(choice, record.entries);
+    for (const std::string &word : request.variable.words)
+    {
+      SceneNode node;
+      node.type   = SceneNode::Type::text;
+      node.text   = word;
+      node.folder = request.folder;
+      if (request.choices.empty())
+        add_contents(node, record.entries);
+    }
+  }
   return record;
 }
 

@@ -237,6 +237,19 @@ TEST(Fmu, TakesParametersAndInputsOfItsOwnPerInstance)
   EXPECT_EQ(hard.get("x"), soft.get("x"));
 }
 
+TEST(Fmu, TellsAnInputWhereItsRateHasBroughtIt)
+{
+  const Folder   folder("fmu_rate");
+  const Exported slider(folder, "slider", folder.file("one.toml", oscillator("one", 2., 800., 0.)));
+  FmuInstance    one(*slider.fmu, "one");
+  ASSERT_EQ(one.start({{"F", 8.}}), fmi2OK);
+  EXPECT_EQ(one.step(0., 0.02), fmi2OK);
+  EXPECT_EQ(one.set("F", 3.), fmi2OK);
+  EXPECT_EQ(one.set_rate("F", 100.), fmi2OK);
+  EXPECT_EQ(one.step(0.02, 0.01), fmi2OK);
+  EXPECT_NEAR(one.get("F"), 4., 1e-12); // 3 N + 100 N/s 10 ms
+}
+
 TEST(Fmu, ASpeedDriveFollowsTheSpeedThatIsSet)
 {
   const Folder      folder("fmu_drive");

@@ -50,5 +50,28 @@ TEST(EnergyBalance, ResidualFallsWithTheSecondPowerOfTheStep)
   EXPECT_NEAR(std::log2(std::abs(balance(1e-3).residual() / balance(5e-4).residual())), 2., 0.2);
 }
 
+// In a step the power changes by 3 %: half of it takes half of the work.
+TEST(EnergyBalance, WorkWithinAStepFollowsThePowersAtItsEnds)
+{
+  SmallSystem   system(Eigen::MatrixXd::Constant(1, 1, 2.), Eigen::MatrixXd::Constant(1, 1, 3.),
+                       Eigen::MatrixXd::Constant(1, 1, 500.));
+  Bdf           bdf(system, {2, 1e-3});
+  EnergyBalance energy(system);
+  bdf.begin(0., Eigen::VectorXd::Constant(1, 0.), Eigen::VectorXd::Constant(1, 1.));
+  energy.begin(bdf.instant());
+  for (int k = 0; k < 5; ++k)
+  {
+    const double before = energy.state(bdf.instant()).dissipated;
+    bdf.advance();
+    energy.step(bdf.instant());
+    Instant middle = bdf.instant();
+    middle.t -= 0.5e-3;
+    bdf.interpolate(middle.t, middle.q, middle.v);
+    bdf.interpolate(middle.t, middle.local);
+    const double within = energy.state(middle).dissipated, behind = energy.state(bdf.instant()).dissipated;
+    EXPECT_NEAR(within - before, 0.5 * (behind - before), 0.03 * (behind - before)) << k;
+  }
+}
+
 } // namespace
 } // namespace gestell::tests

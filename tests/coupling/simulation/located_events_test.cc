@@ -119,6 +119,26 @@ TEST(LocatedEvents, AreNotMissedWhereBeginMiddleAndEndOfAStepAreAlike)
   EXPECT_NEAR(events.back().t, 0.5 - std::asin(way) / omega, 1e-9);
 }
 
+// A sine that stands 1e-4 of its amplitude above the wall, in a period of one step from any phase: begin and end of
+// some part of it are alike, and all that is looked at lies below.
+TEST(LocatedEvents, AreNotMissedWhereAPeakJustReachesOver)
+{
+  const double omega = 2. * M_PI, way = 1. - 1e-4, reached = std::asin(way);
+  for (int k = 0; k < 60; ++k)
+  {
+    const double phase = omega * k / 60.;
+    if (std::sin(phase) > way)
+      continue;
+    WallSystem    system({"", 1., 0., omega * omega, 0., 1., 0., way, 0., 0., 0., 1.});
+    MethodOptions method = exact(0.);
+    method.step          = 1.;
+    const auto events =
+        run(system, method, Vector::Constant(1, std::sin(phase)), Vector::Constant(1, omega * std::cos(phase)), 1.);
+    ASSERT_GE(events.size(), 2u) << k;
+    EXPECT_NEAR(events.front().t, std::fmod(reached - phase + omega, omega) / omega, 1e-8) << k;
+  }
+}
+
 TEST_P(WallSpring, EventsOfBdf2ComeWithItsOrder)
 {
   const Wall  &wall     = GetParam();
@@ -209,6 +229,30 @@ TEST_P(StickSlip, ControlledBdfFindsTheSameEvents)
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-7) << i; // a hundred tolerances; measured 1e-8
 }
+
+// The load goes on along its line to where Wilson's method solves, so that the force that holds the mass is the load to
+// the second power of the step, here 4e-6 N; at the place it solves for it would be 1e-2 N.
+TEST(Sticking, IsHeldByTheLoadOfItsInstantUnderWilsonsMethod)
+{
+  const Rubbing &r          = rubbing[2];
+  Machine        machine    = rubbing_mass(r);
+  MethodOptions  method     = tests::method("wilson", 1e-3);
+  const auto     integrator = make_integrator(machine, method);
+  EventDriver    driver(machine, *integrator, EventOptions());
+  driver.begin(0., Vector::Constant(1, r.x0), Vector::Constant(1, r.v0));
+  int n_stuck = 0;
+  while (integrator->time() < r.end - 1e-12)
+  {
+    driver.advance();
+    if (machine.forces().held().empty() || integrator->time() - integrator->step_begin() < 0.999e-3)
+      continue;
+    const Instant now = integrator->instant();
+    EXPECT_NEAR(now.local.p[0], 100. * now.q[0] - r.F * std::cos(r.Omega * now.t), 1e-4) << now.t;
+    ++n_stuck;
+  }
+  EXPECT_GT(n_stuck, 500);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rubbing, StickSlip, ::testing::ValuesIn(rubbing),
                          [](const auto &info) { return std::string(info.param.name); });
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+namespace gestell::coupling
+{
+
+/// Held while HDF5 works: it has one lock of its own, which a child must not inherit from another thread.
+std::unique_lock<std::mutex> hdf5_alone();
+
+/**
+ * Reads a file of somebody else in a forked child first, once in this process for a file as it is, so that a crash of
+ * HDF5, which follows the addresses of a file wherever they lead, becomes a message.  (A seal shows damage, not
+ * forgery.) hdf5_alone() is held.
+ *
+ * @param defect  reads the file; why it cannot be read, "" if it can
+ * @return        what `defect` returned; "" where no child is made, by GESTELL_ONE_PROCESS
+ * @throws std::invalid_argument if the child dies or does not end, with the way out
+ */
+std::string defect_in_child(const std::string &file, const std::function<std::string()> &defect);
+
+} // namespace gestell::coupling
