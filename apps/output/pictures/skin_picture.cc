@@ -82,12 +82,22 @@ std::vector<Facet> body_facets(const std::vector<Shape> &shapes, double enlargem
   return DepthRaster(facets, view).visible(facets);
 }
 
+constexpr std::size_t most_names = 30; ///< of bodies beside a picture
+
+double height_of_name(std::size_t i)
+{
+  return 18. * static_cast<double>(i);
+}
+
 std::string body_names(const std::vector<Shape> &shapes)
 {
   std::string names;
-  for (std::size_t i = 0; i < shapes.size(); ++i)
+  if (shapes.size() > most_names)
+    names += svg_text(18., 26. + height_of_name(most_names),
+                      "and " + std::to_string(shapes.size() - most_names) + " more", "label");
+  for (std::size_t i = 0; i < std::min(shapes.size(), most_names); ++i)
   {
-    const double y = 26. + 18. * static_cast<double>(i);
+    const double y = 26. + height_of_name(i);
     names += "<g class=\"faces\"><path color=\"" + hex(body_colour(i), 1.) + "\" d=\"M0 " +
              std::to_string(static_cast<int>(y)) + "h12v-9h-12z\"/></g>" + svg_text(18., y, shapes[i].name, "label");
   }
@@ -269,7 +279,7 @@ std::string machine_state_svg(const MachineState &state, double enlargement, con
   };
   const std::vector<Facet> facets = facets_of(skin, enlargement, view, colour);
   const DepthRaster        raster(facets, view);
-  const double             names = 18. * static_cast<double>(state.shapes.size()) + 34.;
+  const double             names = height_of_name(std::min(state.shapes.size(), most_names + 1)) + 34.;
   const double             bar   = std::min(std::max(view.height() - names, 60.), 160.);
   const double             width = view.width() + 170., height = std::max(view.height() + 120., names + bar + 90.);
   const bool               shows_bar = !unit.unit.empty() && largest > 0.;
