@@ -9,6 +9,7 @@
 #include "coupling/substructures/require_joints.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
 #include <iostream>
 #include <set>
 #include <string>
@@ -132,8 +133,11 @@ int check(const CommonOptions &options)
   for (const BodyRequest &body : scene.bodies)
     if (body.part)
       std::cout << body.part->found << '\n';
-  for (const std::string &warning : warnings)
-    std::cerr << "gestell: warning: " << warning << '\n';
+  constexpr std::size_t most = 30; // of one mistake in a scene of thousands of parts
+  for (std::size_t i = 0; i < std::min(warnings.size(), most); ++i)
+    std::cerr << "gestell: warning: " << warnings[i] << '\n';
+  if (warnings.size() > most)
+    std::cerr << "gestell: warning: and " << warnings.size() - most << " more\n";
   return exit_done;
 }
 

@@ -20,6 +20,7 @@ namespace
 {
 std::atomic<bool> interrupted{false};
 std::atomic<bool> nothing_to_save{false}; ///< and nothing to clean up: the end may come at once
+std::atomic<bool> saves_nothing{false};   ///< the command saves nothing when it is interrupted
 std::atomic<bool> meshing{false};         ///< the child process of gmsh ends first
 timespec          first_time{};
 
@@ -53,8 +54,10 @@ extern "C" void note_interruption(int signal_number)
 {
   if (nothing_to_save)
   {
-    constexpr char              message[] = "\ngestell: interrupted; nothing was computed yet that could be saved\n";
-    [[maybe_unused]] const auto written   = write(STDERR_FILENO, message, sizeof message - 1);
+    constexpr char              nothing[] = "\ngestell: interrupted; nothing was computed yet that could be saved\n";
+    constexpr char              ended[]   = "\ngestell: interrupted; files that are not there yet are not written\n";
+    [[maybe_unused]] const auto written   = saves_nothing ? write(STDERR_FILENO, ended, sizeof ended - 1)
+                                                          : write(STDERR_FILENO, nothing, sizeof nothing - 1);
     leave_nothing();
     _exit(exit_interrupted);
   }
@@ -74,15 +77,35 @@ extern "C" void note_interruption(int signal_number)
     raise(signal_number);
   }
 }
+/// Whether the system would do this with the process.
+bool is_handled(int signal_number, void (*by)(int))
+{
+  struct sigaction now = {};
+  return sigaction(signal_number, nullptr, &now) == 0 && !(now.sa_flags & SA_SIGINFO) && now.sa_handler == by;
+}
 } // namespace
+
+void end_where_nothing_is_saved()
+{
+  note_what_is_left();
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (is_handled(number, SIG_DFL))
+    {
+      saves_nothing = nothing_to_save = true;
+      std::signal(number, note_interruption);
+    }
+}
 
 const std::atomic<bool> &interruption()
 {
   static const bool installed = []
   {
+    if (saves_nothing.exchange(false))
+      nothing_to_save = false;
     std::signal(SIGINT, note_interruption);
     std::signal(SIGTERM, note_interruption);
-    std::signal(SIGHUP, note_interruption);
+    if (!is_handled(SIGHUP, SIG_IGN)) // as nohup asks
+      std::signal(SIGHUP, note_interruption);
     return true;
   }();
   (void)installed;

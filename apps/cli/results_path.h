@@ -27,7 +27,7 @@ public:
   /// @throws std::invalid_argument as require_writable() and FolderLock
   explicit HeldFolder(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
   {
-    note_what_is_left();
+    end_where_nothing_is_saved();
     if (!lock_.note().empty())
       std::cerr << "gestell: warning: " << lock_.note() << '\n';
   }

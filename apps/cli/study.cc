@@ -44,7 +44,7 @@ void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCa
     std::cout << ", "
               << std::count_if(answer.table.runs.begin(), answer.table.runs.end(),
                                [](const StudyRun &run) { return run.status == RunStatus::waiting; })
-              << " to be made";
+              << " to be made; --resume goes on";
   const bool merged = call.share.is_whole() || call.waits_for_shares;
   std::cout << "\nrows: " << (call.folder / (merged ? "runs.csv" : StudyFolder::name_of(call.share))).string() << '\n';
 

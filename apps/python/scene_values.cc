@@ -14,6 +14,34 @@ using apps::Place;
 using apps::SceneNode;
 using Type = SceneNode::Type;
 
+constexpr int deepest = 50; ///< dicts and lists in each other, as tables and arrays of a file
+
+/// How deep node_of() is in itself.
+class Depth
+{
+public:
+  Depth() { ++now(); }
+  ~Depth() { --now(); }
+  Depth(const Depth &)            = delete;
+  Depth &operator=(const Depth &) = delete;
+
+  static int &now()
+  {
+    thread_local int depth = 0;
+    return depth;
+  }
+};
+
+/// As Python writes it, a long one cut.
+std::string written(py::handle value)
+{
+  constexpr std::size_t longest = 80;
+  std::string           text    = py::repr(value).cast<std::string>();
+  if (text.size() > longest)
+    text = text.substr(0, longest) + "...";
+  return text;
+}
+
 [[noreturn]] void refuse(const SceneNode &node, const std::string &key, const std::string &what)
 {
   node.place.fail((key.empty() ? "" : key + ": ") + what);
@@ -23,9 +51,11 @@ SceneNode number_node(SceneNode node, const std::string &key, py::handle value)
 {
   const bool whole = py::isinstance<py::int_>(value) || py::hasattr(value, "__index__");
   node.type        = whole ? Type::integer : Type::real;
-  node.number      = value.cast<double>();
-  if (!std::isfinite(node.number))
-    refuse(node, key, "got " + py::repr(value).cast<std::string>() + ", needs a finite number");
+  node.number      = PyFloat_AsDouble(value.ptr());
+  const bool fits  = PyErr_Occurred() == nullptr;
+  PyErr_Clear();
+  if (!fits || !std::isfinite(node.number))
+    refuse(node, key, "got " + written(value) + ", needs a finite number of double precision");
   node.text = whole ? py::str(py::int_(py::reinterpret_borrow<py::object>(value))).cast<std::string>()
                     : py::repr(py::float_(node.number)).cast<std::string>();
   return node;
@@ -56,9 +86,13 @@ SceneNode array_node(SceneNode node, const std::string &key, py::handle values)
 
 SceneNode node_of(py::handle value, const Place &place, const std::string &folder, const std::string &key)
 {
-  SceneNode node;
+  const Depth depth;
+  SceneNode   node;
   node.place  = place;
   node.folder = folder;
+  if (Depth::now() > deepest)
+    refuse(node, "",
+           "dicts and lists lie more than " + std::to_string(deepest) + " deep in each other; does one hold itself?");
   if (py::isinstance<py::dict>(value))
     return table_node(node, key, py::reinterpret_borrow<py::dict>(value));
   if (py::isinstance<py::bool_>(value))
@@ -70,8 +104,14 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
   }
   if (py::isinstance<py::str>(value) || py::hasattr(value, "__fspath__"))
   {
-    node.type = Type::text;
-    node.text = py::str(value).cast<std::string>();
+    node.type            = Type::text;
+    const py::str text   = py::str(value);
+    Py_ssize_t    length = 0;
+    const char   *bytes  = PyUnicode_AsUTF8AndSize(text.ptr(), &length);
+    PyErr_Clear();
+    if (bytes == nullptr)
+      refuse(node, key, "got " + py::repr(py::repr(value)).cast<std::string>() + ", which is no Unicode text");
+    node.text.assign(bytes, std::size_t(length));
     return node;
   }
   if (py::hasattr(value, "tolist")) // of NumPy
@@ -84,8 +124,7 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
   if (py::isinstance<py::sequence>(value))
     return array_node(node, key, value);
   refuse(node, key,
-         "got " + py::repr(value).cast<std::string>() + " of type " +
-             py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
+         "got " + written(value) + " of type " + py::str(py::type::of(value).attr("__name__")).cast<std::string>() +
              "; an entry of a scene is a number, text with a unit, True or False, a list or a dict");
 }
 

@@ -379,7 +379,8 @@ ReducedFrame read_reduced_frame(const std::string &file)
 {
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    throw std::invalid_argument(file + ": no such file; make it with `gestell reduce`");
+    throw std::invalid_argument(file + (fs::exists(file, error) ? ": is no ordinary file" : ": no such file") +
+                                "; make it with `gestell reduce`");
   const auto  alone  = hdf5_alone();
   std::string defect = seal_defect(file, title);
   if (defect.empty())

@@ -386,6 +386,11 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   for (std::size_t m = 0; m + 1 < references.size(); ++m)
     chart.models[m].truncation = scaled_error(references[m], references.back());
   progress.done();
+  if (interruption())
+  {
+    chart.targets.clear();
+    chart.notes.push_back("interrupted: not all methods and steps were run, so that none is told to be the best");
+  }
 
   write_chart(folder, chart);
   std::cout << work_precision_text(chart) << "chart: " << (folder / "chart.html").string() << '\n';

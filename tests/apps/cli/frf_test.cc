@@ -31,6 +31,17 @@ TEST(FrfCommand, WritesTableSummaryAndReport)
   EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"frf\""), std::string::npos);
 }
 
+// Of commands that save nothing: the system's own end would leave the lock and a folder that nobody asked for.
+TEST(FrfCommand, InterruptedLeavesNoLockAndNoFolder)
+{
+  const Folder folder("frf_interrupted");
+  const Answer cut = shell("(timeout --signal TERM 1 '" GESTELL_BINARY_DIR "/bin/gestell' " + press +
+                           "--from frame.crown.uz --to frame.table.uz --points 900000 " + folder.option() + ")");
+  EXPECT_EQ(cut.exit_code, 124) << cut.text;
+  EXPECT_TRUE(cut.says("interrupted; files that are not there yet are not written")) << cut.text;
+  EXPECT_FALSE(std::filesystem::exists(folder.results()));
+}
+
 TEST(FrfCommand, DrawsItsOwnTableAsMeasured)
 {
   const Folder folder("frf_measured");

@@ -199,6 +199,16 @@ class Mistakes(unittest.TestCase):
     def test_of_methods_are_told_too(self):
         self.refused(["nothing was run"], lambda: short_press().modes().t)
 
+    def test_that_no_file_could_hold_are_refused(self):
+        holds_itself = {}
+        holds_itself["body"] = holds_itself
+        in_itself = []
+        in_itself.append(in_itself)
+        for scene, words in ((holds_itself, "more than 50 deep"), ({"gravity": in_itself}, "more than 50 deep"),
+                             ({"gravity": [10**400, 0, 0]}, "gravity: got 1000"), ({"name": "\ud800"}, "no Unicode")):
+            with self.assertRaisesRegex(gestell.SceneError, words):
+                gestell.Scene(scene)
+
 
 class StateSpaces(unittest.TestCase):
     """H = C (i w - A)^-1 B + D is the frequency response, which is found otherwise."""
