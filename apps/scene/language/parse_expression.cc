@@ -211,7 +211,7 @@ private:
     const std::size_t unit   = !inside ? 0 : token(1).kind == Token::number && token(1).value == 1. ? 2 : 1;
     const std::size_t behind = unit + 1;
     const bool        ends   = inside ? is(")", behind) : !is("^", behind) && !is_unit(behind);
-    return is_unit(unit) && units().at(token(unit).text).counts == Counts::minutes && ends &&
+    return is_unit(unit) && unit_named(token(unit).text).counts == Counts::minutes && ends &&
            !is_operand(token(unit).text);
   }
 
