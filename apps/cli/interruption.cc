@@ -19,7 +19,7 @@ namespace gestell::apps
 namespace
 {
 std::atomic<bool> interrupted{false};
-std::atomic<bool> nothing_to_save{false}; ///< and nothing to clean up: the end may come at once
+std::atomic<bool> nothing_to_save{false}; ///< the end may come at once
 std::atomic<bool> saves_nothing{false};   ///< the command saves nothing when it is interrupted
 std::atomic<bool> meshing{false};         ///< the child process of gmsh ends first
 timespec          first_time{};
@@ -34,7 +34,7 @@ double seconds_since_first()
 
 std::atomic<const char *> leaving{nullptr}; ///< for a shell: remove the lock, empty folders and temporary files
 
-/// Nobody unwinds the stack of a computation that hears nothing.
+/// Removes what destructors would remove, which do not run where a signal ends the process.
 void leave_nothing()
 {
   const char *const words = leaving;
@@ -77,7 +77,8 @@ extern "C" void note_interruption(int signal_number)
     raise(signal_number);
   }
 }
-/// Whether the system would do this with the process.
+
+/// Whether this is what the process does on the signal.
 bool is_handled(int signal_number, void (*by)(int))
 {
   struct sigaction now = {};

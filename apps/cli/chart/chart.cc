@@ -389,7 +389,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   if (interruption())
   {
     chart.targets.clear();
-    chart.notes.push_back("interrupted: not all methods and steps were run, so that none is told to be the best");
+    chart.notes.push_back("interrupted: not all methods and steps were run, so no best choice is named");
   }
 
   write_chart(folder, chart);

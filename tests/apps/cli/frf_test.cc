@@ -31,7 +31,7 @@ TEST(FrfCommand, WritesTableSummaryAndReport)
   EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"frf\""), std::string::npos);
 }
 
-// Of commands that save nothing: the system's own end would leave the lock and a folder that nobody asked for.
+// A command that saves nothing when it is interrupted removes its lock, and its folder if it made it.
 TEST(FrfCommand, InterruptedLeavesNoLockAndNoFolder)
 {
   const Folder folder("frf_interrupted");

@@ -230,8 +230,8 @@ TEST_P(StickSlip, ControlledBdfFindsTheSameEvents)
     EXPECT_NEAR(found[i], expected[i], 1e-7) << i; // a hundred tolerances; measured 1e-8
 }
 
-// The load goes on along its line to where Wilson's method solves, so that the force that holds the mass is the load to
-// the second power of the step, here 4e-6 N; at the place it solves for it would be 1e-2 N.
+// Wilson's method solves at t + theta h, where the load differs by up to 1e-2 N from that at t + h; the force that holds
+// the mass is found anew at the end of the step. 1e-4 N is a hundredth of that difference.
 TEST(Sticking, IsHeldByTheLoadOfItsInstantUnderWilsonsMethod)
 {
   const Rubbing &r          = rubbing[2];
