@@ -219,6 +219,9 @@ TEST_F(FrameAnswers, AStudyGoesOnWithoutTheRunsWhoseDrawingKillsItsReader)
   const std::string rows = read(folder_.results() / "runs.csv");
   EXPECT_EQ(count(rows, ",done,"), 1) << rows;
   EXPECT_EQ(count(rows, "gmsh was ended by signal"), 1) << rows;
+  std::ofstream(folder_ / "table.geo", std::ios::app)
+      << "// edited\n"; // rows of two drawings would stand under one name
+  expect_answer(gestell("study " + study + folder_.option() + "--resume"), 2, {"table.geo", "changed"});
 }
 
 TEST_F(FrameAnswers, AnInterruptionBeforeTheRunLeavesNothing)
