@@ -1,5 +1,6 @@
 #include "fem/geometry/read_cad.h"
 
+#include "fem/geometry/brep_file.h"
 #include "fem/geometry/cad_file.h"
 #include "fem/geometry/defeature.h"
 #include "fem/geometry/gmsh_faces.h"
@@ -12,6 +13,7 @@
 
 #include <gmsh.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -121,6 +123,16 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
                                   " m^3; it is open or turned inside out: repair it in the CAD program.");
 }
 
+void check_faces(const CadModel &model, const CadSource &source)
+{
+  for (const Face &face : model.faces)
+    if (!(std::isfinite(face.area) && face.area >= 0.))
+      throw std::invalid_argument(source.place + ": " + source.path + ": the face " + std::to_string(face.tag) + " (" +
+                                  face.type + ") from " + text(face.min) + " to " + text(face.max) + " has the area " +
+                                  text(face.area) +
+                                  " m^2, so its boundary is open or turned inside out; repair it in the CAD program.");
+}
+
 /// How another unit is given, if lengths are wrong by a factor of a thousand.
 std::string way_to_another_unit(const CadModel &model, const CadSource &source)
 {
@@ -167,9 +179,15 @@ CadModel read_model(const CadSource &source, CadFile file, const std::string &op
     gmsh::option::setString("Geometry.OCCTargetUnit", "MM");
 
   name_faces_of_step();
-  session.run([&] { file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened); },
-              source.place + ": gmsh cannot read " + source.path + ": ",
-              "; it may be damaged: export the model again, and see whether gmsh opens it.");
+  session.run(
+      [&]
+      {
+        if (file == CadFile::brep)
+          check_brep_file(source);
+        file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened);
+      },
+      source.place + ": gmsh cannot read " + source.path + ": ",
+      "; it may be damaged: export the model again, and see whether gmsh opens it.");
   model.meshed = model.meshed || (file == CadFile::geo && has_cells());
   if (!model.meshed)
     check_kernel(source);
@@ -230,6 +248,7 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
   check_shells(model, source);
   join_solids(model, specification, session);
   model.faces = outer_faces(model.unit, model.diagonal());
+  check_faces(model, source);
   if (file == CadFile::step && attributes == FaceAttributes::read)
     add_step_attributes(model.faces, source);
   check_bodies(model, specification);

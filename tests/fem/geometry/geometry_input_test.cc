@@ -121,6 +121,26 @@ TEST(BrepFile, ThatWasCutOffIsRefusedThoughOpenCascadeWouldReadItForEver)
   EXPECT_THAT(refusal(specification(write_text("text.brep", "hello"), 0.5)), HasSubstr("not a BREP file"));
 }
 
+TEST(BrepFile, ThatAnnouncesMoreThanItHoldsIsRefusedWhereOpenCascadeWouldNotEnd)
+{
+  const std::string whole  = read_text(draw("box.brep", [] { gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.); }));
+  const auto        edited = [&](const std::string &old, const std::string &text)
+  {
+    std::string edited = whole;
+    edited.replace(edited.find(old), old.size(), text);
+    return refusal(specification(write_text("edited.brep", edited), 0.5));
+  };
+  EXPECT_THAT(edited("Curves 12", "Curves 4000000000"), HasSubstr("edited.brep is damaged"));
+  EXPECT_THAT(edited("Locations 0", "Locations 18446744073709551615"), HasSubstr("is damaged at line 4:"));
+  EXPECT_THAT(edited("Curve2ds 24", "Curve2ds 25"), HasSubstr("is damaged at line 30:"));
+}
+
+TEST(BrepFile, WithAFaceTurnedInsideOutIsRefused)
+{
+  EXPECT_THAT(refusal(specification(GESTELL_SOURCE_DIR "/tests/fuzz/mesh/found/negative_area.brep", 0.5)),
+              HasSubstr("the face 4 (Plane) from (0 0.5 0) to (1 0.5 0.4) has the area -0.6 m^2"));
+}
+
 TEST(GeoFile, WithAnErrorInItIsRefusedWithGmshsWords)
 {
   const std::string cad = write_text("bad.geo", "SetFactory(\"OpenCASCADE\");\nBax(1) = {0, 0, 0, 1, 1, 1};\n");

@@ -31,7 +31,7 @@ struct Tally
 
 struct FuzzOptions
 {
-  double        patience = 5.;    ///< [s] of processor time for one execution, before it is tried by itself
+  double        patience = 1.;    ///< [s] of processor time for one execution, before it is tried by itself
   std::string   keep;             ///< folder for files that died, were limited or found; empty: none
   std::uint64_t report_every = 0; ///< executions
 };
@@ -46,7 +46,7 @@ Tally fuzz(const MeshTarget &target, std::uint64_t from, std::uint64_t to, const
 
 /// Reads one file as the program does, in a process of its own; a finding if that dies or does not end.
 /// @param seconds  limit of processor time for reading
-Judgement judge_alone(const std::string &path, std::uint64_t number, int seconds = 4);
+Judgement judge_alone(const std::string &path, std::uint64_t number, int seconds = 1);
 
 /// A file with these bytes in the folder.
 std::string write_file(const MeshTarget &target, const std::string &bytes, const std::string &folder);
