@@ -24,6 +24,7 @@ namespace
 
 constexpr double smallest_diagonal = 1e-3; // [m]
 constexpr double largest_diagonal  = 200.; // [m]
+constexpr double farthest          = 1e5;  // from the origin by the diagonal: its square times eps is lost of inertia
 constexpr double smallest_likely   = 0.02; // [m]: beyond these few frames are
 constexpr double largest_likely    = 50.;  // [m]
 
@@ -152,6 +153,11 @@ void check_size(const CadModel &model, const CadSource &source)
         source.place + ": " + source.path + " is " + text(diagonal) + " m across; sizes from " +
         text(smallest_diagonal) + " m to " + text(largest_diagonal) +
         " m are expected, so its unit is probably wrong: " + way_to_another_unit(model, source) + ".");
+  if (const double distance = norm(0.5 * (model.min + model.max)); distance > farthest * diagonal)
+    throw std::invalid_argument(source.place + ": " + source.path + " is " + text(diagonal) + " m across and lies " +
+                                text(distance) +
+                                " m from the origin, where its own lengths are lost in rounding; move it nearer "
+                                "in the CAD program.");
 }
 
 } // namespace

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "fem/values/mesh.h"
+#include "fem/values/message_text.h"
+
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -43,6 +47,32 @@ std::vector<CellFace> join_cells(const std::vector<CellFace> &faces, std::vector
   std::sort(skin.begin(), skin.end(),
             [](auto &a, auto &b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
   return skin;
+}
+
+/// Whether two cells lie on either side of a face that both have, however their corners are numbered; flat ones are
+/// judged elsewhere.
+/// @param face  of the first, as cell_shape() counts them
+bool lie_apart(const Mesh &mesh, int first, int face, int second);
+
+/// @param faces  as of join_cells()
+/// @throws std::invalid_argument where cells lie on the same side of their common face
+template <class CellFace>
+void require_unfolded(const Mesh &mesh, const std::vector<CellFace> &faces, const std::string &head)
+{
+  std::size_t n_folded = 0;
+  int         where    = 0;
+  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
+    if (faces[i].key == faces[i + 1].key && !lie_apart(mesh, faces[i].cell, faces[i].face, faces[i + 1].cell))
+    {
+      ++n_folded;
+      where = faces[i].cell;
+    }
+  if (n_folded > 0)
+    throw std::invalid_argument(head + ": " + std::to_string(n_folded) +
+                                " pairs of neighbouring cells lie on the same side of their common face, one at " +
+                                text(mesh.points[mesh.corners(where)[0]]) +
+                                " m: cells are turned inside out (negative Jacobian) or there twice; a node may have "
+                                "been moved through its neighbours, or a volume drawn twice. Mesh again.");
 }
 
 } // namespace gestell::fem

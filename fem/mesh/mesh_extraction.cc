@@ -26,7 +26,7 @@ constexpr double straight_edge = 1e-6; // by which a middle may be off for round
 
 using Triangle = std::array<int, 3>;
 
-/// The four faces of a positively oriented cell, seen from outside.
+/// The four faces of a positively oriented cell, seen from outside, as cell_shape() counts them.
 constexpr std::array<std::array<int, 3>, 4> outward = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 
 Triangle sorted(Triangle triangle)
@@ -124,42 +124,6 @@ std::vector<CellFace> sorted_faces(const Mesh &mesh)
     }
   std::sort(faces.begin(), faces.end());
   return faces;
-}
-
-/// The corner of the cell that is not on the face.
-const Point3 &apex(const Mesh &mesh, const CellFace &face)
-{
-  const auto &cell = mesh.cells[face.cell];
-  return mesh.points[cell[6 - outward[face.face][0] - outward[face.face][1] - outward[face.face][2]]];
-}
-
-/// Cells on either side of a face lie apart, however their corners are numbered; flat ones are judged elsewhere.
-bool lie_apart(const Mesh &mesh, const CellFace &first, const CellFace &second)
-{
-  const Point3 &a = mesh.points[first.key[0]], &b = mesh.points[first.key[1]], &c = mesh.points[first.key[2]];
-  const Vector3 normal    = cross(b - a, c - a);
-  const double  in_first  = dot(normal, apex(mesh, first) - a);
-  const double  in_second = dot(normal, apex(mesh, second) - a);
-  const double  flat      = 1e-9 * std::pow(norm(normal), 1.5); // area times a height of 1e-9 sides
-  return in_first * in_second <= 0. || std::abs(in_first) < flat || std::abs(in_second) < flat;
-}
-
-void require_unfolded(const Mesh &mesh, const std::vector<CellFace> &faces, const std::string &head)
-{
-  std::size_t     n_folded = 0;
-  const CellFace *where    = nullptr;
-  for (std::size_t i = 0; i + 1 < faces.size(); ++i)
-    if (faces[i].key == faces[i + 1].key && !lie_apart(mesh, faces[i], faces[i + 1]))
-    {
-      ++n_folded;
-      where = &faces[i];
-    }
-  if (n_folded > 0)
-    throw std::invalid_argument(head + ": " + std::to_string(n_folded) +
-                                " pairs of neighbouring cells lie on the same side of their common face, one at " +
-                                text(mesh.points[where->key[0]]) +
-                                " m: cells are turned inside out (negative Jacobian); a node may have been moved "
-                                "through its neighbours. Mesh again.");
 }
 
 void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)

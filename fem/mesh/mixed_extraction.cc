@@ -212,7 +212,9 @@ std::vector<CellFace> outer_faces(const Mesh &mesh, std::vector<int> &parent, co
             [](const CellFace &a, const CellFace &b)
             { return std::tie(a.key, a.cell, a.face) < std::tie(b.key, b.cell, b.face); });
 
-  return join_cells(faces, parent, head);
+  std::vector<CellFace> outer = join_cells(faces, parent, head);
+  require_unfolded(mesh, faces, head);
+  return outer;
 }
 
 void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const std::string &head)

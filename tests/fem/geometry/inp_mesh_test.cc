@@ -369,6 +369,15 @@ TEST(Mesh, WithANodeMovedThroughItsNeighboursIsRefused)
   EXPECT_THAT(told_of(text), AllOf(HasSubstr("turned inside out"), HasSubstr("negative Jacobian")));
 }
 
+TEST(Mesh, WithABrickThatIsThereTwiceIsRefused)
+{
+  const std::string brick = "1, 2, 4, 3, 5, 6, 8, 7\n";
+  const std::string cells = "*ELEMENT, TYPE=C3D8\n1, " + brick;
+  EXPECT_EQ(told_of(nodes_of_cube(1, 0.) + cells), "");
+  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + cells + "2, " + brick),
+              HasSubstr("6 pairs of neighbouring cells lie on the same side of their common face"));
+}
+
 TEST(Mesh, WithAFlatCellIsRefused)
 {
   const std::string text = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,1,1,0\n*ELEMENT, TYPE=C3D4\n1, 1,2,3,4\n";
