@@ -197,7 +197,7 @@ std::string frame_answer(const FrameAnswer &answer)
        {"frequency_limit_hz", frame.frequency_limit_hz},
        {"supported_modes", modes},
        {"interfaces", interfaces},
-       {"notes", frame.notes}});
+       {"notes", frame.all_notes()}});
 }
 
 std::string partition_answer(const Partition &partition)

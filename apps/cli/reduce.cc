@@ -82,7 +82,7 @@ void print_frame(const FrameAnswer &answer)
   std::cout << "  " << refined_words << '\n';
   for (const std::string &line : frame_text(answer.facts))
     std::cout << "  " << line << '\n';
-  for (const std::string &note : frame.notes)
+  for (const std::string &note : frame.all_notes())
     std::cout << "  note: " << note << '\n';
 }
 

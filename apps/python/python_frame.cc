@@ -72,7 +72,7 @@ void bind_reduced(py::module_ &module)
       .def_property_readonly(
           "mass", [](const PythonFrame &frame) { return frame.frame->mass; }, "Mass of the frame [kg].")
       .def_property_readonly(
-          "notes", [](const PythonFrame &frame) { return frame.frame->notes; }, "Warnings of the making.")
+          "notes", [](const PythonFrame &frame) { return frame.frame->all_notes(); }, "Warnings of the making.")
       .def_property_readonly(
           "statements", [](const PythonFrame &frame) { return frame.frame->statements; },
           "What was checked in the making and is as it should be.")

@@ -105,10 +105,9 @@ coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progres
   if (known)
     return std::move(*known);
   coupling::ReducedFrame frame = made(scene, progress);
-  const std::string      kept  = coupling::keep_in_cache(frame, origin);
-  for (const std::string &text : {note, kept})
+  for (const std::string &text : {note, coupling::keep_in_cache(frame, origin)})
     if (!text.empty())
-      frame.notes.push_back(text);
+      frame.cache_notes.push_back(text);
   return frame;
 }
 
@@ -118,7 +117,8 @@ void add_warnings(const Scene &scene, PreparedMachine &prepared)
 {
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
-    prepared.warnings.insert(prepared.warnings.end(), frame->notes.begin(), frame->notes.end());
+    for (const std::string &note : frame->all_notes())
+      prepared.warnings.push_back(note);
     if (scene.frame.source == FrameSource::matrices)
       if (const std::string suspicion = suspect_frequency(*frame); !suspicion.empty())
         prepared.warnings.push_back(suspicion);

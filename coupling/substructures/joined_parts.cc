@@ -105,6 +105,7 @@ ReducedFrame facts_of(const std::vector<ReducedFrame> &parts, const FrameOfParts
     whole.facts.whole.add(part.facts.whole);
     whole.facts.rigid_energy = std::max(whole.facts.rigid_energy, part.facts.rigid_energy);
     append(whole.notes, frame.parts[i].name, part.notes);
+    append(whole.cache_notes, frame.parts[i].name, part.cache_notes);
     append(whole.statements, frame.parts[i].name, part.statements);
   }
   return whole;
@@ -288,6 +289,7 @@ ReducedFrame completed(ReducedFrame reduced, const JoinedParts &joined)
   reduced.mass               = known.mass;
   reduced.frequency_limit_hz = std::min(reduced.frequency_limit_hz, known.frequency_limit_hz);
   reduced.notes.insert(reduced.notes.begin(), known.notes.begin(), known.notes.end());
+  reduced.cache_notes = known.cache_notes;
   reduced.statements.insert(reduced.statements.begin(), known.statements.begin(), known.statements.end());
   return reduced;
 }

@@ -36,7 +36,7 @@ ReducedFrame from_cache_or_made(const FramePart &part, const ReductionOptions &o
   const std::string kept  = keep_in_cache(frame, origin);
   for (const std::string &text : {note, kept})
     if (!text.empty())
-      frame.notes.push_back(text);
+      frame.cache_notes.push_back(text);
   return frame;
 }
 

@@ -150,6 +150,17 @@ TEST_F(FrameCacheCommand, RefusesWhatCannotBeMeant)
   EXPECT_TRUE(std::filesystem::exists(kept()));
 }
 
+TEST_F(FrameCacheCommand, ThatCannotKeepAFrameIsToldButNotInTheFrameThatIsPassedOn)
+{
+  const auto        frame  = [&] { return read(folder.results() / "reduced_frame.h5"); };
+  const std::string reduce = "reduce " + scene + folder.option() + "--set reduction.modes=1";
+  expect_answer(shell(called + reduce), 0, {"reduced frame made"});
+  const std::string kept = frame();
+  expect_answer(shell("GESTELL_CACHE=/dev/null '" GESTELL_BINARY_DIR "/bin/gestell' " + reduce), 0,
+                {"reduced frame made", "note: cache: the reduced frame is not kept"});
+  EXPECT_TRUE(frame() == kept);
+}
+
 TEST_F(FrameCacheCommand, WithoutAFolderIsEmpty)
 {
   expect_answer(shell("GESTELL_CACHE='" + cache + "/absent' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --list"), 0,
