@@ -223,7 +223,7 @@ void each_part(Frame &frame, Archive &&archive)
 {
   auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, outputs, points, triangles, displacement,
          stress, n_full, n_cells, n_fixed_modes, mass, facts, frequencies_hz, frequency_limit_hz, frequency_error,
-         left_out, static_residual, notes, statements] = frame;
+         left_out, static_residual, notes, statements, of_this_computer] = frame;
   archive("M", M);
   archive("B", B);
   archive("C", C);
@@ -320,25 +320,15 @@ void write_reduced_frame(const std::string &name, const ReducedFrame &frame, con
   write_sealed(name, title, file.image());
 }
 
-FrameSummary read_frame_summary(const std::string &name)
-{
-  if (const std::string defect = head_defect(name, title); !defect.empty())
-    throw std::runtime_error(defect);
-  const auto alone = hdf5_alone();
-  try
-  {
-    const Hdf5File file(name);
-    return {read_origin(file), whole_number(file, "n_full"), whole_number(file, "n_interface"),
-            int(file.read_vector("omega0").size())};
-  }
-  catch (const std::runtime_error &failure)
-  {
-    throw std::runtime_error("is damaged: " + std::string(failure.what()));
-  }
-}
-
 namespace
 {
+
+FrameSummary read_summary(const std::string &name)
+{
+  const Hdf5File file(name);
+  return {read_origin(file), whole_number(file, "n_full"), whole_number(file, "n_interface"),
+          int(file.read_vector("omega0").size())};
+}
 
 StoredFrame read_content(const std::string &name)
 {
@@ -351,12 +341,13 @@ StoredFrame read_content(const std::string &name)
   return stored;
 }
 
-/// Why the content cannot be read; "" if it can.
-std::string reading_defect(const std::string &name)
+/// Why a file cannot be read; "" if it can.
+template <typename Read>
+std::string defect_of(const Read &read, const std::string &name)
 {
   try
   {
-    read_content(name);
+    read(name);
     return "";
   }
   catch (const std::runtime_error &failure)
@@ -366,6 +357,24 @@ std::string reading_defect(const std::string &name)
 }
 
 } // namespace
+
+FrameSummary read_frame_summary(const std::string &name)
+{
+  if (const std::string defect = head_defect(name, title); !defect.empty())
+    throw std::runtime_error(defect);
+  const auto alone = hdf5_alone();
+  try
+  {
+    const auto defect = [&] { return defect_of(read_summary, name); };
+    if (const std::string found = defect_in_child(name, "reading the head of the frame", defect); !found.empty())
+      throw std::runtime_error(found);
+    return read_summary(name);
+  }
+  catch (const std::exception &failure) // of the child std::invalid_argument
+  {
+    throw std::runtime_error("is damaged: " + std::string(failure.what()));
+  }
+}
 
 StoredFrame read_stored_frame(const std::string &name)
 {
@@ -384,7 +393,7 @@ ReducedFrame read_reduced_frame(const std::string &file)
   const auto  alone  = hdf5_alone();
   std::string defect = seal_defect(file, title);
   if (defect.empty())
-    defect = defect_in_child(file, [&] { return reading_defect(file); });
+    defect = defect_in_child(file, "reading the frame", [&] { return defect_of(read_content, file); });
   if (defect.empty())
     try
     {

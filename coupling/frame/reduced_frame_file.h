@@ -50,7 +50,8 @@ struct FrameSummary
   int         n_full = 0, n_interface = 0, n_modes = 0;
 };
 
-/// Reads head, origin and sizes alone: some kilobytes of a file of any size.  Damage elsewhere is not seen.
+/// Reads head, origin and sizes alone: some kilobytes of a file of any size.  Damage elsewhere is not seen; as the
+/// checksum is not asked, a forked child reads them first.
 /// @throws std::runtime_error with what is wrong with the file.
 FrameSummary read_frame_summary(const std::string &file);
 

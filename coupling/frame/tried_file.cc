@@ -36,16 +36,17 @@ std::unique_lock<std::mutex> hdf5_alone()
   return std::unique_lock<std::mutex>(mutex);
 }
 
-std::string defect_in_child(const std::string &file, const std::function<std::string()> &defect)
+std::string defect_in_child(const std::string &file, const std::string &phase,
+                            const std::function<std::string()> &defect)
 {
   static std::set<std::string> survived;
-  const std::string            identity = identity_of(file);
+  const std::string            found_as = identity_of(file), identity = found_as.empty() ? "" : phase + ": " + found_as;
   if (fem::in_one_process() || survived.count(identity) > 0)
     return "";
   fem::ChildTask task;
   task.path        = file;
   task.head        = file;
-  task.phase       = "reading the frame";
+  task.phase       = phase;
   task.limits      = fem::reading_limits(file, fem::FileContent::geometry, fem::available_memory());
   task.library     = "HDF5";
   task.way_out     = "make the file anew with `gestell reduce`";

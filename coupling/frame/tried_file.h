@@ -11,14 +11,16 @@ namespace gestell::coupling
 std::unique_lock<std::mutex> hdf5_alone();
 
 /**
- * Reads a file of somebody else in a forked child first, once in this process for a file as it is, so that a crash of
- * HDF5, which follows the addresses of a file wherever they lead, becomes a message.  (A seal shows damage, not
- * forgery.) hdf5_alone() is held.
+ * Reads a file in a forked child first, once in this process for a file as it is, so that a crash of HDF5, which
+ * follows the addresses of a file wherever they lead, becomes a message.  (A seal shows damage, not forgery.)
+ * hdf5_alone() is held.
  *
+ * @param phase   what of it is read, for the message: "reading the frame"
  * @param defect  reads the file; why it cannot be read, "" if it can
  * @return        what `defect` returned; "" where no child is made, by GESTELL_ONE_PROCESS
  * @throws std::invalid_argument if the child dies or does not end, with the way out
  */
-std::string defect_in_child(const std::string &file, const std::function<std::string()> &defect);
+std::string defect_in_child(const std::string &file, const std::string &phase,
+                            const std::function<std::string()> &defect);
 
 } // namespace gestell::coupling
