@@ -4,13 +4,11 @@
 
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/target.h"
+#include "tests/fuzz/watched_process.h"
 
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -19,9 +17,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <exception>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
@@ -32,7 +28,6 @@ using namespace gestell::fuzz;
 
 constexpr std::uint64_t of_one_process = 50000;
 constexpr double        patience = 5., longest = 120.; // processor time and time of an execution [s]
-constexpr double        memory     = 1e9;              // beyond what the process has [byte]
 constexpr std::size_t   words_kept = 4000;
 
 /// What a process that executes leaves for the one that watches it.
@@ -50,17 +45,6 @@ Slate &shared_slate()
   return *new (place) Slate{};
 }
 
-void hold_memory()
-{
-  std::ifstream in("/proc/self/statm");
-  double        data = 0., skipped;
-  in >> skipped >> skipped >> skipped >> skipped >> skipped >> data;
-  const auto   bytes = static_cast<rlim_t>(data * double(::sysconf(_SC_PAGESIZE)) + memory);
-  const rlimit limit = {bytes, bytes}, no_core = {0, 0};
-  ::setrlimit(RLIMIT_DATA, &limit);
-  ::setrlimit(RLIMIT_CORE, &no_core);
-}
-
 /// Executes from `number` on; returns at the end or with a finding's words.
 void execute(const Target &target, const std::vector<std::string> &seeds, std::uint64_t to, Slate &slate)
 {
@@ -74,15 +58,6 @@ void execute(const Target &target, const std::vector<std::string> &seeds, std::u
       std::strncpy(slate.words, broken.what(), words_kept - 1);
       return;
     }
-}
-
-double processor_seconds(pid_t process)
-{
-  clockid_t clock;
-  timespec  time = {};
-  if (::clock_getcpuclockid(process, &clock) == 0)
-    ::clock_gettime(clock, &time);
-  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
 /// Waits for the process, and ends it if one execution takes too long.  @return its status
@@ -119,10 +94,7 @@ std::string in_process(const Target &target, const std::vector<std::string> &see
     throw std::runtime_error("no process");
   if (process == 0)
   {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const int nowhere = ::open("/dev/null", O_WRONLY);
-    ::dup2(nowhere, STDOUT_FILENO);
-    ::dup2(nowhere, STDERR_FILENO);
+    be_quiet_child();
     if (alone)
     {
       ::unsetenv("GESTELL_ONE_PROCESS");

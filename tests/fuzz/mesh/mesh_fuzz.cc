@@ -3,9 +3,8 @@
 #include "fem/process/child_messages.h"
 #include "fem/values/passing_folder.h"
 #include "tests/fuzz/mesh/mesh_mutation.h"
+#include "tests/fuzz/watched_process.h"
 
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <fcntl.h>
@@ -16,7 +15,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -36,19 +34,7 @@ using fem::MessageReader;
 using fem::MessageWriter;
 
 constexpr std::uint64_t of_one_process = 500;
-constexpr double        memory         = 1e9; // beyond what the process has [byte]
 constexpr double        longest_alone  = 10.; // [s]
-
-void hold_memory()
-{
-  std::ifstream in("/proc/self/statm");
-  double        data = 0., skipped;
-  in >> skipped >> skipped >> skipped >> skipped >> skipped >> data;
-  const auto   bytes = static_cast<rlim_t>(data * static_cast<double>(::sysconf(_SC_PAGESIZE)) + memory);
-  const rlimit limit = {bytes, bytes}, no_core = {0, 0};
-  ::setrlimit(RLIMIT_DATA, &limit);
-  ::setrlimit(RLIMIT_CORE, &no_core);
-}
 
 /// A forked process that judges files and tells of each.
 class Judge
@@ -66,10 +52,7 @@ public:
       throw std::runtime_error("no process");
     if (process_ == 0)
     {
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-      const int nowhere = ::open("/dev/null", O_WRONLY);
-      ::dup2(nowhere, STDOUT_FILENO);
-      ::dup2(nowhere, STDERR_FILENO);
+      be_quiet_child();
       MessageWriter out(ends[1]);
       work(out);
       ::_exit(0);
@@ -89,7 +72,7 @@ public:
   std::optional<Judgement> next(double seconds)
   {
     constexpr double of_busy_machines = 60.;
-    const double     begin            = processor_seconds();
+    const double     begin            = processor_seconds(process_);
     const auto       wait_until =
         std::chrono::steady_clock::now() + std::chrono::duration<double>(of_busy_machines * seconds);
     while (true)
@@ -99,22 +82,12 @@ public:
       pollfd    polled = {pipe_, POLLIN, 0};
       const int n      = ::poll(&polled, 1, 200);
       if (n > 0 ? !reader_.read_some(pipe_)
-                : processor_seconds() > begin + seconds || std::chrono::steady_clock::now() > wait_until)
+                : processor_seconds(process_) > begin + seconds || std::chrono::steady_clock::now() > wait_until)
         return std::nullopt;
     }
   }
 
 private:
-  /// Of the process, not of its children.
-  double processor_seconds() const
-  {
-    clockid_t clock;
-    timespec  time = {};
-    if (::clock_getcpuclockid(process_, &clock) == 0)
-      ::clock_gettime(clock, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-
   int           pipe_    = -1;
   pid_t         process_ = -1;
   MessageReader reader_;
