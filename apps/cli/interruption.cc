@@ -18,11 +18,23 @@ namespace gestell::apps
 
 namespace
 {
-std::atomic<bool> interrupted{false};
-std::atomic<bool> nothing_to_save{false}; ///< the end may come at once
-std::atomic<bool> saves_nothing{false};   ///< the command saves nothing when it is interrupted
-std::atomic<bool> meshing{false};         ///< the child process of gmsh ends first
-timespec          first_time{};
+/// What an interruption does now.
+enum class Interruption
+{
+  saves,             ///< what was computed
+  ends,              ///< as soon as the child process of gmsh has ended
+  ends_at_once,      ///< nothing was computed yet
+  ends_without_files ///< at once: the command saves nothing
+};
+
+std::atomic<bool>         interrupted{false};
+std::atomic<Interruption> effect{Interruption::saves};
+timespec                  first_time{};
+
+void say(const char *words)
+{
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, words, std::strlen(words));
+}
 
 double seconds_since_first()
 {
@@ -49,26 +61,23 @@ void leave_nothing()
     waitpid(shell, nullptr, 0);
 }
 
-// Only what is safe in a signal handler: an atomic, clock_gettime, write, _Fork, execl, waitpid, _exit, signal, raise.
+// Only what is safe in a signal handler: atomics, strlen, clock_gettime, write, _Fork, execl, waitpid, _exit, signal,
+// raise.
 extern "C" void note_interruption(int signal_number)
 {
-  if (nothing_to_save)
+  const Interruption now = effect;
+  if (now == Interruption::ends_at_once || now == Interruption::ends_without_files)
   {
-    constexpr char              nothing[] = "\ngestell: interrupted; nothing was computed yet that could be saved\n";
-    constexpr char              ended[]   = "\ngestell: interrupted; files that are not there yet are not written\n";
-    [[maybe_unused]] const auto written   = saves_nothing ? write(STDERR_FILENO, ended, sizeof ended - 1)
-                                                          : write(STDERR_FILENO, nothing, sizeof nothing - 1);
+    say(now == Interruption::ends_at_once ? "\ngestell: interrupted; nothing was computed yet that could be saved\n"
+                                          : "\ngestell: interrupted; files that are not there yet are not written\n");
     leave_nothing();
     _exit(exit_interrupted);
   }
   if (!interrupted.exchange(true))
   {
     clock_gettime(CLOCK_MONOTONIC, &first_time);
-    constexpr char saving[] = "\ngestell: interrupted; saving what was computed (once more: end at once)\n";
-    constexpr char ending[] = "\ngestell: interrupted; ending (once more: end at once)\n";
-    if ((meshing ? write(STDERR_FILENO, ending, sizeof ending - 1) : write(STDERR_FILENO, saving, sizeof saving - 1)) <
-        0)
-      return;
+    say(now == Interruption::ends ? "\ngestell: interrupted; ending (once more: end at once)\n"
+                                  : "\ngestell: interrupted; saving what was computed (once more: end at once)\n");
   }
   // Whoever signals a process and its group sends two at once: that is one wish.
   else if (seconds_since_first() > 0.5)
@@ -92,7 +101,7 @@ void end_where_nothing_is_saved()
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
     if (is_handled(number, SIG_DFL))
     {
-      saves_nothing = nothing_to_save = true;
+      effect = Interruption::ends_without_files;
       std::signal(number, note_interruption);
     }
 }
@@ -101,8 +110,8 @@ const std::atomic<bool> &interruption()
 {
   static const bool installed = []
   {
-    if (saves_nothing.exchange(false))
-      nothing_to_save = false;
+    Interruption before = Interruption::ends_without_files;
+    effect.compare_exchange_strong(before, Interruption::saves);
     std::signal(SIGINT, note_interruption);
     std::signal(SIGTERM, note_interruption);
     if (!is_handled(SIGHUP, SIG_IGN)) // as nohup asks
@@ -122,12 +131,13 @@ coupling::Progress nothing_to_save_before(const std::string &phase, const coupli
 {
   const bool plain = !answers_in_json(); // of which there is a document in any case
   note_what_is_left();
-  nothing_to_save = plain;
+  effect = plain ? Interruption::ends_at_once : Interruption::saves;
   return [phase, progress, plain, before = true](const std::string &now, double share) mutable
   {
-    before          = before && now != phase;
-    meshing         = fem::may_be_stopped(now); // by an exception, which removes its files
-    nothing_to_save = plain && before && !meshing;
+    before = before && now != phase;
+    effect = fem::may_be_stopped(now) ? Interruption::ends // by an exception, which removes its files
+             : plain && before        ? Interruption::ends_at_once
+                                      : Interruption::saves;
     if (progress)
       progress(now, share);
   };

@@ -79,7 +79,7 @@ std::vector<std::string> write_or_rescue(const fs::path &folder, const std::func
     return writing.names();
   std::string message = writing.failures().front();
   if (n_failures > 1)
-    message += "\n  and what comes with it: " + std::to_string(n_failures - 1) + " more could not be written";
+    message += "\n  nor could " + std::to_string(n_failures - 1) + " more, files and series of files, be written";
   const fs::path elsewhere = written_elsewhere(write);
   throw coupling::WriteFailure(message + (elsewhere.empty()
                                               ? "\n  what could be written is in " + folder.string()
