@@ -9,6 +9,8 @@
 #include "fem/values/vector3.h"
 #include "fem/values/volume_integrals.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <gmsh.h>
 
 #include <cmath>
@@ -21,10 +23,11 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double coarsest       = 0.2;  // edge of a skin's triangles by the part's diagonal
-constexpr int    n_around       = 16;   // edges around a full circle
-constexpr double same_volume    = 1e-6; // relative, of a union against its solids
-constexpr double enclosed_share = 0.5;  // of the volume, by a skin of coarse triangles
+constexpr double coarsest            = 0.2;  // edge of a skin's triangles by the part's diagonal
+constexpr int    n_around            = 16;   // edges around a full circle
+constexpr double same_volume         = 1e-6; // relative, of a union against its solids
+constexpr double enclosed_share      = 0.5;  // of the volume, by a skin of coarse triangles
+constexpr double rounding_of_inertia = 1e-6; // eps times the square of the farthest place by the size, read_cad.cc
 
 std::string head_of(const CadSource &source)
 {
@@ -179,6 +182,18 @@ void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &mode
   add_skin(part, surface);
 }
 
+/// That the second moments of the volume about its centre, tr(J)/2 I - J, are of a body: positive semidefinite.
+void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source)
+{
+  const Eigen::Matrix3d moments = 0.5 * J.trace() * Eigen::Matrix3d::Identity() - J;
+  const bool            finite  = J.allFinite();
+  const double smallest = finite ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvalues()[0] : 0.;
+  if (!finite || smallest < -rounding_of_inertia * J.trace())
+    throw std::invalid_argument(head_of(source) + " has moments of inertia that no body has (" + text(J(0, 0)) + ", " +
+                                text(J(1, 1)) + ", " + text(J(2, 2)) +
+                                " m^5): a face of it is open or turned inside out; repair it in the CAD program.");
+}
+
 } // namespace
 
 CadBody measures_of_part(const CadSource &source)
@@ -204,6 +219,7 @@ CadBody measures_of_part(const CadSource &source)
     part.volume  = sum.volume;
     part.centre  = sum.centre();
     part.inertia = sum.inertia();
+    require_inertia_of_a_body(part.inertia, source);
   };
   session.run(measure, head_of(source) + ": gmsh fails on this part: ", "; repair it, or export it another way.");
   return part;

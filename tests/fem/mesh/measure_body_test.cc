@@ -187,6 +187,12 @@ TEST(CadBody, ThatIsNoClosedBodyIsRefused)
   EXPECT_THAT(complaint(pyramid_stl("plain.stl", 6)), HasSubstr("unit = \"1 mm\""));
 }
 
+TEST(CadBody, WithMomentsOfInertiaThatNoBodyHasIsRefused)
+{
+  EXPECT_THAT(complaint(GESTELL_SOURCE_DIR "/tests/fuzz/mesh/found/negative_inertia.brep", 1.),
+              HasSubstr("moments of inertia that no body has"));
+}
+
 TEST(CadBody, WhoseSolidsOverlapIsRefused)
 {
   const auto two = [](double x)
