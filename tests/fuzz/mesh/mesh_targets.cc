@@ -209,7 +209,7 @@ class Stopwatch
 public:
   void operator()(const std::string &phase, double) const
   {
-    constexpr std::chrono::seconds patience{10};
+    constexpr std::chrono::seconds patience{2};
     if (phase != mesh_phase::reading && std::chrono::steady_clock::now() - begin_ > patience)
       throw Stopped();
   }
