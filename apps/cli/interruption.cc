@@ -8,7 +8,9 @@
 
 #include <sys/wait.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstring>
 #include <ctime>
 #include <unistd.h>
@@ -29,19 +31,22 @@ enum class Interruption
 
 std::atomic<bool>         interrupted{false};
 std::atomic<Interruption> effect{Interruption::saves};
-timespec                  first_time{};
+std::atomic<std::int64_t> first_signal{0}; ///< [ns]
+static_assert(std::atomic<Interruption>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
+              "else no handler of signals may ask them");
+
+constexpr std::int64_t one_wish = 500000000; ///< [ns]
 
 void say(const char *words)
 {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, words, std::strlen(words));
 }
 
-double seconds_since_first()
+std::int64_t nanoseconds()
 {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec - first_time.tv_sec) +
-         1e-9 * static_cast<double>(now.tv_nsec - first_time.tv_nsec);
+  return std::int64_t{1000000000} * now.tv_sec + now.tv_nsec;
 }
 
 std::atomic<const char *> leaving{nullptr}; ///< for a shell: remove the lock, empty folders and temporary files
@@ -65,7 +70,8 @@ void leave_nothing()
 // raise.
 extern "C" void note_interruption(int signal_number)
 {
-  const Interruption now = effect;
+  const int          error = errno;
+  const Interruption now   = effect;
   if (now == Interruption::ends_at_once || now == Interruption::ends_without_files)
   {
     say(now == Interruption::ends_at_once ? "\ngestell: interrupted; nothing was computed yet that could be saved\n"
@@ -73,18 +79,21 @@ extern "C" void note_interruption(int signal_number)
     leave_nothing();
     _exit(exit_interrupted);
   }
-  if (!interrupted.exchange(true))
+  const std::int64_t time  = nanoseconds();
+  std::int64_t       first = 0;
+  if (first_signal.compare_exchange_strong(first, time))
   {
-    clock_gettime(CLOCK_MONOTONIC, &first_time);
+    interrupted = true;
     say(now == Interruption::ends ? "\ngestell: interrupted; ending (once more: end at once)\n"
                                   : "\ngestell: interrupted; saving what was computed (once more: end at once)\n");
   }
   // Whoever signals a process and its group sends two at once: that is one wish.
-  else if (seconds_since_first() > 0.5)
+  else if (time - first > one_wish)
   {
     std::signal(signal_number, SIG_DFL);
     raise(signal_number);
   }
+  errno = error;
 }
 
 /// Whether this is what the process does on the signal.

@@ -8,7 +8,7 @@
 namespace gestell::apps
 {
 
-/// Becomes true when the user interrupts (SIGINT, SIGTERM); a further one, half a second later or more,
+/// Becomes true when the user interrupts (SIGINT, SIGTERM, SIGHUP); a further one, half a second later or more,
 /// ends the program at once.
 const std::atomic<bool> &interruption();
 

@@ -4,7 +4,9 @@
 #include "coupling/frame/reduced_stress_file.h"
 #include "coupling/frame/sealed_file.h"
 #include "coupling/frame/tried_file.h"
+#include "fem/values/available_memory.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -223,7 +225,7 @@ void each_part(Frame &frame, Archive &&archive)
 {
   auto &[M, B, C, n_interface, modal, omega0, interfaces, translations_load, outputs, points, triangles, displacement,
          stress, n_full, n_cells, n_fixed_modes, mass, facts, frequencies_hz, frequency_limit_hz, frequency_error,
-         left_out, static_residual, notes, statements, of_this_computer] = frame;
+         left_out, static_residual, notes, statements, cache_notes] = frame;
   archive("M", M);
   archive("B", B);
   archive("C", C);
@@ -341,6 +343,13 @@ StoredFrame read_content(const std::string &name)
   return stored;
 }
 
+constexpr double seconds_for_a_head = 10.; ///< of processor time, for some kilobytes
+
+fem::ReadingLimits limits_of(const std::string &file)
+{
+  return fem::reading_limits(file, fem::FileContent::geometry, fem::available_memory());
+}
+
 /// Why a file cannot be read; "" if it can.
 template <typename Read>
 std::string defect_of(const Read &read, const std::string &name)
@@ -362,15 +371,30 @@ FrameSummary read_frame_summary(const std::string &name)
 {
   if (const std::string defect = head_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
-  const auto alone = hdf5_alone();
+  const auto  alone = hdf5_alone();
+  std::string defect;
   try
   {
-    const auto defect = [&] { return defect_of(read_summary, name); };
-    if (const std::string found = defect_in_child(name, "reading the head of the frame", defect); !found.empty())
-      throw std::runtime_error(found);
+    fem::ReadingLimits limits = limits_of(name);
+    limits.seconds            = std::min(limits.seconds, seconds_for_a_head); // 0: none
+    defect =
+        defect_in_child(name, "reading the head of the frame", limits, [&] { return defect_of(read_summary, name); });
+  }
+  catch (const std::invalid_argument &died)
+  {
+    defect = died.what();
+  }
+  catch (const std::runtime_error &)
+  {
+    // No child can be made, for which the file, which is of our own, is not to blame.
+  }
+  if (!defect.empty())
+    throw std::runtime_error("is damaged: " + defect);
+  try
+  {
     return read_summary(name);
   }
-  catch (const std::exception &failure) // of the child std::invalid_argument
+  catch (const std::runtime_error &failure)
   {
     throw std::runtime_error("is damaged: " + std::string(failure.what()));
   }
@@ -393,7 +417,7 @@ ReducedFrame read_reduced_frame(const std::string &file)
   const auto  alone  = hdf5_alone();
   std::string defect = seal_defect(file, title);
   if (defect.empty())
-    defect = defect_in_child(file, "reading the frame", [&] { return defect_of(read_content, file); });
+    defect = defect_in_child(file, "reading the frame", limits_of(file), [&] { return defect_of(read_content, file); });
   if (defect.empty())
     try
     {

@@ -1,7 +1,6 @@
 #include "coupling/frame/tried_file.h"
 
 #include "fem/process/child.h"
-#include "fem/values/available_memory.h"
 
 #include <sys/stat.h>
 
@@ -36,7 +35,7 @@ std::unique_lock<std::mutex> hdf5_alone()
   return std::unique_lock<std::mutex>(mutex);
 }
 
-std::string defect_in_child(const std::string &file, const std::string &phase,
+std::string defect_in_child(const std::string &file, const std::string &phase, const fem::ReadingLimits &limits,
                             const std::function<std::string()> &defect)
 {
   static std::set<std::string> survived;
@@ -47,7 +46,7 @@ std::string defect_in_child(const std::string &file, const std::string &phase,
   task.path        = file;
   task.head        = file;
   task.phase       = phase;
-  task.limits      = fem::reading_limits(file, fem::FileContent::geometry, fem::available_memory());
+  task.limits      = limits;
   task.library     = "HDF5";
   task.way_out     = "make the file anew with `gestell reduce`";
   const auto begin = std::chrono::steady_clock::now();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fem/process/reading_limits.h"
+
 #include <functional>
 #include <mutex>
 #include <string>
@@ -18,9 +20,10 @@ std::unique_lock<std::mutex> hdf5_alone();
  * @param phase   what of it is read, for the message: "reading the frame"
  * @param defect  reads the file; why it cannot be read, "" if it can
  * @return        what `defect` returned; "" where no child is made, by GESTELL_ONE_PROCESS
- * @throws std::invalid_argument if the child dies or does not end, with the way out
+ * @throws std::invalid_argument if the child dies or does not end, with the way out; std::runtime_error if none can be
+ *         made
  */
-std::string defect_in_child(const std::string &file, const std::string &phase,
+std::string defect_in_child(const std::string &file, const std::string &phase, const fem::ReadingLimits &limits,
                             const std::function<std::string()> &defect);
 
 } // namespace gestell::coupling

@@ -35,6 +35,8 @@ std::string place_of(std::ifstream &in)
 void check_brep_file(const CadSource &source)
 {
   std::ifstream in(source.path, std::ios::binary);
+  if (!in)
+    throw std::invalid_argument(source.place + ": " + source.path + " cannot be read; check its permissions.");
   in.exceptions(std::ios::failbit | std::ios::badbit);
   try
   {

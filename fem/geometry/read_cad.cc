@@ -24,7 +24,8 @@ namespace
 
 constexpr double smallest_diagonal = 1e-3; // [m]
 constexpr double largest_diagonal  = 200.; // [m]
-constexpr double farthest          = 1e5;  // from the origin by the diagonal: its square times eps is lost of inertia
+constexpr double farthest          = 1e7;  // from the origin by the diagonal: nine digits are left of lengths
+constexpr double width_of_slivers  = 1e-6; // by the diagonal: CAD programs agree on points to about 1e-7 of it
 constexpr double smallest_likely   = 0.02; // [m]: beyond these few frames are
 constexpr double largest_likely    = 50.;  // [m]
 
@@ -124,14 +125,25 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
                                   " m^3; it is open or turned inside out: repair it in the CAD program.");
 }
 
+/// Edges that coincide within the tolerance of CAD leave faces whose area is rounding of either sign.
 void check_faces(const CadModel &model, const CadSource &source)
 {
-  for (const Face &face : model.faces)
-    if (!(std::isfinite(face.area) && face.area >= 0.))
-      throw std::invalid_argument(source.place + ": " + source.path + ": the face " + std::to_string(face.tag) + " (" +
-                                  face.type + ") from " + text(face.min) + " to " + text(face.max) + " has the area " +
-                                  text(face.area) +
+  gmsh::vectorpair faces;
+  gmsh::model::getEntities(faces, 2);
+  for (const auto &[dim, tag] : faces)
+  {
+    double  area = 0.;
+    Vector3 min, max;
+    gmsh::model::occ::getMass(dim, tag, area);
+    gmsh::model::getBoundingBox(dim, tag, min[0], min[1], min[2], max[0], max[1], max[2]);
+    min  = model.unit * min;
+    max  = model.unit * max;
+    area = model.unit * model.unit * area;
+    if (!std::isfinite(area) || area < -width_of_slivers * model.diagonal() * norm(max - min))
+      throw std::invalid_argument(source.place + ": " + source.path + ": the face " + std::to_string(tag) + " from " +
+                                  text(min) + " to " + text(max) + " has the area " + text(area) +
                                   " m^2, so its boundary is open or turned inside out; repair it in the CAD program.");
+  }
 }
 
 /// How another unit is given, if lengths are wrong by a factor of a thousand.
@@ -156,8 +168,8 @@ void check_size(const CadModel &model, const CadSource &source)
   if (const double distance = norm(0.5 * (model.min + model.max)); distance > farthest * diagonal)
     throw std::invalid_argument(source.place + ": " + source.path + " is " + text(diagonal) + " m across and lies " +
                                 text(distance) +
-                                " m from the origin, where its own lengths are lost in rounding; move it nearer "
-                                "in the CAD program.");
+                                " m from the origin, where its own lengths lose half of their digits; move it "
+                                "nearer in the CAD program.");
 }
 
 } // namespace
@@ -211,6 +223,8 @@ CadModel read_model(const CadSource &source, CadFile file, const std::string &op
   model.min = model.unit * model.min;
   model.max = model.unit * model.max;
   check_size(model, source);
+  if (!model.meshed)
+    check_faces(model, source);
   return model;
 }
 
@@ -254,7 +268,6 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
   check_shells(model, source);
   join_solids(model, specification, session);
   model.faces = outer_faces(model.unit, model.diagonal());
-  check_faces(model, source);
   if (file == CadFile::step && attributes == FaceAttributes::read)
     add_step_attributes(model.faces, source);
   check_bodies(model, specification);

@@ -10,11 +10,12 @@
 #include <gmsh.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 namespace gestell::fem
 {

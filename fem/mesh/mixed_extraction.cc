@@ -5,6 +5,7 @@
 #include "fem/mesh/joined_cells.h"
 #include "fem/mesh/mesh_nodes.h"
 #include "fem/mesh/mesh_quality.h"
+#include "fem/values/cell_shape.h"
 #include "fem/values/message_text.h"
 #include "fem/values/vector3.h"
 

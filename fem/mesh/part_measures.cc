@@ -27,7 +27,8 @@ constexpr double coarsest            = 0.2;  // edge of a skin's triangles by th
 constexpr int    n_around            = 16;   // edges around a full circle
 constexpr double same_volume         = 1e-6; // relative, of a union against its solids
 constexpr double enclosed_share      = 0.5;  // of the volume, by a skin of coarse triangles
-constexpr double rounding_of_inertia = 1e-6; // eps times the square of the farthest place by the size, read_cad.cc
+constexpr double farthest            = 1e4;  // from the origin by the diagonal: some 1e-6 is lost of inertia
+constexpr double rounding_of_inertia = 1e-5; // eps times the square of that, times some tens of slender bodies
 
 std::string head_of(const CadSource &source)
 {
@@ -175,22 +176,33 @@ void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &mode
   if (enclosed_volume(surface) < 0.)
     for (auto &triangle : surface.triangles)
       std::swap(triangle[1], triangle[2]);
-  const Eigen::Vector3d inside = vector(0.5 * (model.min + model.max)); // near the part: no digits are lost
+  const Eigen::Vector3d inside =
+      vector(0.5 * (model.min + model.max)); // near the part: of volume and centre no digits are lost
   for (const auto &[a, b, c] : surface.triangles)
     sum.add_tetrahedron(inside, vector(surface.points[a]), vector(surface.points[b]), vector(surface.points[c]));
   part.solids = {"surface"};
   add_skin(part, surface);
 }
 
+/// Moments about the centre are left of those about the origin, which are larger by the square of the distance.
+void require_near(const VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
+{
+  if (const double distance = sum.centre().norm(); distance > farthest * model.diagonal())
+    throw std::invalid_argument(head_of(source) + " is " + text(model.diagonal()) + " m across and lies " +
+                                text(distance) +
+                                " m from the origin, where its moments of inertia lose their digits; move it nearer in "
+                                "the CAD program.");
+}
+
 /// That the second moments of the volume about its centre, tr(J)/2 I - J, are of a body: positive semidefinite.
 void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source)
 {
-  const Eigen::Matrix3d moments = 0.5 * J.trace() * Eigen::Matrix3d::Identity() - J;
-  const bool            finite  = J.allFinite();
-  const double smallest = finite ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments).eigenvalues()[0] : 0.;
-  if (!finite || smallest < -rounding_of_inertia * J.trace())
-    throw std::invalid_argument(head_of(source) + " has moments of inertia that no body has (" + text(J(0, 0)) + ", " +
-                                text(J(1, 1)) + ", " + text(J(2, 2)) +
+  const Eigen::Vector3d principal =
+      J.allFinite() ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J).eigenvalues() : Eigen::Vector3d::Constant(NAN);
+  const double smallest = 0.5 * principal.sum() - principal[2];
+  if (!(smallest >= -rounding_of_inertia * principal.cwiseAbs().maxCoeff()))
+    throw std::invalid_argument(head_of(source) + " has principal moments of inertia that no body has (" +
+                                text(principal[0]) + ", " + text(principal[1]) + ", " + text(principal[2]) +
                                 " m^5): a face of it is open or turned inside out; repair it in the CAD program.");
 }
 
@@ -219,6 +231,7 @@ CadBody measures_of_part(const CadSource &source)
     part.volume  = sum.volume;
     part.centre  = sum.centre();
     part.inertia = sum.inertia();
+    require_near(sum, model, source);
     require_inertia_of_a_body(part.inertia, source);
   };
   session.run(measure, head_of(source) + ": gmsh fails on this part: ", "; repair it, or export it another way.");

@@ -7,6 +7,7 @@
 #include "coupling/frame/frame_recipe.h"
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/frame/sha256.h"
+#include "fem/process/child.h"
 
 #include <stdexcept>
 #include <typeinfo>
@@ -36,18 +37,27 @@ std::string sealed(const std::string &bytes)
          bytes.substr(at + hash.size() + 64);
 }
 
-void frame(const std::string &bytes)
+/// Its documentation says how it refuses.
+template <typename Read>
+void refuses_by_runtime_error(const Read &read, const std::string &file)
 {
-  const std::string file = file_of("frame.h5", sealed(bytes));
   try
   {
-    coupling::read_frame_summary(file);
+    read(file);
   }
-  catch (const std::runtime_error &refused) // as its documentation says
+  catch (const std::runtime_error &refused)
   {
     if (typeid(refused) != typeid(std::runtime_error))
       throw;
   }
+}
+
+void frame(const std::string &bytes)
+{
+  const std::string file = file_of("frame.h5", sealed(bytes));
+  refuses_by_runtime_error(coupling::read_frame_summary, file);
+  if (fem::in_one_process()) // it makes no child: of our own cache, whose seals nobody forges
+    refuses_by_runtime_error(coupling::read_stored_frame, file);
   try
   {
     coupling::read_reduced_frame(file);

@@ -161,6 +161,12 @@ TEST_F(FrameCacheCommand, ThatCannotKeepAFrameIsToldButNotInTheFrameThatIsPassed
   EXPECT_TRUE(frame() == kept);
 }
 
+TEST_F(FrameCacheCommand, KeepsFramesThatCannotBeTriedInAChild)
+{
+  const Answer answer = shell("TMPDIR=/no/such/folder " + called + "reduce --prune");
+  expect_answer(answer, 0, {"removed 0 files"});
+}
+
 TEST_F(FrameCacheCommand, WithoutAFolderIsEmpty)
 {
   expect_answer(shell("GESTELL_CACHE='" + cache + "/absent' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --list"), 0,

@@ -169,22 +169,24 @@ struct Refusals
 /// Reads the file with one address after the other that leads nowhere; names and times are addresses by chance only.
 template <typename Refusal>
 Refusals refusals(const std::string &file, const std::function<std::string(const std::string &)> &sealed,
-                  const std::function<void()> &read)
+                  const std::function<void(const std::string &)> &read)
 {
   coupling::write_reduced_frame(file, some_frame());
   const std::string              whole  = bytes(file);
   const std::vector<std::size_t> places = addresses_in(whole);
   EXPECT_GT(places.size(), 100u);
   Refusals refusals;
+  int      n = 0;
   for (std::size_t i = 0; i < places.size(); i += i < 8 ? 1 : places.size() / 8) // the first are those of the root
     for (const std::uint64_t address : {std::uint64_t(8), std::uint64_t(1) << 40, ~std::uint64_t(0)})
     {
       std::string forged = whole;
       std::memcpy(forged.data() + places[i], &address, sizeof address);
-      std::ofstream(file, std::ios::binary) << sealed(forged);
+      const std::string name = file + std::to_string(++n); // another one: a file is tried once as it is
+      std::ofstream(name, std::ios::binary) << sealed(forged);
       try
       {
-        read();
+        read(name);
       }
       catch (const Refusal &refusal)
       {
@@ -197,7 +199,8 @@ Refusals refusals(const std::string &file, const std::function<std::string(const
 
 TEST_F(ReducedFrameFile, ForgedAddressesAreAMessageWhateverTheLibraryDoes)
 {
-  const Refusals of = refusals<std::invalid_argument>(file, sealed_anew, [&] { coupling::read_reduced_frame(file); });
+  const Refusals of = refusals<std::invalid_argument>(
+      file, sealed_anew, [](const std::string &name) { coupling::read_reduced_frame(name); });
   EXPECT_GT(of.all, 10);
   EXPECT_GT(of.killed, 0) << "else it needs no child";
 }
@@ -205,7 +208,8 @@ TEST_F(ReducedFrameFile, ForgedAddressesAreAMessageWhateverTheLibraryDoes)
 TEST_F(ReducedFrameFile, DamagedAddressesAreAMessageWhereTheChecksumIsNotAsked)
 {
   const auto     as_it_is = [](const std::string &damaged) { return damaged; };
-  const Refusals of       = refusals<std::runtime_error>(file, as_it_is, [&] { coupling::read_frame_summary(file); });
+  const Refusals of =
+      refusals<std::runtime_error>(file, as_it_is, [](const std::string &name) { coupling::read_frame_summary(name); });
   EXPECT_GT(of.all, 5);
   EXPECT_GT(of.killed, 0) << "else it needs no child";
 }
