@@ -48,7 +48,7 @@ struct ReducedFrame
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making
   std::vector<std::string> statements;           ///< what was checked in the making and is as it should be
-  std::vector<std::string> cache_notes;          ///< why it is not kept for the next run; of this computer: in no file
+  std::vector<std::string> cache_notes;          ///< from the cache of this computer; in no file
 
   std::vector<std::string> all_notes() const
   {

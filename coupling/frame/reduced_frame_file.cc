@@ -371,12 +371,12 @@ FrameSummary read_frame_summary(const std::string &name)
 {
   if (const std::string defect = head_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
-  const auto  alone = hdf5_alone();
+  fem::ReadingLimits limits = limits_of(name);
+  limits.seconds            = std::min(limits.seconds, seconds_for_a_head); // 0: none
+  const auto  alone         = hdf5_alone();
   std::string defect;
   try
   {
-    fem::ReadingLimits limits = limits_of(name);
-    limits.seconds            = std::min(limits.seconds, seconds_for_a_head); // 0: none
     defect =
         defect_in_child(name, "reading the head of the frame", limits, [&] { return defect_of(read_summary, name); });
   }
@@ -386,7 +386,7 @@ FrameSummary read_frame_summary(const std::string &name)
   }
   catch (const std::runtime_error &)
   {
-    // No child can be made, for which the file, which is of our own, is not to blame.
+    // No child can be made: the file is not to blame, and is read without.
   }
   if (!defect.empty())
     throw std::runtime_error("is damaged: " + defect);

@@ -52,6 +52,7 @@ struct FrameSummary
 
 /// Reads head, origin and sizes alone: some kilobytes of a file of any size.  Damage elsewhere is not seen; as the
 /// checksum is not asked, a forked child reads them first.
+/// @throws std::invalid_argument if GESTELL_READING_SECONDS is no number
 /// @throws std::runtime_error with what is wrong with the file.
 FrameSummary read_frame_summary(const std::string &file);
 

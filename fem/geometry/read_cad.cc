@@ -128,14 +128,14 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
 /// Edges that coincide within the tolerance of CAD leave faces whose area is rounding of either sign.
 void check_faces(const CadModel &model, const CadSource &source)
 {
-  gmsh::vectorpair faces;
-  gmsh::model::getEntities(faces, 2);
+  gmsh::vectorpair faces; // a script may draw others by gmsh's own kernel, which knows no areas
+  gmsh::model::occ::getEntities(faces, 2);
   for (const auto &[dim, tag] : faces)
   {
     double  area = 0.;
     Vector3 min, max;
     gmsh::model::occ::getMass(dim, tag, area);
-    gmsh::model::getBoundingBox(dim, tag, min[0], min[1], min[2], max[0], max[1], max[2]);
+    gmsh::model::occ::getBoundingBox(dim, tag, min[0], min[1], min[2], max[0], max[1], max[2]);
     min  = model.unit * min;
     max  = model.unit * max;
     area = model.unit * model.unit * area;

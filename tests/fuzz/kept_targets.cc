@@ -37,7 +37,7 @@ std::string sealed(const std::string &bytes)
          bytes.substr(at + hash.size() + 64);
 }
 
-/// Its documentation says how it refuses.
+/// Refusals are std::runtime_error itself, as the documentation of these readers says.
 template <typename Read>
 void refuses_by_runtime_error(const Read &read, const std::string &file)
 {
@@ -56,7 +56,7 @@ void frame(const std::string &bytes)
 {
   const std::string file = file_of("frame.h5", sealed(bytes));
   refuses_by_runtime_error(coupling::read_frame_summary, file);
-  if (fem::in_one_process()) // it makes no child: of our own cache, whose seals nobody forges
+  if (fem::in_one_process()) // read_stored_frame() has no child of its own: it reads the cache of the user
     refuses_by_runtime_error(coupling::read_stored_frame, file);
   try
   {

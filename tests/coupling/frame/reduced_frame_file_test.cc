@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -163,7 +164,8 @@ std::vector<std::size_t> addresses_in(const std::string &bytes)
 
 struct Refusals
 {
-  int all = 0, killed = 0; ///< by a signal in HDF5, which is told
+  int all    = 0;
+  int killed = 0; ///< where a signal ended HDF5 and the message says so
 };
 
 /// Reads the file with one address after the other that leads nowhere; names and times are addresses by chance only.
@@ -212,6 +214,14 @@ TEST_F(ReducedFrameFile, DamagedAddressesAreAMessageWhereTheChecksumIsNotAsked)
       refusals<std::runtime_error>(file, as_it_is, [](const std::string &name) { coupling::read_frame_summary(name); });
   EXPECT_GT(of.all, 5);
   EXPECT_GT(of.killed, 0) << "else it needs no child";
+}
+
+TEST_F(ReducedFrameFile, HeadIsNotTakenForDamagedWhereTheLimitOfTimeIsNoNumber)
+{
+  coupling::write_reduced_frame(file, some_frame());
+  setenv("GESTELL_READING_SECONDS", "often", 1);
+  EXPECT_THROW(coupling::read_frame_summary(file), std::invalid_argument); // std::runtime_error: it is damaged
+  unsetenv("GESTELL_READING_SECONDS");
 }
 
 TEST_F(ReducedFrameFile, PartsThatDoNotFitAreRefused)
