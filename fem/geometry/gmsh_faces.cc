@@ -20,11 +20,6 @@ constexpr int    samples_per_direction = 5;
 constexpr double relative_tolerance    = 1e-6; // of the model: CAD programs agree on points to about 1e-7 of it
 constexpr double facet_tolerance       = 1e-5; // of a face of a mesh: files have six or seven digits
 
-std::string last_part(const std::string &label)
-{
-  return label.substr(label.rfind('/') + 1);
-}
-
 /// Names of all solids: a face without a name of its own gets its solid's from OpenCASCADE.
 std::set<std::string> names_of_solids()
 {
@@ -155,6 +150,11 @@ std::vector<Face> faces_of_geometry(std::size_t n_solids, double unit, double di
 }
 
 } // namespace
+
+std::string last_part(const std::string &label)
+{
+  return label.substr(label.rfind('/') + 1);
+}
 
 std::vector<Face> outer_faces(double unit, double diagonal)
 {

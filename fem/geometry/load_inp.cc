@@ -1,6 +1,6 @@
 #include "fem/geometry/load_inp.h"
 
-#include "fem/geometry/inp_file.h"
+#include "fem/geometry/inp/inp_file.h"
 
 #include <gmsh.h>
 

@@ -29,11 +29,6 @@ constexpr double width_of_slivers  = 1e-6; // by the diagonal: CAD programs agre
 constexpr double smallest_likely   = 0.02; // [m]: beyond these few frames are
 constexpr double largest_likely    = 50.;  // [m]
 
-std::string last_part(const std::string &label)
-{
-  return label.substr(label.rfind('/') + 1);
-}
-
 std::string physical_name(int dim, int tag)
 {
   std::vector<int> groups;

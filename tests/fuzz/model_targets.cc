@@ -3,7 +3,7 @@
 #include "coupling/frame/source_files.h"
 #include "fem/geometry/cad_file.h"
 #include "fem/geometry/geo_script.h"
-#include "fem/geometry/inp_file.h"
+#include "fem/geometry/inp/inp_file.h"
 #include "fem/geometry/step_text.h"
 
 #include <cmath>

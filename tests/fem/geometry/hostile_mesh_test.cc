@@ -1,6 +1,6 @@
 // Meshes that nobody means well with: short files that ask for much, numbers that are none.
 
-#include "fem/geometry/inp_file.h"
+#include "fem/geometry/inp/inp_file.h"
 #include "fem/mesh/measure_body.h"
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"

@@ -1,6 +1,6 @@
 // Meshes of Abaqus and CalculiX, and what is wrong with meshes: each is told with its place and the way out.
 
-#include "fem/geometry/inp_file.h"
+#include "fem/geometry/inp/inp_file.h"
 #include "fem/mesh/mesh_quality.h"
 #include "fem/mesh/mesher.h"
 #include "fem/values/vector3.h"

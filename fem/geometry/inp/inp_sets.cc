@@ -1,4 +1,4 @@
-#include "fem/geometry/inp_sets.h"
+#include "fem/geometry/inp/inp_sets.h"
 
 #include <algorithm>
 #include <charconv>

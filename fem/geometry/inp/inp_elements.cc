@@ -1,4 +1,4 @@
-#include "fem/geometry/inp_elements.h"
+#include "fem/geometry/inp/inp_elements.h"
 
 #include <cctype>
 

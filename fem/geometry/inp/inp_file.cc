@@ -1,8 +1,8 @@
-#include "fem/geometry/inp_file.h"
+#include "fem/geometry/inp/inp_file.h"
 
-#include "fem/geometry/inp_elements.h"
-#include "fem/geometry/inp_middle_nodes.h"
-#include "fem/geometry/inp_sets.h"
+#include "fem/geometry/inp/inp_elements.h"
+#include "fem/geometry/inp/inp_middle_nodes.h"
+#include "fem/geometry/inp/inp_sets.h"
 #include "fem/values/inp_lines.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-#include "fem/geometry/inp_middle_nodes.h"
+#include "fem/geometry/inp/inp_middle_nodes.h"
 
-#include "fem/geometry/inp_elements.h"
+#include "fem/geometry/inp/inp_elements.h"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/geometry/cad_file.h"
+#include "fem/values/cad_source.h"
 
 #include <cstddef>
 #include <map>
