@@ -9,7 +9,6 @@
 #include "apps/session/forces/acting_forces.h"
 #include "apps/version.h"
 #include "coupling/equilibrium/static_expansion.h"
-#include "coupling/frame/frame_cache.h"
 #include "coupling/modes/modes.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_service.h"
@@ -96,19 +95,9 @@ coupling::ReducedFrame made(const Scene &scene, const coupling::Progress &progre
 }
 } // namespace
 
-coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress, bool &from_cache)
+coupling::CachedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress)
 {
-  const coupling::FrameOrigin origin = frame_origin(scene);
-  std::string                 note;
-  auto                        known = coupling::find_in_cache(coupling::content_key(origin.recipe), note);
-  from_cache                        = known.has_value();
-  if (known)
-    return std::move(*known);
-  coupling::ReducedFrame frame = made(scene, progress);
-  for (const std::string &text : {note, coupling::keep_in_cache(frame, origin)})
-    if (!text.empty())
-      frame.cache_notes.push_back(text);
-  return frame;
+  return coupling::cached_or_made(frame_origin(scene), [&] { return made(scene, progress); });
 }
 
 namespace
@@ -149,8 +138,7 @@ PreparedMachine without_warnings(const Scene &scene, const coupling::Progress &p
     return {build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file)), {}, false, {}};
   case FramePath::reduce:
   {
-    bool                   from_cache = false;
-    coupling::ReducedFrame frame      = reduced_frame(scene, progress, from_cache);
+    auto [frame, from_cache] = reduced_frame(scene, progress);
     return {build_machine(scene, std::move(frame)), {}, from_cache, {}};
   }
   case FramePath::sparse:

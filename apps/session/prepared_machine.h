@@ -2,7 +2,7 @@
 
 #include "apps/output/values/result.h"
 #include "apps/scene/build/build_machine.h"
-#include "coupling/frame/reduced_frame_file.h"
+#include "coupling/frame/frame_cache.h"
 #include "coupling/frame/reduction_options.h"
 
 #include <atomic>
@@ -64,8 +64,8 @@ coupling::InitialState prepare_start(const Scene &scene, PreparedMachine &prepar
 /// What the reduced frame of such a scene is made from.
 coupling::FrameOrigin frame_origin(const Scene &scene);
 
-/// The reduced frame of a scene with geometry or large matrices; from_cache tells whether it was there already.
-coupling::ReducedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress, bool &from_cache);
+/// The reduced frame of a scene with geometry or large matrices.
+coupling::CachedFrame reduced_frame(const Scene &scene, const coupling::Progress &progress);
 
 /// What is to be said where no mesh is known whose error could be told: of frames given by matrices; else empty.
 std::string mesh_text(const FrameRequest &frame);

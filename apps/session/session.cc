@@ -202,9 +202,11 @@ FrameAnswer Session::reduced_frame()
 {
   check();
   FrameAnswer answer;
-  answer.frame            = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption), answer.from_cache);
-  answer.facts.frame      = answer.frame.facts;
-  answer.facts.frame_mass = answer.frame.mass;
+  auto [frame, from_cache]  = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption));
+  answer.frame              = std::move(frame);
+  answer.from_cache         = from_cache;
+  answer.facts.frame        = answer.frame.facts;
+  answer.facts.frame_mass   = answer.frame.mass;
   answer.facts.free_motions = static_cast<int>((answer.frame.frequencies_hz.array() == 0.).count());
   answer.facts.damping      = damping_text(scene_.frame);
   answer.facts.mesh         = mesh_text(scene_.frame);

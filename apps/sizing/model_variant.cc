@@ -172,16 +172,10 @@ PreparedMachine prepare_raised(Scene &scene)
   frame.stress                   = false;
   coupling::FrameOrigin origin   = frame_origin(scene);
   origin.recipe.push_back({"degree", "3"});
-  std::string note;
-  auto        raised     = coupling::find_in_cache(coupling::content_key(origin.recipe), note);
-  const bool  from_cache = raised.has_value();
-  if (!raised)
-  {
-    raised = coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {});
-    coupling::keep_in_cache(*raised, origin);
-  }
-  PreparedMachine prepared = prepare_machine_on(scene, *raised);
-  prepared.from_cache      = from_cache;
+  const auto raised = coupling::cached_or_made(
+      origin, [&] { return coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {}); });
+  PreparedMachine prepared = prepare_machine_on(scene, raised.frame);
+  prepared.from_cache      = raised.from_cache;
   return prepared;
 }
 

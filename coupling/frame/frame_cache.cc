@@ -130,6 +130,18 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
   }
 }
 
+CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make)
+{
+  std::string note;
+  if (auto known = find_in_cache(content_key(origin.recipe), note))
+    return {std::move(*known), true};
+  ReducedFrame frame = make();
+  for (const std::string &text : {note, keep_in_cache(frame, origin)})
+    if (!text.empty())
+      frame.cache_notes.push_back(text);
+  return {std::move(frame), false};
+}
+
 std::string content_defect(const CacheEntry &entry)
 {
   if (!entry.defect.empty())

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,17 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
 /// Keeps the frame in the cache under the key of its recipe, if that decides what the frame is.  A cache that cannot be
 /// written is no failure: the reason is returned, else "".
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
+
+struct CachedFrame
+{
+  ReducedFrame frame;
+  bool         from_cache = false; ///< not made now
+};
+
+/// The frame of a recipe as the cache has it, or else as `make` gives it, which is then kept; what the cache had to say
+/// of it stands in its cache_notes.
+/// @throws what `make` throws
+CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
 
 /// Where the frame of this key is kept, in cache_folder(); "": nowhere.
 std::string cache_file(const std::string &key);

@@ -23,21 +23,15 @@ Progress named_after(const std::string &part, const Progress &progress)
   return [progress, part](const std::string &phase, double share) { progress(part + ": " + phase, share); };
 }
 
-ReducedFrame from_cache_or_made(const FramePart &part, const ReductionOptions &options, const Progress &progress)
+ReducedFrame reduced_part(const FramePart &part, const ReductionOptions &options, const Progress &progress)
 {
   FrameOrigin origin;
   origin.recipe = recipe_of(part.geometry, options);
   origin.scene  = part.place;
   origin.source = part.geometry.cad;
-  std::string note;
-  if (auto known = find_in_cache(content_key(origin.recipe), note))
-    return std::move(*known);
-  ReducedFrame      frame = mesh_service().reduce(part.geometry, options, named_after(part.name, progress));
-  const std::string kept  = keep_in_cache(frame, origin);
-  for (const std::string &text : {note, kept})
-    if (!text.empty())
-      frame.cache_notes.push_back(text);
-  return frame;
+  return cached_or_made(origin,
+                        [&] { return mesh_service().reduce(part.geometry, options, named_after(part.name, progress)); })
+      .frame;
 }
 
 ReducedFrame where_it_stands(ReducedFrame reduced, const FramePart &part)
@@ -57,8 +51,8 @@ ReducedFrame where_it_stands(ReducedFrame reduced, const FramePart &part)
 ReducedFrame reduced_frame_of_parts(const FrameOfParts &frame, const ReductionOptions &options,
                                     const Progress &progress)
 {
-  auto parts = equal_parts_once(frame, options,
-                                [&](const FramePart &part) { return from_cache_or_made(part, options, progress); });
+  auto parts =
+      equal_parts_once(frame, options, [&](const FramePart &part) { return reduced_part(part, options, progress); });
   for (std::size_t i = 0; i < parts.size(); ++i)
     parts[i] = where_it_stands(std::move(parts[i]), frame.parts[i]);
   const JoinedParts joined = join_parts(parts, frame);

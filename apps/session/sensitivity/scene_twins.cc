@@ -105,8 +105,7 @@ coupling::ReducedFrame frame_with_modes_of(const coupling::ReducedFrame &other, 
   const auto behind = other.M.rows() - other.n_interface;
   if (scene.frame.source != FrameSource::parts && scene.reduction.options.n_modes < 0 && behind == other.n_fixed_modes)
     scene.reduction.options.n_modes = other.n_fixed_modes;
-  bool from_cache = false;
-  return reduced_frame(scene, progress, from_cache);
+  return reduced_frame(scene, progress).frame;
 }
 
 /// Of the frame by an entry that it depends on: a quotient of two frames, each reduced once and kept.
@@ -124,11 +123,11 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
   {
     const auto below = frame_with_modes_of(frame, std::move(*varied.at(-steps)), progress),
                above = frame_with_modes_of(frame, std::move(*varied.at(steps)), progress);
-    bool known       = false; // a study leaves out the skin, by which modes are recognised
-    auto derivative  = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress, known), below,
-                                                                         above, steps * key.step)
-                                            : coupling::frame_derivative(frame, below, above, steps * key.step);
-    key.told.frame   = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
+    // a study leaves out the skin, by which modes are recognised
+    const auto derivative = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress).frame,
+                                                                              below, above, steps * key.step)
+                                                 : coupling::frame_derivative(frame, below, above, steps * key.step);
+    key.told.frame        = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
                      (anew ? " more and less, each meshed anew" : " more and less");
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.told.key + " come from " + key.told.frame +

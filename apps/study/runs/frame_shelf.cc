@@ -104,8 +104,8 @@ std::shared_ptr<const coupling::ReducedFrame> FrameShelf::frame(const Scene &sce
   else
   {
     const FileLock alone(lock_file(key));
-    bool           from_cache = false;
-    kept_.emplace_front(key, shared(reduced_frame(scene, progress, from_cache), drawn));
+    auto [frame, from_cache] = reduced_frame(scene, progress);
+    kept_.emplace_front(key, shared(std::move(frame), drawn));
     n_reduced_ += !from_cache;
   }
   if (kept_.size() > most_kept)
