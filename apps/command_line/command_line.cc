@@ -66,6 +66,13 @@ std::vector<std::string> command_names(const CLI::App &program)
   return names;
 }
 
+CLI::Validator not_empty()
+{
+  return CLI::Validator([](const std::string &text)
+                        { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); },
+                        "");
+}
+
 /// "SCENE" or "CAD", and what goes with it.
 void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
 {
@@ -92,9 +99,11 @@ void add_input(CLI::App &command, CommandInput input, CommonOptions &options)
       "run scripts of gmsh (.geo) as they are, which may run programs and write files");
   if (cad)
     return;
-  command.add_option("-o,--output", options.folder,
-                     study ? "folder for results (default results/<study name>)"
-                           : "folder for results (default results/<scene name>)");
+  command
+      .add_option("-o,--output", options.folder,
+                  study ? "folder for results (default results/<study name>)"
+                        : "folder for results (default results/<scene name>)")
+      ->check(not_empty());
   command
       .add_option("--set", options.overrides,
                   study ? "override an entry of the study or of its scene: key.path=value"
@@ -131,8 +140,7 @@ void add_option(CLI::App &command, const CommandOption &option)
   if (option.range == CommandOption::Range::existing_file)
     added->check(existing());
   if (std::holds_alternative<std::string *>(option.value))
-    added->check([](const std::string &text)
-                 { return text.empty() ? "is empty; give it a value, or leave it out" : std::string(); });
+    added->check(not_empty());
   if (!option.choices.empty())
     added->check(CLI::IsMember(option.choices));
   if (!option.needs.empty())

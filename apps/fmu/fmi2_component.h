@@ -38,7 +38,7 @@ struct FmuComponent
 };
 
 /// Phases in which a function may be called.
-constexpr auto before_failure = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
+inline constexpr auto before_failure = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
                                  FmuComponent::Phase::stepping, FmuComponent::Phase::terminated};
 constexpr auto always         = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
                                  FmuComponent::Phase::stepping, FmuComponent::Phase::terminated, FmuComponent::Phase::failed};

@@ -3,6 +3,7 @@
 #include "apps/scene/file/csv_file.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/session/universal_file.h"
+#include "fem/values/named_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 #include "fem/values/trimmed.h"
@@ -222,7 +223,7 @@ int pair_of(const std::string &name, const FrequencyResponse &response)
 std::pair<int, std::string> asked(const std::string &text, const FrequencyResponse &response)
 {
   const auto equals = text.find('=');
-  if (equals == std::string::npos || std::filesystem::exists(text))
+  if (equals == std::string::npos || fem::is_there(text))
     return {-1, text};
   const std::string        name = text.substr(0, equals);
   std::vector<std::string> names;

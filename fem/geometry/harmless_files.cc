@@ -106,7 +106,10 @@ std::string HarmlessFiles::copy_named(const std::string &name, bool included, co
   const auto refuse = [&](const std::string &what) {
     throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
   };
-  const files::path file = files::weakly_canonical(script.parent_path() / name);
+  std::error_code   unreachable;
+  const files::path file = files::weakly_canonical(script.parent_path() / name, unreachable);
+  if (unreachable)
+    refuse("reads \"" + name + "\", which cannot be reached (" + unreachable.message() + ")");
   if (!lies_in(file, home_))
     refuse("reads \"" + name + "\", which is not in the folder of the script, " + home_.string());
   if (!files::is_regular_file(file))

@@ -288,8 +288,10 @@ std::error_code probe(const fs::path &folder)
 {
   std::error_code error;
   fs::path        there = fs::absolute(folder).lexically_normal();
-  while (!fs::exists(there, error) && there.has_relative_path())
+  while (!fs::exists(there, error) && !error && there.has_relative_path())
     there = there.parent_path();
+  if (error) // a name too long, a ring of links, a folder that may not be entered
+    return error;
   if (!fs::is_directory(there, error))
     return std::make_error_code(fs::exists(there, error) ? std::errc::not_a_directory
                                                          : std::errc::no_such_file_or_directory); // went meanwhile

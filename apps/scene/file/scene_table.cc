@@ -2,6 +2,7 @@
 
 #include "apps/scene/file/unknown_keys.h"
 #include "apps/scene/file/written_text.h"
+#include "fem/values/named_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -396,12 +397,12 @@ std::vector<std::string> SceneTable::texts(const std::string &key) const
 
 std::string SceneTable::file(const std::string &key) const
 {
-  const std::string given  = text(key);
-  const auto        folder = std::filesystem::path(node_->find(key)->folder);
-  const auto        path   = (folder / given).lexically_normal();
+  const std::string given = text(key), folder = node_->find(key)->folder;
+  const auto        path = (std::filesystem::path(folder) / given).lexically_normal();
+  if (const std::string reason = fem::unreachable(path); !reason.empty())
+    throw error(key, "the file \"" + given + "\" cannot be reached (" + reason + "); give another name, or see to it");
   if (!std::filesystem::exists(path))
-    throw error(key, "there is no file \"" + given + "\" (" + path.string() + "); relative paths start at " +
-                         folder.string());
+    throw error(key, "there is no file \"" + given + "\" (" + path.string() + "); relative paths start at " + folder);
   if (std::filesystem::is_directory(path))
     throw error(key, "\"" + given + "\" is a folder; a file is needed");
   return path.string();

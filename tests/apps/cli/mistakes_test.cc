@@ -223,6 +223,28 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 
+// The file system says of such names neither that anything is there nor that nothing is.
+TEST(NameThatCannotBeReached, IsAnsweredWithItsPlaceAndTheReasonWhereverItStands)
+{
+  const Folder      folder("mistake");
+  const std::string longer(300, 'x'), ring = (folder / "ring").string(), press = scene("press_minimal.toml");
+  std::filesystem::create_symlink("ring", ring);
+  for (const auto &[name, reason] :
+       {std::pair<std::string, std::string>{longer, "File name too long"}, {ring, "Too many levels of symbolic links"}})
+  {
+    for (const std::string command : {"check", "run", "study", "reduce", "show", "mesh"})
+      expect_answer(gestell(command + " " + name), 2, {name, reason});
+    const auto check = [&, key = name](const std::string &text)
+    { return gestell("check " + folder.file("scene.toml", std::regex_replace(text, std::regex("NAME"), key))); };
+    expect_answer(check("extends = \"NAME\"\n"), 2, {"scene.toml:1: extends = ", name, reason});
+    expect_answer(check("[frame]\ncad = \"NAME\"\n"), 2, {"scene.toml:2: frame.cad", name, reason});
+    expect_answer(gestell("run " + press + " -o " + name), 2, {name, reason, "name a folder"});
+    expect_answer(gestell("export " + press + " --fmu " + name + "/x.fmu"), 2, {name, reason});
+    expect_answer(gestell("new crane " + name + "/x.toml"), 2, {name, reason});
+  }
+  expect_answer(gestell("run " + press + " -o ''"), 2, {"--output", "is empty; give it a value"});
+}
+
 // Memory and time grow with them: judged before anything is computed.
 TEST(Mistakes, CountsBeyondAllMemoryAreRefusedAtOnce)
 {
