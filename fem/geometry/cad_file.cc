@@ -1,7 +1,9 @@
 #include "fem/geometry/cad_file.h"
 
+#include "fem/geometry/msh_counts.h"
 #include "fem/geometry/step_text.h"
 #include "fem/values/message_text.h"
+#include "fem/values/named_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -107,6 +109,8 @@ CadFile check_cad_file(const CadSource &source)
   if (path.empty())
     throw std::invalid_argument(source.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo, "
                                                ".msh or .inp file.");
+  if (const std::string reason = unreachable(path); !reason.empty())
+    refuse("cannot be reached (" + reason + "); give another name, or see to it.");
   if (!std::filesystem::exists(path, ignored))
     refuse("does not exist; a relative path counts from the scene's folder.");
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -127,6 +131,8 @@ CadFile check_cad_file(const CadSource &source)
     check_brep(path, size, refuse);
   if (*kind == CadFile::step)
     check_step(path, size, refuse);
+  if (*kind == CadFile::mesh)
+    check_msh_counts(path, refuse);
   return *kind;
 }
 
