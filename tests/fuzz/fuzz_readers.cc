@@ -129,7 +129,12 @@ bool fuzz(const Target &target, std::uint64_t from, std::uint64_t to)
     std::string         how    = in_process(target, seeds, number + 1, true, slate);
     slate.number               = number;
     if (how.empty() && in_process(target, seeds, number + 1, false, slate).empty())
-      how = "dies only after others from " + std::to_string(first) + " on";
+    {
+      slate.number = first; // what one of the others broke the program leaves to a child
+      how          = in_process(target, seeds, number + 1, true, slate);
+      if (!how.empty())
+        how = "dies only after others from " + std::to_string(first) + " on: " + how;
+    }
     if (!how.empty())
       std::cout << target.name << ' ' << number << ": " << how << std::endl;
     n_findings += !how.empty();
