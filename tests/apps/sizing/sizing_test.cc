@@ -145,7 +145,7 @@ TEST(ErrorBudget, OfASuperpositionCountsTheModesLeftOut)
   ModelVariant whole;
   whole.modes        = 4;
   const auto   truth = answer_of(scene, whole, outputs);
-  const double error   = std::abs(budget.entries.at(0).value - truth.values.at(0));
+  const double error = std::abs(budget.entries.at(0).value - truth.values.at(0));
   EXPECT_GT(error, 1e-3 * truth.values[0]);
   EXPECT_GE(*budget.entries[0].reduction.error, 0.5 * error);
 }
