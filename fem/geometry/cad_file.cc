@@ -109,8 +109,8 @@ CadFile check_cad_file(const CadSource &source)
   if (path.empty())
     throw std::invalid_argument(source.place + ": no CAD file given; set cad to a .step, .stp, .brep, .geo, "
                                                ".msh or .inp file.");
-  if (const std::string reason = unreachable(path); !reason.empty())
-    refuse("cannot be reached (" + reason + "); give another name, or see to it.");
+  if (const std::string reason = why_unreachable(path); !reason.empty())
+    refuse(reason + ".");
   if (!std::filesystem::exists(path, ignored))
     refuse("does not exist; a relative path counts from the scene's folder.");
   if (!std::filesystem::is_regular_file(path, ignored))
@@ -132,7 +132,8 @@ CadFile check_cad_file(const CadSource &source)
   if (*kind == CadFile::step)
     check_step(path, size, refuse);
   if (*kind == CadFile::mesh)
-    check_msh_counts(path, refuse);
+    if (const std::string defect = defect_of_counts(path); !defect.empty())
+      refuse(defect);
   return *kind;
 }
 

@@ -30,7 +30,7 @@ std::set<std::string> names_of_solids()
   {
     std::string name;
     gmsh::model::getEntityName(dim, tag, name);
-    names.insert(last_part(name));
+    names.insert(name_in_label(name));
   }
   return names;
 }
@@ -40,7 +40,7 @@ void read_names(Face &face, const std::set<std::string> &no_names)
 {
   gmsh::model::getType(2, face.tag, face.type);
   gmsh::model::getEntityName(2, face.tag, face.name);
-  if (no_names.count(last_part(face.name)) > 0)
+  if (no_names.count(name_in_label(face.name)) > 0)
     face.name.clear();
   std::vector<int> groups;
   gmsh::model::getPhysicalGroupsForEntity(2, face.tag, groups);
@@ -151,7 +151,7 @@ std::vector<Face> faces_of_geometry(std::size_t n_solids, double unit, double di
 
 } // namespace
 
-std::string last_part(const std::string &label)
+std::string name_in_label(const std::string &label)
 {
   return label.substr(label.rfind('/') + 1);
 }

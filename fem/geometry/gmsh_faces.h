@@ -11,7 +11,7 @@ namespace gestell::fem
 {
 
 /// The name of a solid or a face: of gmsh's label, in which the parts that hold it come first, "Shapes/frame/foot".
-std::string last_part(const std::string &label);
+std::string name_in_label(const std::string &label);
 
 /**
  * The faces of gmsh's geometry that bound exactly one solid, by tag, recognised.

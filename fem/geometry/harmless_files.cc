@@ -1,6 +1,8 @@
 #include "fem/geometry/harmless_files.h"
 
 #include "fem/geometry/geo_script.h"
+#include "fem/geometry/msh_counts.h"
+#include "fem/values/named_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -30,6 +32,14 @@ void require_mesh(const std::string &place, const files::path &file)
         place + ": " + file.string() +
         " is no mesh of gmsh: it does not begin with \"$MeshFormat\", and gmsh would run it as a "
         "script; save the mesh as .msh, or call a script .geo.");
+}
+
+/// The same; and that it holds what it announces, as check_cad_file() asks of the file that a scene names.
+void require_sound_mesh(const std::string &place, const files::path &file)
+{
+  require_mesh(place, file);
+  if (const std::string defect = defect_of_counts(file.string()); !defect.empty())
+    throw std::invalid_argument(place + ": " + file.string() + " " + defect);
 }
 
 std::string text_of(const files::path &file)
@@ -103,13 +113,11 @@ std::string HarmlessFiles::copy_script(const files::path &script)
 
 std::string HarmlessFiles::copy_named(const std::string &name, bool included, const files::path &script, int line)
 {
-  const auto refuse = [&](const std::string &what) {
-    throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
-  };
-  std::error_code   unreachable;
-  const files::path file = files::weakly_canonical(script.parent_path() / name, unreachable);
-  if (unreachable)
-    refuse("reads \"" + name + "\", which cannot be reached (" + unreachable.message() + ")");
+  const std::string place = place_ + ": " + script.string() + ":" + std::to_string(line);
+  const auto refuse = [&](const std::string &what) { throw std::invalid_argument(place + ": " + what + way_out); };
+  if (const std::string reason = why_unreachable(script.parent_path() / name); !reason.empty())
+    throw std::invalid_argument(place + ": the file \"" + name + "\" " + reason);
+  const files::path file = files::weakly_canonical(script.parent_path() / name);
   if (!lies_in(file, home_))
     refuse("reads \"" + name + "\", which is not in the folder of the script, " + home_.string());
   if (!files::is_regular_file(file))
@@ -122,7 +130,7 @@ std::string HarmlessFiles::copy_named(const std::string &name, bool included, co
   if (!kind || *kind == CadFile::abaqus)
     refuse("reads \"" + name + "\", which is no .step, .brep, .stl, .msh or .geo file");
   if (*kind == CadFile::mesh)
-    require_mesh(place_ + ": " + script.string() + ":" + std::to_string(line), file);
+    require_sound_mesh(place, file);
   return *kind == CadFile::geo ? copy_script(file) : link(file);
 }
 

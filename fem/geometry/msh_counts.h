@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 namespace gestell::fem
@@ -8,13 +7,12 @@ namespace gestell::fem
 
 /**
  * Compares what a binary mesh file of gmsh (MSH 4.1) announces with the bytes that follow: entities, nodes and
- * elements, in all and block by block.  gmsh believes every number and asks for as much memory, or reads on behind the
- * end of the file.
+ * elements, in all and block by block, and the sums of the blocks with what they are to be.  gmsh believes every
+ * number: it takes as much memory, reads on behind the end of the file, or writes behind the memory it took.
  *
- * Other formats pass, and so does what this does not know: gmsh judges it.
- *
- * @param refuse  is told what is wrong, as the end of a sentence that begins with the file
+ * @return what is wrong, as the end of a sentence that begins with the file; "": nothing, or the file is in another
+ * format or holds what this does not know, of which gmsh is the judge
  */
-void check_msh_counts(const std::string &path, const std::function<void(const std::string &)> &refuse);
+std::string defect_of_counts(const std::string &path);
 
 } // namespace gestell::fem

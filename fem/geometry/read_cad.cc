@@ -43,7 +43,7 @@ std::string name_of_solid(int tag)
 {
   std::string name;
   gmsh::model::getEntityName(3, tag, name);
-  name = name.empty() ? physical_name(3, tag) : last_part(name);
+  name = name.empty() ? physical_name(3, tag) : name_in_label(name);
   return name.empty() ? "solid " + std::to_string(tag) : name;
 }
 

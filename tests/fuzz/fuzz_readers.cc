@@ -125,15 +125,16 @@ bool fuzz(const Target &target, std::uint64_t from, std::uint64_t to)
     const std::uint64_t first = slate.number, end = std::min(to, first + of_one_process);
     if (in_process(target, seeds, end, false, slate).empty())
       continue;
-    const std::uint64_t number = slate.number;
-    std::string         how    = in_process(target, seeds, number + 1, true, slate);
-    slate.number               = number;
+    std::uint64_t number = slate.number;
+    std::string   how    = in_process(target, seeds, number + 1, true, slate);
+    slate.number         = number;
     if (how.empty() && in_process(target, seeds, number + 1, false, slate).empty())
     {
       slate.number = first; // what one of the others broke the program leaves to a child
       how          = in_process(target, seeds, number + 1, true, slate);
       if (!how.empty())
-        how = "dies only after others from " + std::to_string(first) + " on: " + how;
+        how += ", but not alone; from " + std::to_string(first) + " on it does, and in children";
+      number = how.empty() ? number : slate.number.load();
     }
     if (!how.empty())
       std::cout << target.name << ' ' << number << ": " << how << std::endl;

@@ -64,11 +64,16 @@ void step(const std::string &bytes)
   check_cad_file(source(file));
 }
 
+void msh(const std::string &bytes)
+{
+  check_cad_file(source(file_of("fed.msh", bytes)));
+}
+
 } // namespace
 
 std::vector<Target> model_targets()
 {
-  return {{"inp", inp}, {"geo", geo}, {"step", step}};
+  return {{"inp", inp}, {"geo", geo}, {"msh", msh}, {"step", step}};
 }
 
 } // namespace gestell::fuzz
