@@ -97,20 +97,12 @@ void choose_team(int argc, char **argv)
     part_team(words_of(argc, argv));
 }
 
-/// Whether a name that somebody gave is at fault, not the computer.
-bool is_of_a_name(const std::error_code &error)
+/// Whether a name is at fault that somebody gave, not the computer.
+bool is_of_a_name(const std::exception &error)
 {
-  return error == std::errc::filename_too_long || error == std::errc::too_many_symbolic_link_levels ||
-         error == std::errc::permission_denied || error == std::errc::not_a_directory ||
-         error == std::errc::is_a_directory;
-}
-
-int fail_at_file(const std::filesystem::filesystem_error &error, JsonAnswer &answer)
-{
-  const std::string file = error.path1().string() + ": " + error.code().message();
-  if (is_of_a_name(error.code()))
-    return fail(exit_wrong_input, file + "; give another name, or see to it", answer);
-  return fail(exit_failed, "the computation failed: " + file, answer);
+  const auto *of_a_file = dynamic_cast<const std::filesystem::filesystem_error *>(&error);
+  return of_a_file && (of_a_file->code() == std::errc::filename_too_long ||
+                       of_a_file->code() == std::errc::too_many_symbolic_link_levels);
 }
 
 int run_guarded(int argc, char **argv, JsonAnswer &answer)
@@ -149,8 +141,8 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
   {
     if (interruption()) // what was under way then fails somewhere
       return fail(exit_interrupted, std::string("interrupted: ") + error.what(), answer);
-    if (const auto *of_a_file = dynamic_cast<const std::filesystem::filesystem_error *>(&error))
-      return fail_at_file(*of_a_file, answer);
+    if (is_of_a_name(error))
+      return fail(exit_wrong_input, std::string(error.what()) + "; give another name", answer);
     return fail(exit_failed, std::string("the computation failed: ") + error.what(), answer);
   }
 }

@@ -1,6 +1,7 @@
 #include "apps/cli/command.h"
 #include "apps/output/text/write_file.h"
 #include "apps/templates/scene_templates.h"
+#include "fem/values/named_file.h"
 
 #include <filesystem>
 #include <iostream>
@@ -44,7 +45,7 @@ std::string name_of(const std::filesystem::path &file)
 
 void require_free(const std::filesystem::path &file)
 {
-  if (std::filesystem::exists(std::filesystem::symlink_status(file)))
+  if (fem::names_something(file) || std::filesystem::is_symlink(std::filesystem::symlink_status(file)))
     throw std::invalid_argument(
         file.string() + " is there already and stays as it is; give another name: " + "gestell new KIND other.toml");
 }

@@ -40,8 +40,9 @@ struct FmuComponent
 /// Phases in which a function may be called.
 inline constexpr auto before_failure = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
                                         FmuComponent::Phase::stepping, FmuComponent::Phase::terminated};
-constexpr auto        always         = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
-                                        FmuComponent::Phase::stepping, FmuComponent::Phase::terminated, FmuComponent::Phase::failed};
+inline constexpr auto always         = {FmuComponent::Phase::instantiated, FmuComponent::Phase::initialising,
+                                        FmuComponent::Phase::stepping, FmuComponent::Phase::terminated,
+                                        FmuComponent::Phase::failed};
 
 /// A component of the importer; null if it is none.
 inline FmuComponent *component_of(fmi2Component component)

@@ -223,7 +223,7 @@ int pair_of(const std::string &name, const FrequencyResponse &response)
 std::pair<int, std::string> asked(const std::string &text, const FrequencyResponse &response)
 {
   const auto equals = text.find('=');
-  if (equals == std::string::npos || fem::is_there(text))
+  if (equals == std::string::npos || fem::names_something(text))
     return {-1, text};
   const std::string        name = text.substr(0, equals);
   std::vector<std::string> names;

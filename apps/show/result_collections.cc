@@ -94,7 +94,7 @@ fs::path file_in(const fs::path &pvd, const std::string &element)
 
 std::vector<PictureFrame> collection_or_nothing(const fs::path &pvd)
 {
-  return fem::is_there(pvd) ? read_collection(pvd) : std::vector<PictureFrame>();
+  return fem::names_something(pvd) ? read_collection(pvd) : std::vector<PictureFrame>();
 }
 
 /// The picture at the time nearest to that of the peak.
@@ -142,7 +142,7 @@ std::vector<PictureFrame> read_collection(const fs::path &pvd)
 std::optional<double> peak_time(const fs::path &results)
 {
   const fs::path file = results / "summary.json";
-  if (!fem::is_there(file))
+  if (!fem::names_something(file))
     return {};
   const auto summary = nlohmann::json::parse(content_of(file), nullptr, false);
   if (summary.is_discarded())
@@ -155,7 +155,7 @@ std::optional<double> peak_time(const fs::path &results)
 
 std::vector<PictureSeries> pictures_of(const fs::path &results, std::size_t most_modes)
 {
-  if (!fem::is_there(results) || !fs::is_directory(results))
+  if (!fem::names_something(results) || !fs::is_directory(results))
     refuse(results, "is no folder of results; name the folder that `gestell run` or `gestell modes` wrote");
   const auto motion = collection_or_nothing(results / "motion.pvd");
 

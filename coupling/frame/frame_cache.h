@@ -21,15 +21,17 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
 /// written is no failure: the reason is returned, else "".
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 
+/// A frame, and whether it was found or made.
 struct CachedFrame
 {
   ReducedFrame frame;
-  bool         from_cache = false; ///< not made now
+  bool         from_cache = false; ///< found, not made now
 };
 
-/// The frame of a recipe as the cache has it, or else as `make` gives it, which is then kept; what the cache had to say
-/// of it stands in its cache_notes.
-/// @throws what `make` throws
+/// The frame of a recipe as the cache has it, or else as `make` gives it, which is then kept.
+/// @return a kept frame without notes; a new one with, in cache_notes, why a kept one was not used or the new one not
+/// kept
+/// @throws what `make` throws; nothing is kept then
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
 
 /// Where the frame of this key is kept, in cache_folder(); "": nowhere.

@@ -7,18 +7,18 @@ namespace gestell::fem
 {
 namespace fs = std::filesystem;
 
-std::string unreachable(const fs::path &name)
+std::string why_unreachable(const fs::path &name)
 {
-  std::error_code       error;
-  const fs::file_status status = fs::status(name, error);
-  return fs::status_known(status) ? std::string() : error.message();
+  std::error_code error;
+  return fs::status_known(fs::status(name, error))
+             ? std::string()
+             : "cannot be reached (" + error.message() + "); give another name, or see to it";
 }
 
-bool is_there(const fs::path &name)
+bool names_something(const fs::path &name)
 {
-  if (const std::string reason = unreachable(name); !reason.empty())
-    throw std::invalid_argument(name.string() + ": cannot be reached (" + reason +
-                                "); give another name, or see to it");
+  if (const std::string reason = why_unreachable(name); !reason.empty())
+    throw std::invalid_argument(name.string() + ": " + reason);
   std::error_code none;
   return fs::exists(name, none);
 }

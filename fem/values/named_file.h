@@ -6,12 +6,12 @@
 namespace gestell::fem
 {
 
-/// Why the file system does not say whether there is anything under a name: it is too long, its links lead round in a
-/// ring, a folder of it may not be entered; "" if it says so.
-std::string unreachable(const std::filesystem::path &name);
+/// Why the file system does not say whether anything stands under a name, as the end of a sentence that begins with it:
+/// it is too long, its links lead round in a ring, a folder of it may not be entered.  "" if it says so.
+std::string why_unreachable(const std::filesystem::path &name);
 
-/// Whether there is anything under a name.
-/// @throws std::invalid_argument with the name and the reason, if it is unreachable()
-bool is_there(const std::filesystem::path &name);
+/// Whether anything stands under a name, or under the one its link leads to.
+/// @throws std::invalid_argument with why_unreachable()
+bool names_something(const std::filesystem::path &name);
 
 } // namespace gestell::fem

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace gestell::fem
 {
@@ -14,20 +15,29 @@ namespace gestell::fem
 namespace
 {
 
-/// The process tells its own apart, whichever library of it made them.
-std::string begin_of_names()
+[[noreturn]] void fail(const std::string &place, const std::string &reason)
 {
-  return (std::filesystem::temp_directory_path() / ("gestell_" + std::to_string(::getpid()) + "_")).string();
+  throw std::runtime_error("no folder can be made for temporary files: " + place + ": " + reason +
+                           "; TMPDIR says where they go");
+}
+
+/// The process tells its own apart, whichever library of it made them.  "": there is no folder for temporary files.
+std::string begin_of_names(std::error_code &error)
+{
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  return error ? std::string() : (folder / ("gestell_" + std::to_string(::getpid()) + "_")).string();
 }
 
 } // namespace
 
 PassingFolder::PassingFolder()
 {
-  std::string name = begin_of_names() + "XXXXXX";
+  std::error_code error;
+  std::string     name = begin_of_names(error) + "XXXXXX";
+  if (error)
+    fail("the folder for them", error.message());
   if (!::mkdtemp(name.data()))
-    throw std::runtime_error("no folder can be made for temporary files: " + name + ": " + std::strerror(errno) +
-                             "; TMPDIR says where they go");
+    fail(name, std::strerror(errno));
   path_ = name;
 }
 
@@ -39,7 +49,9 @@ PassingFolder::~PassingFolder()
 
 std::string words_of_removal()
 {
-  return "rm -rf -- " + shell_word(begin_of_names()) + "??????; ";
+  std::error_code   none;
+  const std::string begin = begin_of_names(none);
+  return begin.empty() ? "" : "rm -rf -- " + shell_word(begin) + "??????; ";
 }
 
 std::string shell_word(const std::string &text)

@@ -94,9 +94,8 @@ SceneNode with_base(SceneNode own, const std::string &path, std::vector<std::str
   if (extends->type != Type::text)
     extends->place.fail("extends: needs the path of another scene in quotes, got " + type_name(extends->type));
   const auto next = (std::filesystem::path(path).parent_path() / extends->text).lexically_normal().string();
-  if (const std::string reason = fem::unreachable(next); !reason.empty())
-    extends->place.fail("extends = \"" + extends->text + "\": the file cannot be reached (" + reason +
-                        "); give another name, or see to it");
+  if (const std::string reason = fem::why_unreachable(next); !reason.empty())
+    extends->place.fail("extends = \"" + extends->text + "\": the file " + reason);
   if (!std::filesystem::exists(next))
     extends->place.fail("extends = \"" + extends->text + "\": there is no file " + next);
   if (std::count(files.begin(), files.end(), std::filesystem::weakly_canonical(next).string()))

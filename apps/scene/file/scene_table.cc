@@ -399,8 +399,8 @@ std::string SceneTable::file(const std::string &key) const
 {
   const std::string given = text(key), folder = node_->find(key)->folder;
   const auto        path = (std::filesystem::path(folder) / given).lexically_normal();
-  if (const std::string reason = fem::unreachable(path); !reason.empty())
-    throw error(key, "the file \"" + given + "\" cannot be reached (" + reason + "); give another name, or see to it");
+  if (const std::string reason = fem::why_unreachable(path); !reason.empty())
+    throw error(key, "the file \"" + given + "\" " + reason);
   if (!std::filesystem::exists(path))
     throw error(key, "there is no file \"" + given + "\" (" + path.string() + "); relative paths start at " + folder);
   if (std::filesystem::is_directory(path))

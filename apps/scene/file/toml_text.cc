@@ -228,7 +228,7 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
 SceneNode parse_toml_file(const std::string &path)
 {
   const auto fail = [&](const std::string &what) { throw std::invalid_argument(path + ": " + what); };
-  if (!fem::is_there(path))
+  if (!fem::names_something(path))
     fail("there is no such scene file; give the path of a .toml file");
   if (std::filesystem::is_directory(path))
     fail("is a folder; give the path of a .toml file");

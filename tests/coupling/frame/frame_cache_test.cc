@@ -50,6 +50,32 @@ TEST_F(FrameCache, FindsAFrameByItsKeyAlone)
   EXPECT_NE(note.find("something else"), std::string::npos) << note;
 }
 
+TEST_F(FrameCache, MakesAFrameOnceAndAnewWhereTheKeptOneIsDamaged)
+{
+  int        n_made = 0;
+  const auto make   = [&]
+  {
+    ++n_made;
+    return some_frame();
+  };
+  EXPECT_FALSE(coupling::cached_or_made(fine, make).from_cache);
+  const coupling::CachedFrame kept = coupling::cached_or_made(fine, make);
+  EXPECT_TRUE(kept.from_cache);
+  EXPECT_TRUE(kept.frame.cache_notes.empty());
+  EXPECT_EQ(n_made, 1);
+
+  fs::resize_file(cache_file(content_key(fine.recipe)), 1000);
+  const coupling::CachedFrame anew = coupling::cached_or_made(fine, make);
+  EXPECT_FALSE(anew.from_cache);
+  ASSERT_EQ(anew.frame.cache_notes.size(), 1u);
+  EXPECT_NE(anew.frame.cache_notes[0].find("reduced anew"), std::string::npos) << anew.frame.cache_notes[0];
+  EXPECT_TRUE(coupling::cached_or_made(fine, make).from_cache);
+
+  const auto fail = []() -> coupling::ReducedFrame { throw std::runtime_error("no frame"); };
+  EXPECT_THROW(coupling::cached_or_made(coarse, fail), std::runtime_error);
+  EXPECT_FALSE(fs::exists(cache_file(content_key(coarse.recipe))));
+}
+
 TEST_F(FrameCache, ADamagedFileIsToldAndReplaced)
 {
   std::string       note;

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 
 namespace gestell::tests
 {
@@ -24,6 +26,25 @@ TEST(PassingFolder, IsNewAndOfItsUserAloneAndGoesWithItsOwner)
     std::ofstream(first / "inner" / "file") << "text";
   }
   EXPECT_FALSE(fs::exists(first));
+}
+
+TEST(PassingFolder, ThatHasNoPlaceIsToldWithTheVariableThatSaysWhere)
+{
+  const char       *there  = std::getenv("TMPDIR");
+  const std::string before = there ? there : "";
+  setenv("TMPDIR", "/dev/null", 1);
+  std::string told;
+  try
+  {
+    const fem::PassingFolder folder;
+  }
+  catch (const std::runtime_error &failure)
+  {
+    told = failure.what();
+  }
+  EXPECT_EQ(fem::words_of_removal(), "");
+  there ? setenv("TMPDIR", before.c_str(), 1) : unsetenv("TMPDIR");
+  EXPECT_NE(told.find("TMPDIR says where they go"), std::string::npos) << told;
 }
 
 } // namespace gestell::tests
