@@ -193,8 +193,8 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
     std::cerr << "gestell: warning: --density " << suspicion << '\n';
   std::optional<HeldFolder> held;
   if (!mesh.folder.empty())
-    held.emplace(mesh.folder);
   {
+    held.emplace(mesh.folder);
     OwnFolder(mesh.folder).require_free({"faces.html", "faces.vtp"}, {options.input});
   }
   ProgressLine progress(options.quiet);

@@ -2,6 +2,7 @@
 #include "apps/output/text/write_file.h"
 #include "apps/templates/scene_templates.h"
 #include "fem/values/named_file.h"
+#include "fem/values/passing_folder.h"
 
 #include <filesystem>
 #include <iostream>
@@ -66,7 +67,7 @@ int make_new(const NewOptions &options)
   write_file(frame, own.frame);
   write_file(scene, own.scene);
   std::cout << "written: " << scene.string() << ", and its frame " << frame.string() << "\nnext:    gestell check "
-            << scene.string() << "\n         gestell run " << scene.string() << '\n';
+            << fem::typed_word(scene.string()) << "\n         gestell run " << fem::typed_word(scene.string()) << '\n';
   return exit_done;
 }
 

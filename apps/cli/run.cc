@@ -16,6 +16,7 @@
 #include "apps/session/session.h"
 #include "apps/session/story/run_story.h"
 #include "apps/sizing/error_budget.h"
+#include "fem/values/passing_folder.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -100,6 +101,17 @@ void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &folder
                                 "follow its whole motion; leave out one of the two");
 }
 
+/// The command that goes on, as it is typed.
+std::string resuming(const CommonOptions &options, const std::filesystem::path &folder)
+{
+  std::string command = "gestell run " + fem::typed_word(options.input);
+  for (const std::string &entry : options.overrides)
+    command += " --set " + fem::typed_word(entry);
+  if (options.scripts == fem::Scripts::trusted)
+    command += " --trust-scripts";
+  return command + " --resume -o " + fem::typed_word(folder.string());
+}
+
 int run_scene(const CommonOptions &options, const RunAsked &asked)
 {
   ProgressLine progress(options.quiet);
@@ -167,7 +179,7 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
   if (asked.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
   if (result.run->interrupted && asked.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
-    std::cerr << "gestell: interrupted; gestell run " << options.input << " --resume -o " << folder.string()
+    std::cerr << "gestell: interrupted; " << resuming(options, folder)
               << " goes on from there\n";
   const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
   return interrupted ? exit_interrupted : exit_done;

@@ -66,6 +66,9 @@ void check_step(const std::string &path, std::uintmax_t size, const Refuse &refu
     refuse("is damaged, though it ends as it should: " + std::to_string(text.n_missing) +
            " references lead to entities that are not in the file (#" + std::to_string(text.named_by) + " names #" +
            std::to_string(text.first_missing) + "); a part of it is lost: copy or export it again.");
+  if (!text.no_number.empty())
+    refuse("is damaged: entity #" + std::to_string(text.no_number_in) + " holds \"" + text.no_number +
+           "\" in place of a number, which has no end for OpenCASCADE; repair the model, and export it again.");
   if (text.n_entities > 0 && !text.has_unit)
     refuse("does not say what its unit of length is (no LENGTH_UNIT in a GLOBAL_UNIT_ASSIGNED_CONTEXT), so millimetres "
            "and metres cannot be told apart; a part of it is lost: copy or export it again.");

@@ -1,5 +1,6 @@
 #include "fem/geometry/step_text.h"
 
+#include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <iterator>
@@ -21,6 +22,13 @@ bool is_letter(char c)
 bool is_digit(char c)
 {
   return std::isdigit(static_cast<unsigned char>(c));
+}
+
+/// What programs write for numbers that are none: nan, -nan(ind), inf, 1.#QNAN.
+bool is_no_number(std::string word)
+{
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::toupper(c); });
+  return word == "NAN" || word == "INF" || word == "INFINITY" || word == "QNAN" || word == "SNAN";
 }
 
 /// Walks over the text and collects what StepText tells.
@@ -90,6 +98,11 @@ private:
     const std::string word = text_.substr(from, at_ - from);
     has_length_ |= word == "LENGTH_UNIT";
     has_context_ |= word == "GLOBAL_UNIT_ASSIGNED_CONTEXT";
+    if (result_.no_number.empty() && is_no_number(word))
+    {
+      result_.no_number    = word;
+      result_.no_number_in = current_;
+    }
     result_.n_solids += word == "MANIFOLD_SOLID_BREP" || word == "BREP_WITH_VOIDS" || word == "FACETED_BREP";
     result_.has_styles |=
         word == "STYLED_ITEM" || word == "OVER_RIDING_STYLED_ITEM" || word == "PRESENTATION_LAYER_ASSIGNMENT";

@@ -29,7 +29,9 @@ std::vector<int> corners_of(const Mesh &mesh, std::size_t triangle)
 
 using Membership = std::vector<std::string>; // names of groups
 
-std::vector<Membership> memberships(const ExtractedMesh &extracted, const MeshGroups &groups)
+/// @param notes  takes a note on groups of which some faces are no outer faces of cells
+std::vector<Membership> memberships(const ExtractedMesh &extracted, const MeshGroups &groups,
+                                    std::vector<std::string> &notes)
 {
   std::vector<Membership> result(extracted.mesh.skin.size());
   for (const auto &[name, nodes] : groups.nodes)
@@ -44,7 +46,7 @@ std::vector<Membership> memberships(const ExtractedMesh &extracted, const MeshGr
   }
   for (const auto &[name, faces] : groups.faces)
   {
-    std::set<std::vector<std::size_t>> in;
+    std::set<std::vector<std::size_t>> in, outside;
     for (std::vector<std::size_t> face : faces)
     {
       std::sort(face.begin(), face.end());
@@ -56,9 +58,17 @@ std::vector<Membership> memberships(const ExtractedMesh &extracted, const MeshGr
       for (const int point : corners_of(extracted.mesh, t))
         face.push_back(extracted.node[point]);
       std::sort(face.begin(), face.end());
-      if (in.count(face) > 0 && (result[t].empty() || result[t].back() != name))
+      if (in.count(face) == 0)
+        continue;
+      outside.insert(face);
+      if (result[t].empty() || result[t].back() != name)
         result[t].push_back(name);
     }
+    if (!outside.empty() && outside.size() < in.size())
+      notes.push_back("surface \"" + name + "\": " + std::to_string(in.size() - outside.size()) + " of its " +
+                      std::to_string(in.size()) +
+                      " faces are no outer faces of cells: cells may be missing there, as in "
+                      "a file that was cut off; export the mesh again if they are meant");
   }
   for (Membership &names : result)
   {
@@ -108,7 +118,7 @@ std::map<int, std::vector<std::string>> divide_skin(ExtractedMesh &extracted, co
   const bool        named   = !groups.nodes.empty() || !groups.faces.empty();
   if (!named && std::find(surface.begin(), surface.end(), 0) == surface.end())
     return {};
-  const std::vector<Membership>           members = memberships(extracted, groups);
+  const std::vector<Membership>           members = memberships(extracted, groups, extracted.mesh.notes);
   const std::vector<std::size_t>          piece   = pieces_of(extracted, members);
   int                                     last    = *std::max_element(surface.begin(), surface.end());
   std::map<std::size_t, int>              tag_of; // piece to new tag

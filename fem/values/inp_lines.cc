@@ -65,6 +65,10 @@ bool InpLines::take()
       throw std::invalid_argument(path_ + ":" + std::to_string(read_) + ": the line has " +
                                   std::to_string(ahead_.size()) + " characters, " + std::to_string(longest_line) +
                                   " are read at most; this is no input file of Abaqus, or write it in lines.");
+    if (ahead_.find('\0') != std::string::npos)
+      throw std::invalid_argument(path_ + ":" + std::to_string(read_) +
+                                  ": the line holds bytes that are no text; the file is damaged, or saved as UTF-16: "
+                                  "save it as plain text (ASCII or UTF-8).");
     ahead_     = trimmed(ahead_);
     has_ahead_ = !ahead_.empty() && ahead_.compare(0, 2, "**") != 0;
     if (has_ahead_)

@@ -62,4 +62,10 @@ std::string shell_word(const std::string &text)
   return word + "'";
 }
 
+std::string typed_word(const std::string &text)
+{
+  static const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=+:,@%-";
+  return !text.empty() && text.find_first_not_of(plain) == std::string::npos ? text : shell_word(text);
+}
+
 } // namespace gestell::fem

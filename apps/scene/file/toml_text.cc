@@ -7,9 +7,11 @@
 #include <toml.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <tuple>
@@ -174,6 +176,8 @@ SceneNode converted(const toml::value &value, const Places &places, const Place 
     node.type   = Type::real;
     node.number = value.as_floating();
     node.text   = places.written_number(value);
+    if (std::abs(node.number) == std::numeric_limits<double>::max()) // what toml11 reads of 1e400
+      node.place.fail("a number is beyond 1.8e308, the largest that a computer takes; write a smaller one");
     break;
   case toml::value_t::boolean:
     node.type    = Type::boolean;

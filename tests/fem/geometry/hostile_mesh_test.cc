@@ -7,8 +7,10 @@
 #include "tests/support/refusal.h"
 
 #include <gmock/gmock.h>
+#include <gmsh.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <sstream>
@@ -18,6 +20,7 @@ using namespace gestell::fem::test;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace
 {
@@ -93,6 +96,78 @@ TEST(InpMesh, WithALineThatIsNoneIsRefused)
 {
   EXPECT_THAT(told_of(tetrahedron + "*NSET, NSET=A\n" + std::string(1000001, '1') + "\n"),
               AllOf(HasSubstr("mesh.inp:9"), HasSubstr("1000001 characters")));
+}
+
+TEST(InpMesh, OfBytesThatAreNoTextIsRefusedWithTheLine)
+{
+  EXPECT_THAT(told_of(tetrahedron + std::string("2, 1, \0\0\0, 4\n", 13)),
+              AllOf(HasSubstr("mesh.inp:8"), HasSubstr("no text"), HasSubstr("UTF-16")));
+  std::string wide = "\xFF\xFE";
+  for (const char c : tetrahedron)
+    wide += {c, '\0'};
+  EXPECT_THAT(told_of(wide), AllOf(HasSubstr("mesh.inp:1"), HasSubstr("UTF-16")));
+}
+
+std::string box_by_gmsh(const std::string &file)
+{
+  return read_text(draw(file,
+                        []
+                        {
+                          gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
+                          gmsh::model::occ::synchronize();
+                          gmsh::option::setNumber("Mesh.MeshSizeMax", 0.3);
+                          gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
+                          gmsh::option::setNumber("Mesh.SaveAll", 1);
+                          gmsh::model::mesh::generate(3);
+                        }));
+}
+
+/// Without the first `n` lines behind the one that begins with this.
+std::string without_lines(const std::string &text, const std::string &begin, int n)
+{
+  const std::size_t from = text.find('\n', text.find(begin)) + 1;
+  std::size_t       to   = from;
+  for (int i = 0; i < n; ++i)
+    to = text.find('\n', to) + 1;
+  return text.substr(0, from) + text.substr(to);
+}
+
+/// What is noted of the mesh of a file with this text.
+std::string notes_of(const std::string &file, const std::string &text)
+{
+  FrameSpecification frame = specification(write_text(file, text), 0.);
+  frame.mesh.bodies        = 0;
+  std::string all;
+  for (const std::string &note : make_mesh(frame).notes)
+    all += note + "\n";
+  return all;
+}
+
+// The triangles around the box stand before its cells.
+TEST(InpMesh, WithoutItsLastCellsIsToldByTheSurfaceThatLostThem)
+{
+  const std::string whole = box_by_gmsh("whole.inp");
+  EXPECT_THAT(notes_of("mesh.inp", whole), Not(HasSubstr("cut off")));
+  EXPECT_THAT(notes_of("mesh.inp", without_lines(whole, "*ELEMENT, type=C3D4", 200)),
+              AllOf(HasSubstr("surface \"SURFACE"), HasSubstr("cut off")));
+}
+
+TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
+{
+  const std::string whole = box_by_gmsh("whole.msh");
+  EXPECT_THAT(notes_of("mesh.msh", whole), Not(HasSubstr("cut off")));
+  std::istringstream lines(whole);
+  std::string        line, cut;
+  int                n_left_out = 0;
+  for (bool elements = false; std::getline(lines, line); elements |= line == "$Elements")
+    if (elements && n_left_out < 200 && std::count(line.begin(), line.end(), ' ') == 8) // number, kind, 2 tags, 4 nodes
+      ++n_left_out;
+    else
+      cut += line + "\n";
+  const std::size_t count = cut.find("$Elements\n") + 10;
+  cut.replace(count, cut.find('\n', count) - count, std::to_string(std::stoi(cut.substr(count)) - n_left_out));
+  EXPECT_EQ(n_left_out, 200);
+  EXPECT_THAT(notes_of("mesh.msh", cut), AllOf(HasSubstr("lie on no cell"), HasSubstr("cut off")));
 }
 
 TEST(InpMesh, WithFilesThatAreIncludedWithoutEndIsRefused)

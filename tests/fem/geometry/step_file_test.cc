@@ -78,6 +78,15 @@ TEST(StepFile, ThatLostItsUnitIsRefused)
               AllOf(HasSubstr("does not say what its unit of length is"), HasSubstr("millimetres and metres")));
 }
 
+// OpenCASCADE computes with it and does not come to an end.
+TEST(StepFile, WithANumberThatIsNoneIsRefusedWithItsEntity)
+{
+  for (const std::string none : {"NaN", "-nan(ind)", "inf", "-INF", "1.#QNAN"})
+    EXPECT_THAT(told_of(with(text_of_cubes(0.), "(0.,0.,0.)", "(0.," + none + ",0.)", "CARTESIAN_POINT")),
+                AllOf(HasSubstr("entity #"), HasSubstr("in place of a number")))
+        << none;
+}
+
 TEST(StepFile, WithReferencesInTextAndCommentsIsWhole)
 {
   const std::string text = text_of_cubes(0.);
