@@ -16,6 +16,7 @@
 #include "apps/session/session.h"
 #include "apps/session/story/run_story.h"
 #include "apps/sizing/error_budget.h"
+#include "coupling/frame/whole_file.h"
 #include "fem/values/passing_folder.h"
 
 #include <algorithm>
@@ -112,6 +113,25 @@ std::string resuming(const CommonOptions &options, const std::filesystem::path &
   return command + " --resume -o " + fem::typed_word(folder.string());
 }
 
+/// Of an interrupted run a failure tells, too, whether it can go on.
+void write_answer(const std::filesystem::path &folder, const Result &result, const std::string &resuming)
+{
+  try
+  {
+    write_results(folder, result);
+  }
+  catch (const coupling::WriteFailure &failure)
+  {
+    if (!result.run->interrupted)
+      throw;
+    throw coupling::WriteFailure(std::string(failure.what()) +
+                                 (std::filesystem::exists(folder / checkpoint_name)
+                                      ? "\n  the run was interrupted; " + resuming + " goes on from its last checkpoint"
+                                      : "\n  the run was interrupted, and no checkpoint could be kept: it cannot go on "
+                                        "from there"));
+  }
+}
+
 int run_scene(const CommonOptions &options, const RunAsked &asked)
 {
   ProgressLine progress(options.quiet);
@@ -139,7 +159,7 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
     add_budget(session.scene(), outputs, result);
   prepare_folder(folder, inputs);
   progress.done();
-  write_results(folder, result);
+  write_answer(folder, result, resuming(options, folder));
   if (!result.run->interrupted)
     remove_checkpoint(folder, asked.resume);
 
@@ -179,8 +199,7 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
   if (asked.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
   if (result.run->interrupted && asked.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
-    std::cerr << "gestell: interrupted; " << resuming(options, folder)
-              << " goes on from there\n";
+    std::cerr << "gestell: interrupted; " << resuming(options, folder) << " goes on from there\n";
   const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
   return interrupted ? exit_interrupted : exit_done;
 }

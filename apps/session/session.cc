@@ -201,10 +201,8 @@ void Session::use_frame(const coupling::ReducedFrame &frame)
 FrameAnswer Session::reduced_frame()
 {
   check();
-  FrameAnswer answer;
-  auto [frame, from_cache]  = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption));
-  answer.frame              = std::move(frame);
-  answer.from_cache         = from_cache;
+  auto [frame, from_cache] = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption));
+  FrameAnswer answer{std::move(frame), from_cache, {}};
   answer.facts.frame        = answer.frame.facts;
   answer.facts.frame_mass   = answer.frame.mass;
   answer.facts.free_motions = static_cast<int>((answer.frame.frequencies_hz.array() == 0.).count());

@@ -13,6 +13,14 @@ TEST(FailedWrite, IsToldAndLeavesWholeFilesInEveryCommand)
   EXPECT_GT(fail_writes(cases, 2), 0);
 }
 
+/// Words before a command that let every call on this file fail.
+std::string full_disk(const DiskCases &cases, const std::filesystem::path &file)
+{
+  std::ofstream(cases.path("calls"), std::ios::binary) << std::string(sizeof(long), '\0');
+  return "GESTELL_DISK='" + file.string() + "' GESTELL_DISK_COUNT='" + cases.path("calls").string() +
+         "' GESTELL_DISK_CALL=1 GESTELL_DISK_FULL=1 LD_PRELOAD='" GESTELL_BINARY_DIR "/tests/gestell_failing_disk.so' ";
+}
+
 // The history of a run whose folder is full is in the folder for temporary files.
 TEST(FailedWrite, LosesNoHistory)
 {
@@ -21,12 +29,8 @@ TEST(FailedWrite, LosesNoHistory)
   const DiskCase &run = cases.all().front();
   ASSERT_EQ(run.name, "run");
   std::filesystem::create_directories(folder.results());
-  std::ofstream(cases.path("calls"), std::ios::binary) << std::string(sizeof(long), '\0');
-  const std::string full = "GESTELL_DISK='" + (folder.results() / "history.csv").string() + "' GESTELL_DISK_COUNT='" +
-                           cases.path("calls").string() +
-                           "' GESTELL_DISK_CALL=1 GESTELL_DISK_FULL=1 LD_PRELOAD='" GESTELL_BINARY_DIR
-                           "/tests/gestell_failing_disk.so' ";
-  const Answer answer = shell(cases.command(run, folder.results(), "", full));
+  const std::string full   = full_disk(cases, folder.results() / "history.csv");
+  const Answer      answer = shell(cases.command(run, folder.results(), "", full));
   expect_answer(answer, 3,
                 {"history.csv: cannot be written (No space left on device)", "everything is in ", " instead"});
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "history.csv"));
@@ -34,6 +38,20 @@ TEST(FailedWrite, LosesNoHistory)
   const auto                  begin     = answer.text.find("everything is in ") + 17;
   const std::filesystem::path elsewhere = answer.text.substr(begin, answer.text.find(" instead") - begin);
   EXPECT_GT(read(elsewhere / "history.csv").size(), 1000u);
+}
+
+// Interrupted, it says whether the run can go on, too.
+TEST(FailedWrite, OfAnInterruptedRunTellsWhetherItCanGoOn)
+{
+  const DiskCases cases;
+  const Folder    folder("full_disk");
+  std::filesystem::create_directories(folder.results());
+  const std::string run =
+      "timeout --preserve-status -s INT 2 '" GESTELL_BINARY_DIR "/bin/gestell' run " + scene("press_minimal.toml") +
+      " --set run.end=90 --set run.step=2e-6 --set output.step=0.01 --checkpoint 0.05" + folder.option();
+  expect_answer(shell(full_disk(cases, folder.results() / "history.csv") + run), 3,
+                {"history.csv: cannot be written", "the run was interrupted; gestell run ", "--set run.end=90",
+                 "--resume -o ", "goes on from its last checkpoint"});
 }
 
 } // namespace
