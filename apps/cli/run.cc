@@ -114,6 +114,7 @@ std::string resuming(const CommonOptions &options, const std::filesystem::path &
 }
 
 /// Of an interrupted run a failure tells, too, whether it can go on.
+/// @param resuming  the command; "" for a run that keeps no checkpoints
 void write_answer(const std::filesystem::path &folder, const Result &result, const std::string &resuming)
 {
   try
@@ -122,7 +123,7 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
   }
   catch (const coupling::WriteFailure &failure)
   {
-    if (!result.run->interrupted)
+    if (!result.run->interrupted || resuming.empty())
       throw;
     throw coupling::WriteFailure(std::string(failure.what()) +
                                  (std::filesystem::exists(folder / checkpoint_name)
@@ -159,7 +160,7 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
     add_budget(session.scene(), outputs, result);
   prepare_folder(folder, inputs);
   progress.done();
-  write_answer(folder, result, resuming(options, folder));
+  write_answer(folder, result, asked.sensitivities.empty() ? resuming(options, folder) : "");
   if (!result.run->interrupted)
     remove_checkpoint(folder, asked.resume);
 

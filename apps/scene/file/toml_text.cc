@@ -191,12 +191,16 @@ SceneNode converted(const toml::value &value, const Places &places, const Place 
   return node;
 }
 
+toml::value parsed(const std::string &text, const std::string &file)
+{
+  std::istringstream in(text);
+  return toml::parse(in, file);
+}
+
 /// A text as nodes; toml::exception where it is not TOML.
 SceneNode node_of(const std::string &text, const Place &place, const std::string &folder)
 {
-  std::istringstream in(text);
-  const toml::value  root = toml::parse(in, place.file);
-  return converted(root, Places(text), place, folder);
+  return converted(parsed(text, place.file), Places(text), place, folder);
 }
 
 } // namespace
@@ -209,9 +213,10 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
   if (const int line = too_deep(text); line > 0)
     fail(line, "tables and arrays stand in each other more than " + std::to_string(deepest) +
                    " deep here; a scene needs six at most");
+  toml::value root;
   try
   {
-    return node_of(text, Place{name, 1}, folder);
+    root = parsed(text, name);
   }
   catch (const toml::exception &e)
   {
@@ -226,7 +231,7 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
   {
     fail(0, std::string("is not a TOML file: ") + first_line(e.what()));
   }
-  return {};
+  return converted(root, Places(text), Place{name, 1}, folder);
 }
 
 SceneNode parse_toml_file(const std::string &path)

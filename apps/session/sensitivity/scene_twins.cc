@@ -124,10 +124,10 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
     const auto below = frame_with_modes_of(frame, std::move(*varied.at(-steps)), progress),
                above = frame_with_modes_of(frame, std::move(*varied.at(steps)), progress);
     // a study leaves out the skin, by which modes are recognised
-    const auto derivative = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress).frame,
-                                                                              below, above, steps * key.step)
-                                                 : coupling::frame_derivative(frame, below, above, steps * key.step);
-    key.told.frame        = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
+    auto derivative = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress).frame, below,
+                                                                        above, steps * key.step)
+                                           : coupling::frame_derivative(frame, below, above, steps * key.step);
+    key.told.frame  = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
                      (anew ? " more and less, each meshed anew" : " more and less");
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.told.key + " come from " + key.told.frame +

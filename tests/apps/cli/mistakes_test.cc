@@ -195,6 +195,8 @@ TEST(MistakeInAFile, IsAnsweredWithItsLineAndWhatToSaveItAs)
   expect_answer(check("\xFF\xFE" + wide), 2, {"scene.toml:1: ", "save it as UTF-8"});
   expect_answer(check(edited(press(), {{"# drive", "# Antrieb f\xFCr"}})), 2,
                 {"scene.toml:17: ", "save the file as UTF-8"});
+  expect_answer(check(edited(press(), {{"step   = \"10 us\"", "step   = 1e400"}})), 2,
+                {"scene.toml:196: ", "beyond 1.8e308"});
   expect_answer(check("ISO-10303-21;\n"), 2, {"scene.toml:1: ", "gestell mesh FILE", "frame.cad"});
   expect_answer(check(""), 2, {"has nothing that moves", "[body.NAME]"});
   EXPECT_EQ(check("\xEF\xBB\xBF" + press()).exit_code, 0); // what editors of Windows put there
