@@ -1,5 +1,6 @@
 #include "apps/output/pictures/projection.h"
 
+#include "apps/output/pictures/painting_order.h"
 #include "apps/output/text/svg.h"
 
 #include <Eigen/Geometry>
@@ -7,7 +8,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -18,6 +21,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double fineness      = 2.; ///< points of the depth raster per unit
+constexpr double coarse_facet  = 7.; ///< longest edge [units]: larger ones that cross each other are parted
 constexpr double n_scale_steps = 24., n_light_steps = 12.;
 
 /// Twice the area of the triangle a, b, c in the picture, positive if clockwise as seen.
@@ -34,6 +38,20 @@ Vector3d on_raster(const Vector3d &x)
 double in_steps(double s, double n)
 {
   return std::round(n * s) / n;
+}
+
+double longest_edge(const Facet &facet)
+{
+  const auto &[a, b, c] = facet.corners;
+  return std::max({(b - a).head<2>().norm(), (c - b).head<2>().norm(), (a - c).head<2>().norm()});
+}
+
+void add_quarters(const Facet &facet, std::vector<Facet> &facets)
+{
+  const auto &[a, b, c] = facet.corners;
+  const Vector3d ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+  for (const std::array<Vector3d, 3> &corners : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}})
+    facets.push_back({corners, facet.colour, facet.face});
 }
 
 /// The path of one facet in half units, relative, as short as can be.
@@ -92,14 +110,27 @@ double View::light_on(const Vector3d &normal) const
 }
 
 DepthRaster::DepthRaster(const std::vector<Facet> &facets, const View &view)
-    : columns_(static_cast<int>(fineness * view.width()) + 2), rows_(static_cast<int>(fineness * view.height()) + 2),
-      depth_(static_cast<std::size_t>(columns_) * rows_, -1e300), facet_(depth_.size(), -1)
+    : DepthRaster(facets, static_cast<int>(fineness * view.width()) + 2, static_cast<int>(fineness * view.height()) + 2)
 {
-  for (std::size_t i = 0; i < facets.size(); ++i)
-    draw(facets[i].corners, static_cast<int>(i));
 }
 
-void DepthRaster::draw(const std::array<Vector3d, 3> &corners, int facet)
+DepthRaster::DepthRaster(const std::vector<Facet> &facets, int columns, int rows)
+    : columns_(columns), rows_(rows), depth_(static_cast<std::size_t>(columns_) * rows_, -1e300),
+      facet_(depth_.size(), -1)
+{
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    for_each_point(facets[i].corners,
+                   [&](std::size_t point, double depth)
+                   {
+                     if (depth <= depth_[point])
+                       return;
+                     depth_[point] = depth;
+                     facet_[point] = static_cast<int>(i);
+                   });
+}
+
+template <typename Visit>
+void DepthRaster::for_each_point(const std::array<Vector3d, 3> &corners, const Visit &visit) const
 {
   const Vector3d a = on_raster(corners[0]), b = on_raster(corners[1]), c = on_raster(corners[2]);
   const double   area = cross(a, b, c);
@@ -115,11 +146,8 @@ void DepthRaster::draw(const std::array<Vector3d, 3> &corners, int facet)
       // Shares of the corners in the raster point.
       const Vector3d x(i, j, 0.);
       const double   u = cross(x, b, c) / area, v = cross(a, x, c) / area, w = 1. - u - v;
-      const double   z = u * a[2] + v * b[2] + w * c[2];
-      if (std::min({u, v, w}) < -1e-9 || z <= depth_[index(i, j)])
-        continue;
-      depth_[index(i, j)] = z;
-      facet_[index(i, j)] = facet;
+      if (std::min({u, v, w}) >= -1e-9)
+        visit(index(i, j), u * a[2] + v * b[2] + w * c[2]);
     }
 }
 
@@ -130,18 +158,45 @@ bool DepthRaster::sees(const Vector3d &x, double slack) const
   return x[2] + slack >= depth_[index(i, j)];
 }
 
+std::vector<std::pair<int, int>> DepthRaster::hiding(const std::vector<Facet> &facets,
+                                                     const std::vector<int> &seen) const
+{
+  constexpr double touching = 1e-3; // [units] of depth: neighbours at their common edge
+  constexpr double apart    = 1.;   // those that do not meet at the next point either
+  const auto       last     = static_cast<long>(facet_.size()) - 1;
+
+  std::vector<std::pair<int, int>> pairs;
+  for (const int facet : seen)
+    for_each_point(facets[facet].corners,
+                   [&](std::size_t point, double depth)
+                   {
+                     if (facet_[point] == facet || depth >= depth_[point] - touching)
+                       return;
+                     pairs.emplace_back(facet, facet_[point]);
+                     // What is around hides the breadth of its line.
+                     for (const long step : {-1L, 1L, -long(columns_), long(columns_)})
+                       if (const long next = std::clamp(static_cast<long>(point) + step, 0L, last);
+                           facet_[next] >= 0 && facet_[next] != facet && depth < depth_[next] - apart)
+                         pairs.emplace_back(facet, facet_[next]);
+                   });
+  return pairs;
+}
+
 std::vector<Facet> DepthRaster::visible(const std::vector<Facet> &facets) const
 {
-  std::vector<bool> seen(facets.size(), false);
-  for (const int i : facet_)
-    if (i >= 0)
-      seen[static_cast<std::size_t>(i)] = true;
-  std::vector<Facet> kept;
-  for (std::size_t i = 0; i < facets.size(); ++i)
-    if (seen[i])
-      kept.push_back(facets[i]);
-  std::stable_sort(kept.begin(), kept.end(), [](const Facet &a, const Facet &b) { return a.depth() < b.depth(); });
-  return kept;
+  std::set<int> numbers(facet_.begin(), facet_.end());
+  numbers.erase(-1);
+  const std::vector<int> seen(numbers.begin(), numbers.end());
+  const PaintingOrder    order = painting_order(facets, seen, hiding(facets, seen));
+
+  const std::set<int> ring(order.ring.begin(), order.ring.end());
+  std::vector<Facet>  painted;
+  for (const int facet : order.facets)
+    if (ring.count(facet) > 0 && longest_edge(facets[facet]) > coarse_facet)
+      add_quarters(facets[facet], painted);
+    else
+      painted.push_back(facets[facet]);
+  return painted.size() > order.facets.size() ? DepthRaster(painted, columns_, rows_).visible(painted) : painted;
 }
 
 Colour scale_colour(double s)
@@ -164,15 +219,9 @@ std::string hex(const Colour &colour, double light)
   return text;
 }
 
-std::string facet_paths(std::vector<Facet> facets)
+std::string facet_paths(const std::vector<Facet> &facets)
 {
-  constexpr std::size_t slice = 160;
-  const auto            look  = [](const Facet &facet) { return std::tie(facet.face, facet.colour); };
-  for (std::size_t i = 0; i < facets.size(); i += slice)
-    std::stable_sort(facets.begin() + static_cast<long>(i),
-                     facets.begin() + static_cast<long>(std::min(i + slice, facets.size())),
-                     [&](const Facet &a, const Facet &b) { return look(a) < look(b); });
-
+  const auto   look = [](const Facet &facet) { return std::tie(facet.face, facet.colour); };
   std::string  svg  = "<g transform=\"scale(.5)\">";
   const Facet *open = nullptr;
   for (const Facet &facet : facets)
@@ -191,16 +240,28 @@ std::string edge_lines(const std::vector<std::array<int, 2>> &edges, const std::
                        const View &view, const DepthRaster *raster)
 {
   constexpr double slack = 2.5; // [units] by which the raster rounds
+  constexpr double piece = 5.;  // [units] of an edge that is seen or not
   std::string      svg;
+  const auto       add = [&](const Vector3d &from, const Vector3d &to)
+  {
+    append_coordinate(svg += 'M', from[0]);
+    append_coordinate(svg += ' ', from[1]);
+    append_coordinate(svg += 'L', to[0]);
+    append_coordinate(svg += ' ', to[1]);
+  };
   for (const auto &[a, b] : edges)
   {
     const Vector3d p = view(points[a]), q = view(points[b]);
-    if (raster != nullptr && !raster->sees(0.5 * (p + q), slack))
-      continue;
-    append_coordinate(svg += 'M', p[0]);
-    append_coordinate(svg += ' ', p[1]);
-    append_coordinate(svg += 'L', q[0]);
-    append_coordinate(svg += ' ', q[1]);
+    const int      n  = raster == nullptr ? 1 : std::max(1, static_cast<int>((q - p).head<2>().norm() / piece));
+    const auto     at = [&](double i) -> Vector3d { return p + i / n * (q - p); };
+    int            begin = 0; // of what is seen
+    for (int i = 0; i <= n; ++i)
+      if (i == n || (raster != nullptr && !raster->sees(at(i + 0.5), slack)))
+      {
+        if (i > begin)
+          add(at(begin), at(i));
+        begin = i + 1;
+      }
   }
   return svg;
 }

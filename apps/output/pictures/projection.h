@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gestell::apps
@@ -61,11 +62,18 @@ public:
   /// Whether nothing is nearer than `slack` [units] before x.
   bool sees(const Eigen::Vector3d &x, double slack) const;
 
-  /// Those facets that something can be seen of, the farthest first.
+  /// Those facets of which something is seen, in an order in which they can be painted over each other; large ones that
+  /// have none, as they cross or hide each other in a ring, in parts.
   std::vector<Facet> visible(const std::vector<Facet> &facets) const;
 
 private:
-  void        draw(const std::array<Eigen::Vector3d, 3> &corners, int facet);
+  DepthRaster(const std::vector<Facet> &facets, int columns, int rows);
+
+  /// Calls visit(index of a point, depth there) for the points of the raster in a triangle.
+  template <typename Visit>
+  void for_each_point(const std::array<Eigen::Vector3d, 3> &corners, const Visit &visit) const;
+  /// Of two facets one that is hidden at a point and one that hides it, for all points; among facets that are seen.
+  std::vector<std::pair<int, int>> hiding(const std::vector<Facet> &facets, const std::vector<int> &seen) const;
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i); }
 
   int                 columns_, rows_;
@@ -73,7 +81,7 @@ private:
   std::vector<int>    facet_; // -1: none
 };
 
-/// Edges between points as the `d` of one SVG path; with a raster only those that it sees the middle of.
+/// Edges between points as the `d` of one SVG path; with a raster what it sees of them.
 std::string edge_lines(const std::vector<std::array<int, 2>> &edges, const std::vector<Eigen::Vector3d> &points,
                        const View &view, const DepthRaster *raster = nullptr);
 
@@ -85,8 +93,8 @@ Colour scale_colour(double s);
 /// "#rrggbb" of a colour under a light.
 std::string hex(const Colour &colour, double light);
 
-/// Facets, farthest first, as SVG paths for a style that fills with `currentColor`.  Within a thin slice of depth,
-/// where the order does not matter, facets of one colour share a path.
-std::string facet_paths(std::vector<Facet> facets);
+/// Facets in the order of DepthRaster::visible() as SVG paths for a style that fills with `currentColor`; those of one
+/// colour that follow each other share a path.
+std::string facet_paths(const std::vector<Facet> &facets);
 
 } // namespace gestell::apps
