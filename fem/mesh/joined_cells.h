@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -47,6 +49,34 @@ std::vector<CellFace> join_cells(const std::vector<CellFace> &faces, std::vector
   std::sort(skin.begin(), skin.end(),
             [](auto &a, auto &b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
   return skin;
+}
+
+/// A surface of which some elements are faces of cells and others are not has lost cells: a note of the mesh.
+/// @param surface_of  tags of surfaces by the sorted corners of their elements, -1 for a node of no cell
+/// @param is_face     says of such corners whether they are those of a face
+template <class Key, class IsFace>
+void note_missing_cells(Mesh &mesh, const std::map<Key, int> &surface_of, const IsFace &is_face)
+{
+  std::map<int, std::vector<Key>> without; // cells, of the surfaces by their tags
+  std::set<int>                   with;
+  for (const auto &[key, tag] : surface_of)
+    if (is_face(key))
+      with.insert(tag);
+    else
+      without[tag].push_back(key);
+  std::size_t n     = 0;
+  int         where = -1;
+  for (const auto &[tag, elements] : without)
+    if (with.count(tag) > 0)
+    {
+      n += elements.size();
+      where = std::max(where, elements.front().back()); // nodes of no cell have no number
+    }
+  if (n > 0)
+    mesh.notes.push_back(std::to_string(n) + " elements of surfaces" +
+                         (where < 0 ? "" : ", one at " + text(mesh.points[where]) + " m,") +
+                         " lie on no cell, though others of the same surfaces do: cells are missing there, as in a "
+                         "file that was cut off; export the mesh again if they are meant");
 }
 
 /// Whether two cells lie on either side of a face that both have, however their corners are numbered; flat ones are

@@ -160,34 +160,6 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
                               list);
 }
 
-/// A surface of which some triangles are faces of cells and others are not has lost cells.
-void note_missing_cells(Mesh &mesh, const std::map<Triangle, int> &surface_of, const std::vector<CellFace> &faces)
-{
-  std::map<int, std::vector<Triangle>> without; // cells, of the surfaces by their tags
-  std::set<int>                        with;
-  for (const auto &[key, tag] : surface_of)
-  {
-    const auto face = std::lower_bound(faces.begin(), faces.end(), CellFace{key, -1, -1});
-    if (face != faces.end() && face->key == key)
-      with.insert(tag);
-    else
-      without[tag].push_back(key);
-  }
-  std::size_t n     = 0;
-  int         where = -1;
-  for (const auto &[tag, triangles] : without)
-    if (with.count(tag) > 0)
-    {
-      n += triangles.size();
-      where = std::max(where, triangles.front()[2]); // nodes of no cell have no number
-    }
-  if (n > 0)
-    mesh.notes.push_back(std::to_string(n) + " triangles of surfaces" +
-                         (where < 0 ? "" : ", one at " + text(mesh.points[where]) + " m,") +
-                         " lie on no cell, though others of the same surfaces do: cells are missing there, as in a "
-                         "file that was cut off; export the mesh again if they are meant");
-}
-
 } // namespace
 
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options)
@@ -219,7 +191,12 @@ ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const
           surface_of[sorted({nodes.index(corner[0]), nodes.index(corner[1]), nodes.index(corner[2])})] = tag;
         });
   if (model.meshed)
-    note_missing_cells(mesh, surface_of, faces);
+    note_missing_cells(mesh, surface_of,
+                       [&](const Triangle &key)
+                       {
+                         const auto face = std::lower_bound(faces.begin(), faces.end(), CellFace{key, -1, -1});
+                         return face != faces.end() && face->key == key;
+                       });
   for (const CellFace &face : skin)
   {
     const auto &[i, j, k] = outward[face.face];

@@ -277,6 +277,16 @@ std::map<Key, int> surfaces_of(const MeshNodes &nodes)
   return surface_of;
 }
 
+void note_lost_cells(Mesh &mesh, const std::map<Key, int> &surface_of)
+{
+  std::set<Key> faces; // of cells, among the elements of surfaces
+  for (int cell = 0; cell < mesh.n_cells(); ++cell)
+    for (std::size_t f = 0; f < cell_shape(mesh.kind(cell)).faces.size(); ++f)
+      if (const Key key = key_of(corners_of(mesh, {{}, cell, static_cast<int>(f)})); surface_of.count(key) > 0)
+        faces.insert(key);
+  note_missing_cells(mesh, surface_of, [&](const Key &key) { return faces.count(key) > 0; });
+}
+
 /// Quadrilaterals first, with their halves, then triangles.
 void add_skin(const std::vector<CellFace> &outer, const SurfaceOf &surface_of, ExtractedMesh &result)
 {
@@ -325,7 +335,10 @@ ExtractedMesh extract_mixed(const CadModel &model, const std::string &head, cons
              return surface == surfaces.end() ? 0 : surface->second;
            });
   if (model.meshed)
+  {
+    note_lost_cells(mesh, surfaces);
     note_nodes(mesh, nodes);
+  }
   return result;
 }
 

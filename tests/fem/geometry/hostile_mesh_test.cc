@@ -108,13 +108,31 @@ TEST(InpMesh, OfBytesThatAreNoTextIsRefusedWithTheLine)
   EXPECT_THAT(told_of(wide), AllOf(HasSubstr("mesh.inp:1"), HasSubstr("UTF-16")));
 }
 
-std::string box_by_gmsh(const std::string &file)
+enum class Cells
+{
+  tetrahedra,
+  prisms,
+  hexahedra
+};
+
+std::string box_by_gmsh(const std::string &file, Cells cells = Cells::tetrahedra)
 {
   return read_text(draw(file,
-                        []
+                        [cells]
                         {
-                          gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.);
-                          gmsh::model::occ::synchronize();
+                          namespace occ = gmsh::model::occ;
+                          gmsh::vectorpair swept;
+                          occ::addRectangle(0., 0., 0., 1., 1.);
+                          if (cells == Cells::tetrahedra)
+                            occ::extrude({{2, 1}}, 0., 0., 1., swept);
+                          else
+                            occ::extrude({{2, 1}}, 0., 0., 1., swept, {4}, {}, true);
+                          occ::synchronize();
+                          if (cells == Cells::hexahedra)
+                          {
+                            gmsh::model::mesh::setTransfiniteSurface(1);
+                            gmsh::model::mesh::setRecombine(2, 1);
+                          }
                           gmsh::option::setNumber("Mesh.MeshSizeMax", 0.3);
                           gmsh::option::setNumber("Mesh.MshFileVersion", 2.2);
                           gmsh::option::setNumber("Mesh.SaveAll", 1);
@@ -154,20 +172,26 @@ TEST(InpMesh, WithoutItsLastCellsIsToldByTheSurfaceThatLostThem)
 
 TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
 {
-  const std::string whole = box_by_gmsh("whole.msh");
-  EXPECT_THAT(notes_of("mesh.msh", whole), Not(HasSubstr("cut off")));
-  std::istringstream lines(whole);
-  std::string        line, cut;
-  int                n_left_out = 0;
-  for (bool elements = false; std::getline(lines, line); elements |= line == "$Elements")
-    if (elements && n_left_out < 200 && std::count(line.begin(), line.end(), ' ') == 8) // number, kind, 2 tags, 4 nodes
-      ++n_left_out;
-    else
-      cut += line + "\n";
-  const std::size_t count = cut.find("$Elements\n") + 10;
-  cut.replace(count, cut.find('\n', count) - count, std::to_string(std::stoi(cut.substr(count)) - n_left_out));
-  EXPECT_EQ(n_left_out, 200);
-  EXPECT_THAT(notes_of("mesh.msh", cut), AllOf(HasSubstr("lie on no cell"), HasSubstr("cut off")));
+  const std::pair<Cells, int> kinds[] = {{Cells::tetrahedra, 4}, {Cells::prisms, 6}, {Cells::hexahedra, 8}};
+  for (const auto &[cells, n_nodes] : kinds)
+  {
+    SCOPED_TRACE(n_nodes);
+    const std::string whole = box_by_gmsh("whole.msh", cells);
+    EXPECT_THAT(notes_of("mesh.msh", whole), Not(HasSubstr("cut off")));
+    std::istringstream lines(whole);
+    std::string        line, cut;
+    int                n_left_out = 0;
+    for (bool elements = false; std::getline(lines, line); elements |= line == "$Elements")
+      if (elements && n_left_out < 10 &&
+          std::count(line.begin(), line.end(), ' ') == 4 + n_nodes) // number, kind, 2 tags, nodes
+        ++n_left_out;
+      else
+        cut += line + "\n";
+    const std::size_t count = cut.find("$Elements\n") + 10;
+    cut.replace(count, cut.find('\n', count) - count, std::to_string(std::stoi(cut.substr(count)) - n_left_out));
+    EXPECT_EQ(n_left_out, 10);
+    EXPECT_THAT(notes_of("mesh.msh", cut), AllOf(HasSubstr("lie on no cell"), HasSubstr("cut off")));
+  }
 }
 
 TEST(InpMesh, WithFilesThatAreIncludedWithoutEndIsRefused)
