@@ -1,8 +1,9 @@
 #include "apps/cli/command.h"
 #include "apps/output/text/write_file.h"
 #include "apps/templates/scene_templates.h"
+#include "coupling/frame/whole_file.h"
 #include "fem/values/named_file.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/shell_word.h"
 
 #include <filesystem>
 #include <iostream>
@@ -64,8 +65,17 @@ int make_new(const NewOptions &options)
   const SceneTemplate         own    = named(chosen, name_of(scene));
   require_free(scene);
   require_free(frame);
-  write_file(frame, own.frame);
-  write_file(scene, own.scene);
+  try
+  {
+    write_file(frame, own.frame);
+    write_file(scene, own.scene);
+  }
+  catch (const coupling::WriteFailure &failure)
+  {
+    throw std::invalid_argument(std::string(failure.what()) +
+                                "; give a file in a folder that can be written: gestell new " + chosen.kind +
+                                " FOLDER/" + scene.filename().string());
+  }
   std::cout << "written: " << scene.string() << ", and its frame " << frame.string() << "\nnext:    gestell check "
             << fem::typed_word(scene.string()) << "\n         gestell run " << fem::typed_word(scene.string()) << '\n';
   return exit_done;

@@ -17,7 +17,7 @@
 #include "apps/session/story/run_story.h"
 #include "apps/sizing/error_budget.h"
 #include "coupling/frame/whole_file.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/shell_word.h"
 
 #include <algorithm>
 #include <iomanip>

@@ -1,6 +1,6 @@
 #include "apps/output/folder_lock.h"
 
-#include "fem/values/passing_folder.h"
+#include "fem/values/shell_word.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,5 +1,7 @@
 #include "fem/values/passing_folder.h"
 
+#include "fem/values/shell_word.h"
+
 #include <unistd.h>
 
 #include <cerrno>
@@ -52,20 +54,6 @@ std::string words_of_removal()
   std::error_code   none;
   const std::string begin = begin_of_names(none);
   return begin.empty() ? "" : "rm -rf -- " + shell_word(begin) + "??????; ";
-}
-
-std::string shell_word(const std::string &text)
-{
-  std::string word = "'";
-  for (const char c : text)
-    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
-std::string typed_word(const std::string &text)
-{
-  static const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=+:,@%-";
-  return !text.empty() && text.find_first_not_of(plain) == std::string::npos ? text : shell_word(text);
 }
 
 } // namespace gestell::fem

@@ -24,10 +24,4 @@ private:
 /// Words for a shell that remove all that this process has: for one that ends without their destructors.
 std::string words_of_removal();
 
-/// A text as one word of a shell: in single quotes.
-std::string shell_word(const std::string &text);
-
-/// The same for commands that are shown: in quotes only where the shell needs them.
-std::string typed_word(const std::string &text);
-
 } // namespace gestell::fem

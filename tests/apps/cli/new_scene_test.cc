@@ -55,6 +55,11 @@ TEST(NewSceneFile, OverwritesNothing)
   expect_answer(gestell(written_to(folder, "press")), 2, {"my.geo is there already"});
 }
 
+TEST(NewSceneFile, WhereNothingCanBeWrittenIsAMistakeOfInput)
+{
+  expect_answer(gestell("new press /proc/my.toml"), 2, {"/proc/my.geo", "gestell new press FOLDER/my.toml"});
+}
+
 TEST(NewSceneFile, OfNoSuchKindNamesTheNearest)
 {
   expect_answer(gestell("new pres"), 2, {"'pres'", "did you mean 'press'?"});
