@@ -14,25 +14,29 @@ namespace gestell::apps
 namespace
 {
 
-/// Each pair once; of two opposite ones the more frequent.
-/// @param hiding  sorted
-std::vector<Hiding> prevailing(const std::vector<Hiding> &hiding)
+bool by_facets(const Hiding &a, const Hiding &b)
 {
-  const auto weight = [&](const Hiding &pair)
+  return std::pair(a.behind, a.front) < std::pair(b.behind, b.front);
+}
+
+/// Of two opposite ones that of more points; of as many one of both all the same.
+HidingCounts prevailing(const HidingCounts &hiding)
+{
+  HidingCounts result;
+  for (const Hiding &pair : hiding)
   {
-    const auto range = std::equal_range(hiding.begin(), hiding.end(), pair);
-    return std::pair(range.second - range.first, pair); // equally frequent: one of both all the same
-  };
-  std::vector<Hiding> result;
-  for (auto pair = hiding.begin(); pair != hiding.end(); pair = std::upper_bound(pair, hiding.end(), *pair))
-    if (weight({pair->second, pair->first}) < weight(*pair))
-      result.push_back(*pair);
+    const Hiding opposite{pair.front, pair.behind, 0};
+    const auto   place = std::lower_bound(hiding.begin(), hiding.end(), opposite, by_facets);
+    const bool   both  = place != hiding.end() && !by_facets(opposite, *place);
+    if (!both || std::pair(place->count, place->behind) < std::pair(pair.count, pair.behind))
+      result.push_back(pair);
+  }
   return result;
 }
 
 /// Facets that hide each other in rings, and those on ways between rings: what is left when all that hides nothing, or
 /// that nothing left is hidden by, has been taken away.
-std::vector<int> rings(const std::vector<int> &seen, const std::vector<Hiding> &hiding, std::size_t n)
+std::vector<int> rings(const std::vector<int> &seen, const HidingCounts &hiding, std::size_t n)
 {
   std::vector<bool> left(n, false);
   for (const int facet : seen)
@@ -41,7 +45,7 @@ std::vector<int> rings(const std::vector<int> &seen, const std::vector<Hiding> &
   {
     std::vector<std::vector<int>> after(n);
     std::vector<int>              n_before(n, 0), open;
-    for (const auto &[behind, front] : hiding)
+    for (const auto &[behind, front, count] : hiding)
       if (left[behind] && left[front])
       {
         after[forwards ? behind : front].push_back(forwards ? front : behind);
@@ -69,11 +73,11 @@ std::vector<int> rings(const std::vector<int> &seen, const std::vector<Hiding> &
 class Painter
 {
 public:
-  Painter(const std::vector<Facet> &facets, const std::vector<int> &seen, std::vector<Hiding> hiding)
+  Painter(const std::vector<Facet> &facets, const std::vector<int> &seen, HidingCounts hiding)
       : facets_(facets), hiding_(std::move(hiding)), n_before_(facets.size(), 0)
   {
     for (const Hiding &pair : hiding_)
-      ++n_before_[pair.second];
+      ++n_before_[pair.front];
     for (const int facet : seen)
       if (n_before_[facet] == 0)
         offer(facet);
@@ -85,12 +89,15 @@ public:
   {
     std::vector<int> order;
     for (auto look = largest(); look != ready_.end(); look = largest())
+    {
       while (!look->second.empty())
       {
         order.push_back(look->second.top().second);
         look->second.pop();
         release_what_hides(order.back());
       }
+      ready_.erase(look);
+    }
     return order;
   }
 
@@ -105,32 +112,32 @@ private:
   /// The look of which most can be painted; end() when all is painted.
   Ready::iterator largest()
   {
-    const auto most = std::max_element(ready_.begin(), ready_.end(),
-                                       [](const auto &a, const auto &b) { return a.second.size() < b.second.size(); });
-    if (most != ready_.end() && !most->second.empty())
-      return most;
-    if (waiting_.empty())
+    if (ready_.empty() && waiting_.empty())
       return ready_.end();
-    const int facet = waiting_.begin()->second; // of a ring
-    waiting_.erase(waiting_.begin());
-    n_before_[facet] = 0;
-    offer(facet);
-    return largest();
+    if (ready_.empty())
+    {
+      const int facet = waiting_.begin()->second; // of a ring
+      waiting_.erase(waiting_.begin());
+      n_before_[facet] = 0;
+      offer(facet);
+    }
+    return std::max_element(ready_.begin(), ready_.end(),
+                            [](const auto &a, const auto &b) { return a.second.size() < b.second.size(); });
   }
 
   void release_what_hides(int facet)
   {
-    for (auto pair = std::lower_bound(hiding_.begin(), hiding_.end(), Hiding(facet, -1));
-         pair != hiding_.end() && pair->first == facet; ++pair)
-      if (n_before_[pair->second] > 0 && --n_before_[pair->second] == 0)
+    for (auto pair = std::lower_bound(hiding_.begin(), hiding_.end(), Hiding{facet, -1, 0}, by_facets);
+         pair != hiding_.end() && pair->behind == facet; ++pair)
+      if (n_before_[pair->front] > 0 && --n_before_[pair->front] == 0)
       {
-        waiting_.erase(place(pair->second));
-        offer(pair->second);
+        waiting_.erase(place(pair->front));
+        offer(pair->front);
       }
   }
 
   const std::vector<Facet> &facets_;
-  std::vector<Hiding>       hiding_;
+  HidingCounts              hiding_;
   std::vector<int>          n_before_; // that are hidden by a facet and not yet painted
   Ready                     ready_;
   std::set<Place>           waiting_;
@@ -138,13 +145,10 @@ private:
 
 } // namespace
 
-PaintingOrder painting_order(const std::vector<Facet> &facets, const std::vector<int> &seen, std::vector<Hiding> hiding)
+PaintingOrder painting_order(const std::vector<Facet> &facets, const std::vector<int> &seen, const HidingCounts &hiding)
 {
-  std::sort(hiding.begin(), hiding.end());
-  std::vector<Hiding> once;
-  std::unique_copy(hiding.begin(), hiding.end(), std::back_inserter(once));
-  std::vector<int> ring = rings(seen, once, facets.size());
-  return {Painter(facets, seen, ring.empty() ? std::move(once) : prevailing(hiding)).order(), std::move(ring)};
+  std::vector<int> ring = rings(seen, hiding, facets.size());
+  return {Painter(facets, seen, ring.empty() ? hiding : prevailing(hiding)).order(), std::move(ring)};
 }
 
 } // namespace gestell::apps

@@ -1,15 +1,11 @@
 #pragma once
 
-#include "apps/output/pictures/projection.h"
+#include "apps/output/pictures/facet.h"
 
-#include <utility>
 #include <vector>
 
 namespace gestell::apps
 {
-
-/// Of two facets the one that is hidden and the one that hides it.
-using Hiding = std::pair<int, int>;
 
 struct PaintingOrder
 {
@@ -18,8 +14,10 @@ struct PaintingOrder
 };
 
 /// @param seen    numbers of those to be painted
-/// @param hiding  between them, as often as it is found; of two that hide each other the more frequent decides
+/// @param hiding  sorted by the hidden facet, then by the other, each pair once; of two that hide each other the one
+/// that
+///                does so at more points decides
 PaintingOrder painting_order(const std::vector<Facet> &facets, const std::vector<int> &seen,
-                             std::vector<Hiding> hiding);
+                             const HidingCounts &hiding);
 
 } // namespace gestell::apps

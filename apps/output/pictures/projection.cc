@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -120,8 +121,9 @@ DepthRaster::DepthRaster(const std::vector<Facet> &facets, int columns, int rows
 {
   for (std::size_t i = 0; i < facets.size(); ++i)
     for_each_point(facets[i].corners,
-                   [&](std::size_t point, double depth)
+                   [&](int column, int row, double depth)
                    {
+                     const std::size_t point = index(column, row);
                      if (depth <= depth_[point])
                        return;
                      depth_[point] = depth;
@@ -147,7 +149,7 @@ void DepthRaster::for_each_point(const std::array<Vector3d, 3> &corners, const V
       const Vector3d x(i, j, 0.);
       const double   u = cross(x, b, c) / area, v = cross(a, x, c) / area, w = 1. - u - v;
       if (std::min({u, v, w}) >= -1e-9)
-        visit(index(i, j), u * a[2] + v * b[2] + w * c[2]);
+        visit(i, j, u * a[2] + v * b[2] + w * c[2]);
     }
 }
 
@@ -158,36 +160,48 @@ bool DepthRaster::sees(const Vector3d &x, double slack) const
   return x[2] + slack >= depth_[index(i, j)];
 }
 
-std::vector<std::pair<int, int>> DepthRaster::hiding(const std::vector<Facet> &facets,
-                                                     const std::vector<int> &seen) const
+HidingCounts DepthRaster::hiding(const std::vector<Facet> &facets, const std::vector<int> &seen) const
 {
   constexpr double touching = 1e-3; // [units] of depth: neighbours at their common edge
   constexpr double apart    = 1.;   // those that do not meet at the next point either
-  const auto       last     = static_cast<long>(facet_.size()) - 1;
-
-  std::vector<std::pair<int, int>> pairs;
+  HidingCounts     pairs;
   for (const int facet : seen)
-    for_each_point(facets[facet].corners,
-                   [&](std::size_t point, double depth)
+  {
+    std::map<int, int> before; // those that hide it, and at how many points
+    for_each_point(facets[std::size_t(facet)].corners,
+                   [&](int i, int j, double depth)
                    {
+                     const std::size_t point = index(i, j);
                      if (facet_[point] == facet || depth >= depth_[point] - touching)
                        return;
-                     pairs.emplace_back(facet, facet_[point]);
+                     ++before[facet_[point]];
                      // What is around hides the breadth of its line.
-                     for (const long step : {-1L, 1L, -long(columns_), long(columns_)})
-                       if (const long next = std::clamp(static_cast<long>(point) + step, 0L, last);
-                           facet_[next] >= 0 && facet_[next] != facet && depth < depth_[next] - apart)
-                         pairs.emplace_back(facet, facet_[next]);
+                     for (const auto &[k, l] : {std::pair(i - 1, j), {i + 1, j}, {i, j - 1}, {i, j + 1}})
+                     {
+                       if (k < 0 || k >= columns_ || l < 0 || l >= rows_)
+                         continue;
+                       const std::size_t next = index(k, l);
+                       if (facet_[next] >= 0 && facet_[next] != facet && depth < depth_[next] - apart)
+                         ++before[facet_[next]];
+                     }
                    });
+    for (const auto &[front, count] : before)
+      pairs.push_back({facet, front, count});
+  }
   return pairs;
 }
 
 std::vector<Facet> DepthRaster::visible(const std::vector<Facet> &facets) const
 {
-  std::set<int> numbers(facet_.begin(), facet_.end());
-  numbers.erase(-1);
-  const std::vector<int> seen(numbers.begin(), numbers.end());
-  const PaintingOrder    order = painting_order(facets, seen, hiding(facets, seen));
+  std::vector<bool> is_seen(facets.size(), false);
+  for (const int facet : facet_)
+    if (facet >= 0)
+      is_seen[std::size_t(facet)] = true;
+  std::vector<int> seen;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+    if (is_seen[i])
+      seen.push_back(int(i));
+  const PaintingOrder order = painting_order(facets, seen, hiding(facets, seen));
 
   const std::set<int> ring(order.ring.begin(), order.ring.end());
   std::vector<Facet>  painted;
@@ -252,8 +266,8 @@ std::string edge_lines(const std::vector<std::array<int, 2>> &edges, const std::
   for (const auto &[a, b] : edges)
   {
     const Vector3d p = view(points[a]), q = view(points[b]);
-    const int      n  = raster == nullptr ? 1 : std::max(1, static_cast<int>((q - p).head<2>().norm() / piece));
-    const auto     at = [&](double i) -> Vector3d { return p + i / n * (q - p); };
+    const int      n     = raster == nullptr ? 1 : std::max(1, static_cast<int>((q - p).head<2>().norm() / piece));
+    const auto     at    = [&](double i) -> Vector3d { return p + i / n * (q - p); };
     int            begin = 0; // of what is seen
     for (int i = 0; i <= n; ++i)
       if (i == n || (raster != nullptr && !raster->sees(at(i + 0.5), slack)))

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "apps/output/pictures/facet.h"
+
 #include <Eigen/Core>
 
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gestell::apps
@@ -43,16 +44,6 @@ private:
   double          scale_;
 };
 
-/// A triangle ready to be drawn.
-struct Facet
-{
-  std::array<Eigen::Vector3d, 3> corners;   ///< as View gives them
-  std::string                    colour;    ///< #rrggbb
-  int                            face = -1; ///< written as `data-f` of its path; -1: none
-
-  double depth() const { return corners[0][2] + corners[1][2] + corners[2][2]; }
-};
-
 /// What is nearest to the viewer at each point of a raster over the picture.
 class DepthRaster
 {
@@ -69,11 +60,11 @@ public:
 private:
   DepthRaster(const std::vector<Facet> &facets, int columns, int rows);
 
-  /// Calls visit(index of a point, depth there) for the points of the raster in a triangle.
+  /// Calls visit(column, row, depth) for the points of the raster in a triangle.
   template <typename Visit>
   void for_each_point(const std::array<Eigen::Vector3d, 3> &corners, const Visit &visit) const;
-  /// Of two facets one that is hidden at a point and one that hides it, for all points; among facets that are seen.
-  std::vector<std::pair<int, int>> hiding(const std::vector<Facet> &facets, const std::vector<int> &seen) const;
+  /// Sorted; among facets that are seen.
+  HidingCounts hiding(const std::vector<Facet> &facets, const std::vector<int> &seen) const;
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i); }
 
   int                 columns_, rows_;

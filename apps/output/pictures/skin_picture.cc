@@ -66,8 +66,7 @@ const char *const face_style = "<style>.gst .faces path{fill:currentColor;stroke
                                "stroke-opacity:.55;stroke-linecap:round}.gst .later{fill:none;stroke:var(--ink);"
                                "stroke-width:.8;opacity:.5}</style>\n";
 
-/// Facets of the bodies, moved; small, as bodies pass through each other and only small triangles can be put in the
-/// order of their depth.
+/// Facets of the bodies, moved; small, as bodies pass through each other, where no order of large ones is right.
 /// @param piece  longest edge of a triangle [units]
 std::vector<Facet> body_facets(const std::vector<Shape> &shapes, double enlargement, const View &view,
                                double piece = fine_piece)
