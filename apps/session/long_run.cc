@@ -222,7 +222,8 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   {
     const int periods = request.section > 0 ? request.section : usual_periods;
     run.motion        = recurrence_of(problem, start, options, periods);
-    if (!run.motion.is_recognised() && request.section == 0)
+    const bool may_beat = run.motion.kind == "drifting"; // more slowly than this section shows
+    if ((!run.motion.is_recognised() || may_beat) && request.section == 0)
       run.motion = recurrence_of(problem, start, options, once_more * periods);
   }
   catch (const std::runtime_error &none)

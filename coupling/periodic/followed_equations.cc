@@ -179,8 +179,10 @@ private:
     if (balance_ && lambda == lambda_)
       return;
     balance_.reset();
-    member_  = member_at(family_, lambda);
-    balance_ = std::make_unique<HarmonicBalance>(member_.problem, harmonics_);
+    member_      = member_at(family_, lambda);
+    auto balance = std::make_unique<HarmonicBalance>(member_.problem, harmonics_);
+    balance->require_load();
+    balance_ = std::move(balance);
     lambda_  = lambda;
   }
 

@@ -22,6 +22,7 @@ constexpr double closes          = 1e-4; ///< distance of two states, of the fas
 constexpr int    n_batches       = 16;   ///< of periods, for the error of the mean
 constexpr double certain         = 4.;   ///< standard errors
 constexpr double comes_nearer    = 0.01; ///< by which distances fall at least, quarter by quarter, if they do
+constexpr double goes_on         = 1.5;  ///< room that a motion takes in all, of that in its first half, if it drifts
 constexpr double soon_there      = 0.5;  ///< last distances, of the first, of a motion that settles
 constexpr double followed_finely = 1e-9; ///< tolerance of the steps: a section is not read more finely
 constexpr double longest_turn    = 3.;   ///< of the period expected, within which an angle comes round
@@ -140,18 +141,41 @@ Return return_of(const Eigen::MatrixXd &states, double fastest)
   return {0, false, falls_slowly};
 }
 
-/// Mean and standard error of the mean of terms that are correlated with their neighbours.
+/// Diagonal of the box about some states.
+double room(const Eigen::MatrixXd &states)
+{
+  return (states.rowwise().maxCoeff() - states.rowwise().minCoeff()).norm();
+}
+
+/// Whether the motion lies ever farther away: a bounded one takes as much room in each half as in all.
+/// @param turns  of coordinates in a period, or none: what turns goes on for ever
+bool drifts(Eigen::MatrixXd states, const VectorXd &turns, double fastest)
+{
+  for (Index i = 0; i < turns.size(); ++i)
+    if (turns[i] != 0.)
+      states.row(i).setZero();
+  const Index    half  = states.cols() / 2;
+  const double   first = room(states.leftCols(half)), last = room(states.rightCols(half)), all = room(states);
+  const VectorXd moved = states.rightCols(half).rowwise().mean() - states.leftCols(half).rowwise().mean();
+  return all > closes * fastest && all > goes_on * first && last > (1. - comes_nearer) * first &&
+         moved.norm() > all / 3.;
+}
+
+/// Mean and its error, of terms that are correlated with their neighbours and may yet fall: the standard error of the
+/// mean of batches, and half of what the means of both halves differ by.
 std::pair<double, double> mean_of(const VectorXd &terms)
 {
   const Index length = terms.size() / n_batches;
   VectorXd    batches(n_batches);
   for (Index i = 0; i < n_batches; ++i)
     batches[i] = terms.segment(i * length, length).mean();
-  const double mean = batches.mean();
-  return {mean, std::sqrt((batches.array() - mean).square().sum() / (n_batches * (n_batches - 1)))};
+  const double mean  = batches.mean();
+  const double falls = batches.head(n_batches / 2).mean() - batches.tail(n_batches / 2).mean();
+  const double error = std::sqrt((batches.array() - mean).square().sum() / (n_batches * (n_batches - 1)));
+  return {mean, std::max(error, 0.5 * std::abs(falls))};
 }
 
-void name(Recurrence &recurrence, const Eigen::MatrixXd &states, double fastest)
+void name(Recurrence &recurrence, const Eigen::MatrixXd &states, const VectorXd &turns, double fastest)
 {
   const Return back  = return_of(states, fastest);
   const double doubt = certain * recurrence.error;
@@ -161,6 +185,8 @@ void name(Recurrence &recurrence, const Eigen::MatrixXd &states, double fastest)
     recurrence.kind = "chaotic";
   else if (recurrence.exponent < -doubt || back.nearer)
     recurrence.kind = "settling";
+  else if (drifts(states, turns, fastest))
+    recurrence.kind = "drifting";
   else
     recurrence.kind = "quasi-periodic";
   if (back.closes || recurrence.kind == "settling")
@@ -200,7 +226,7 @@ Recurrence recurrence_of(const PeriodicProblem &problem, const PeriodicGuess &gu
   std::tie(recurrence.exponent, recurrence.error) = mean_of(growth);
   recurrence.exponent *= periods / seconds;
   recurrence.error *= periods / seconds;
-  name(recurrence, states, fastest);
+  name(recurrence, states, one.turn, fastest);
   recurrence.section = states;
   recurrence.section.topRows(n) *= one.period / (2. * M_PI);
   recurrence.work = follower.work();

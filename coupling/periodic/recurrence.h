@@ -15,7 +15,8 @@ constexpr int least_section = 64; ///< periods: fewer tell too little
 struct Recurrence
 {
   /// "periodic": repeats after one period of the excitation; "sub-harmonic": after several; "settling": not yet, but
-  /// comes ever nearer to it; "quasi-periodic": never, and neighbours keep their distance; "chaotic": they part.
+  /// comes ever nearer to it; "drifting": it lies ever farther away, as nothing holds it; "quasi-periodic": never, and
+  /// neighbours keep their distance; "chaotic": they part.
   std::string     kind;
   int             repeats  = 0;  ///< periods after which it does, or soon will; 0: none up to 16
   double          exponent = 0.; ///< largest Lyapunov exponent [1/s], that of the shift in time left out
@@ -34,12 +35,15 @@ struct Recurrence
  *     exponent = 1/(K T) sum_k ln |S Phi_k d_k|,     d_(k+1) = Phi_k d_k / |S Phi_k d_k|,     S = diag(2 pi/T, 1),
  *
  * Phi_k the monodromy matrix of period k.  Where T is unknown, the section is that of the coordinate `phase`, and
- * Phi_k the derivative of its return.  Its error is that of the mean of 16 batches of periods: neighbouring terms are
- * correlated, batches hardly.  With four errors as doubt (15 degrees of freedom: one in a thousand),
+ * Phi_k the derivative of its return.  Its error is that of the mean of 16 batches of periods (neighbouring terms are
+ * correlated, batches hardly), or half of what both halves differ by: where neighbours part as a power of time, as in a
+ * free fall, the mean falls as ln K / K and is not its limit.  With four errors as doubt (15 degrees of freedom: one in
+ * a thousand),
  *
  *     exponent above zero                       chaotic
  *     section repeats to 1e-4 of the speed      periodic, sub-harmonic
  *     exponent below zero, or the motion comes ever nearer to itself some periods before     settling
+ *     its first half takes less than two thirds of the room of all, and the last lies elsewhere     drifting
  *     else                                      quasi-periodic
  *
  * @param problem  a `ratio` above 1 is not looked at: the section is taken by the period of the excitation

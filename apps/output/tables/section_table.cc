@@ -16,6 +16,8 @@ std::string kind_text(const coupling::Recurrence &motion)
     return "sub-harmonic: it repeats after " + std::to_string(motion.repeats) + " periods of the excitation";
   if (motion.kind == "quasi-periodic")
     return "quasi-periodic: it beats and never repeats, neighbouring motions keep their distance";
+  if (motion.kind == "drifting")
+    return "drifting: it lies ever farther away over these periods, as a motion that nothing holds";
   if (motion.kind == "chaotic")
     return "chaotic: it never repeats, neighbouring motions part";
   return "still settling: it comes ever nearer to a motion that repeats" +

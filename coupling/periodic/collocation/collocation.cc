@@ -349,6 +349,8 @@ VectorXd PeriodicCollocation::unknowns(const VectorXd &forces, const VectorXd &q
 
 VectorXd PeriodicCollocation::errors(const VectorXd &P)
 {
+  if (n_u_ == 0) // the base system alone, which steps carry exactly
+    return VectorXd::Zero(n_intervals());
   problem_.system->events().follow_history(false);
   const LocalForces &forces = problem_.system->forces();
   const Index        width  = Index(stages) * n_u_;

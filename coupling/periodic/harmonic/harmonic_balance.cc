@@ -44,6 +44,15 @@ void HarmonicBalance::set_harmonics(int harmonics, int samples)
   formed_    = 0.;
 }
 
+void HarmonicBalance::require_load() const
+{
+  if (const int load = largest_load(); load > harmonics_)
+    throw std::invalid_argument("harmonic balance: " + std::to_string(harmonics_) +
+                                " harmonics would leave out a load of harmonic " + std::to_string(load) +
+                                " of the period; ask for at least " + std::to_string(load) +
+                                " harmonics, or leave their number out");
+}
+
 void HarmonicBalance::set_period(double period)
 {
   period_ = period;
@@ -287,7 +296,7 @@ VectorXd HarmonicBalance::scales(const VectorXd &z) const
   VectorXd scale       = VectorXd::Constant(size_, largest);
   for (int c = 0; c <= 2 * harmonics_; ++c)
     scale.segment(n_u_ * c, n_u_) = amplitude;
-  for (int k = 0; k < n_free_; ++k)
+  for (int k = 0; n_u_ > 0 && k < n_free_; ++k)
     if (const double reach = base_.free_columns().col(k).cwiseAbs().maxCoeff(); reach > 0.)
       scale[first_free() + k] = largest / reach;
   return scale;

@@ -40,6 +40,9 @@ public:
   int  samples() const { return forces_->samples(); }
   int  largest_load() const { return base_.largest_load(); } ///< highest harmonic of the load
 
+  /// @throws std::invalid_argument for loads above H, which the motion would lack
+  void require_load() const;
+
   /// Another number of harmonics; the modes of the base stay.
   void set_harmonics(int harmonics, int samples = 0);
 

@@ -261,6 +261,7 @@ public:
   {
     if (options.harmonics == 0 && balance_.largest_load() > first_harmonics)
       balance_.set_harmonics(balance_.largest_load());
+    balance_.require_load();
   }
 
   void             begin(const PeriodicGuess &guess);

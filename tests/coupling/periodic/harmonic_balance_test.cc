@@ -351,6 +351,13 @@ TEST(HarmonicBalance, RefusesWhatItCannotBalance)
   expect_refusal([&] { HarmonicBalance(problem_of_period(undamped, 4. * M_PI), 5).linear_start(); },
                  "stands at harmonic 2");
 
+  PeriodicOptions few;
+  few.harmonics    = 3;
+  CubicSystem fast = duffing_system(duffing_cases.at("duffing1"));
+  fast.loads().add_harmonic(0, 5. * 1.4, 1., 0.);
+  expect_refusal([&] { harmonic_balance_method().solve(problem_of_period(fast, 2. * M_PI / 1.4), {}, few); },
+                 "3 harmonics would leave out a load of harmonic 5");
+
   CubicSystem other = duffing_system(duffing_cases.at("duffing1"));
   other.set_load([](double t) { return VectorXd::Constant(1, t); });
   EXPECT_THAT(harmonic_balance_method().refuses(problem_of_period(other, 1.)), testing::HasSubstr("sum of harmonics"));

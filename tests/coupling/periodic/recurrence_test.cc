@@ -73,6 +73,24 @@ TEST(Recurrence, OfUedasOscillatorIsChaos)
   EXPECT_LT(motion.error, 0.02);
 }
 
+/// Without a spring and pushed, x = F t^2/2: neighbours part as t, and the mean of logarithms falls only as ln K / K.
+TEST(Recurrence, OfAFreeMotionIsNoChaos)
+{
+  const MatrixXd one = MatrixXd::Identity(1, 1), zero = MatrixXd::Zero(1, 1);
+  for (const int periods : {64, 256, 1000})
+  {
+    CubicSystem falls(one, zero, zero, {});
+    falls.loads().add_constant(0, -9.81);
+    const Recurrence falling = followed(falls, 2. * M_PI / 0.2, 0., 0., periods);
+    EXPECT_EQ(falling.kind, "drifting") << periods;
+    EXPECT_LT(falling.exponent, 4. * falling.error) << periods;
+    CubicSystem      rests(one, zero, zero, {});
+    const Recurrence resting = followed(rests, 2. * M_PI / 0.2, 0., 0., periods);
+    EXPECT_EQ(resting.kind, "periodic") << periods;
+    EXPECT_LT(resting.exponent, 4. * resting.error) << periods;
+  }
+}
+
 /// Between its Neimark-Sacker points, 1.1127 and 1.1957, two masses beat; beside them they repeat.
 TEST(Recurrence, OfTwoMassesBetweenNeimarkSackerPointsIsQuasiPeriodic)
 {
