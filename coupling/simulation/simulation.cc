@@ -12,6 +12,7 @@
 #include "coupling/simulation/checks/hydraulic_limits.h"
 #include "coupling/simulation/checks/momentary_modes.h"
 #include "coupling/simulation/checks/stiffness_check.h"
+#include "coupling/simulation/checks/unseen_forces.h"
 #include "coupling/simulation/crawl_watch.h"
 #include "coupling/simulation/no_tiny_numbers.h"
 #include "coupling/simulation/recorder.h"
@@ -44,16 +45,6 @@ template <typename... Parts>
   std::ostringstream message;
   (message << ... << parts);
   throw std::invalid_argument(message.str());
-}
-
-void check_load_period(const Machine &machine, const RunOptions &options)
-{
-  const double omega = fastest_load(machine.linear().excitation()), h = options.method.step;
-  if (!(omega > 0.) || h * omega < 2. * M_PI)
-    return;
-  const double period = 2. * M_PI / omega;
-  refuse("run.step is ", h, " s, longer than a period of the load of ", 1. / period, " Hz, ", period,
-         " s, so that it would be missed; take at most a twentieth of it, ", period / 20., " s");
 }
 
 /// Of what a run keeps.
@@ -207,7 +198,7 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
     refuse("run.end is ", options.end, " s; it must lie after the start at ", options.begin, " s");
   if (!controlled(options.method) && !((options.end - options.begin) / options.method.step <= most_steps))
     refuse("run.step is ", options.method.step, " s; that makes more than 1e10 steps; take a longer one");
-  check_load_period(machine, options);
+  require_steps_for_loads(machine, options.method);
   check_size(machine, options, n_signals);
 }
 
@@ -389,7 +380,9 @@ void Run::finish(const InitialState &initial)
   for (std::string warning : {fast_forces_->warning(), momentary_->warning()})
     if (!warning.empty())
       warnings.push_back(std::move(warning));
-  add(tilting_rotors(machine_, v.norm() > initial.v.norm() ? v : initial.v), warnings);
+  const Eigen::VectorXd &fastest = v.norm() > initial.v.norm() ? v : initial.v;
+  add(tilting_rotors(machine_, fastest), warnings);
+  add(unseen_forces(machine_, method_, options_.begin, integrator_->local(), fastest), warnings);
   add(warnings, result_.warnings);
 }
 
