@@ -91,7 +91,9 @@ const std::vector<Key> &reduction_keys()
           .by_default(ReductionRequest().options.tolerance),
       key::plain(
           "modes", Key::Form::whole,
-          "fixed number of modes instead; a `tolerance` beside it is not used. Of `\"free-interface\"` without it: "
+          "fixed number of modes instead; a `tolerance` beside it says how far they hold where no `frequency` is "
+          "given. Of "
+          "`\"free-interface\"` without it: "
           "all up to 1.5 times `frequency`, or the twelfth elastic one. A note gives the error up to "
           "`frequency`, or that the modes kept end below it. Of `\"modal\"` without it: all up to four times the "
           "highest "

@@ -8,6 +8,9 @@
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace gestell::coupling
@@ -28,11 +31,44 @@ void warn_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
   space.notes.push_back(
       "reduction: " +
       (m == 0 ? std::string("no fixed-interface modes are kept")
-              : "the highest of the " + std::to_string(m) + " fixed-interface modes kept has " + rounded(highest) +
-                    " Hz") +
+              : (m == 1 ? "the only fixed-interface mode kept has "
+                        : "the highest of the " + std::to_string(m) + " fixed-interface modes kept has ") +
+                    rounded(highest) + " Hz") +
       ", but frequency = " + rounded(options.frequency) +
       " Hz: near and above the highest the model does not hold, and its error there is not known; ask for "
       "more modes, or leave modes out, so that the tolerance chooses their number");
+}
+
+/// [rad/s] up to which a number of modes that was given keeps all frequencies within the tolerance; half of the first
+/// where it keeps none.  What it says is a warning then, a statement else.
+double limit_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
+{
+  const int    m        = space.basis.m();
+  const double interest = highest_of_interest(options, space.refined);
+  if (options.frequency > 0.)
+    return interest;
+  const double known = m == 0 || space.basis.T.cols() == space.basis.T.rows() ? INFINITY : space.basis.omega0(m - 1);
+  const Eigen::VectorXd &omega = space.refined.omega;
+  const Eigen::VectorXd  error = frequency_estimate(space.star, space.basis.n1(), m, space.refined).error;
+  Eigen::Index           j     = 0;
+  while (j < omega.size() && omega[j] <= interest && omega[j] < known && j + space.refined.n_rigid < error.size() &&
+         error[j + space.refined.n_rigid] <= options.tolerance)
+    ++j;
+  if (j == omega.size() || omega[j] > interest)
+    return interest;
+  const double limit = j > 0 ? omega[j - 1] : 0.5 * std::min(omega[0], known);
+  const bool   off   = omega[j] < known && j + space.refined.n_rigid < error.size();
+  (j > 0 ? space.statements : space.notes)
+      .push_back("reduction: " + std::to_string(m) +
+                 (m == 1 ? " fixed-interface mode keeps " : " fixed-interface modes keep ") +
+                 (j > 0 ? "frequencies up to " + rounded(limit / two_pi) + " Hz" : "no frequency") + " within " +
+                 percent(options.tolerance) + (j > 0 ? "; the next, " : "; the first, ") + rounded(omega[j] / two_pi) +
+                 " Hz, " +
+                 (off ? "is " + percent(error[j + space.refined.n_rigid]) + " too high"
+                      : "lies above the highest mode kept, where some may be missing") +
+                 (m == 0 ? ", and modes of the inside alone are not looked for" : "") +
+                 ": ask for more modes, or for a frequency in place of their number");
+  return limit;
 }
 
 /// The error of a number of modes that was given, where the modes reach beyond the frequency of interest.
@@ -84,6 +120,7 @@ ReductionSpace counted(FixedInterfaceModes &fixed, InterfaceStatics &statics, co
   space.refined = refined_modes(space.basis, space.star, statics.response, frame);
   state_receptance(space, statics, frame, options);
   warn_of_few_modes(space, options);
+  space.limit = limit_of_few_modes(space, options);
   return space;
 }
 
@@ -104,7 +141,8 @@ ReductionSpace CraigBampton::basis(const fem::FrameMatrices &frame, const Reduct
     }
     if (!fixed.statement().empty())
       space.statements.push_back(fixed.statement());
-    space.limit = highest_of_interest(options, space.refined);
+    if (options.n_modes < 0)
+      space.limit = highest_of_interest(options, space.refined);
     return space;
   }
   throw ConvergenceFailure(

@@ -1,6 +1,7 @@
 #include "coupling/reduction/reduce_frame.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "fem/values/two_pi.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
 
@@ -153,6 +154,36 @@ TEST(CraigBampton, ReceptancesAreReciprocal)
   const auto reduced = reduce_frame(frame_of(Lattice()), with_modes(10));
   const auto H       = receptance(reduced.M, reduced.B, reduced.C, 300., first(reduced.n_interface));
   EXPECT_LT((H - H.transpose()).norm(), 1e-10 * H.norm());
+}
+
+/// However many modes are asked for: up to the limit no frequency is wrong by more than the tolerance (a tenth of it
+/// for the estimate), and none is missing.
+TEST(CraigBampton, OfANumberOfModesHoldsUpToItsLimit)
+{
+  for (const double foundation : {3e6, 3e5})
+  {
+    Lattice lattice;
+    lattice.foundation    = foundation;
+    const auto     frame  = frame_of(lattice);
+    const VectorXd exact  = full_frequencies(frame) / two_pi;
+    double         before = 0.;
+    for (const int n_modes : {0, 1, 2, 3, 5, 8, 13, 21})
+    {
+      SCOPED_TRACE(n_modes);
+      ReductionOptions options;
+      options.n_modes            = n_modes;
+      const ReducedFrame reduced = reduce_frame(frame, options);
+      const double       limit   = reduced.frequency_limit_hz;
+      EXPECT_GT(limit, 0.);
+      for (int j = 0; j < exact.size() && exact(j) <= limit; ++j)
+      {
+        ASSERT_LT(j, reduced.frequencies_hz.size());
+        EXPECT_LE(reduced.frequencies_hz(j), (1. + 1.1 * options.tolerance) * exact(j)) << j;
+      }
+      EXPECT_GE(limit, before * (1. - 1e-3)) << "more modes hold no less";
+      before = limit;
+    }
+  }
 }
 
 } // namespace
