@@ -136,8 +136,11 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
 int run_scene(const CommonOptions &options, const RunAsked &asked)
 {
   ProgressLine progress(options.quiet);
-  const auto   told = nothing_to_save_before("integration", progress.callback());
-  Session      session(options.input, options.overrides, options.scripts, {told, &interruption()});
+  if (!(asked.checkpoint >= 0.) || !std::isfinite(asked.checkpoint))
+    throw std::invalid_argument("--checkpoint: needs a plain number of seconds, zero or above, got " +
+                                std::to_string(asked.checkpoint));
+  const auto told = nothing_to_save_before("integration", progress.callback());
+  Session    session(options.input, options.overrides, options.scripts, {told, &interruption()});
   session.check_run();
   std::vector<OutputName> outputs;
   if (asked.budget)

@@ -2,6 +2,7 @@
 
 #include "apps/session/commit.h"
 #include "apps/version.h"
+#include "fem/values/named_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -23,10 +24,11 @@ CLI::Validator existing()
       [](const std::string &path)
       {
         std::error_code error;
-        return std::filesystem::is_regular_file(path, error) ? std::string()
-                                                             : "there is no file " + path +
-                                                                   "; relative paths start at the "
-                                                                   "working directory";
+        if (std::filesystem::is_regular_file(path, error))
+          return std::string();
+        const std::string other = fem::other_than_file(path);
+        return other.empty() ? "there is no file " + path + "; relative paths start at the working directory"
+                             : path + " is " + other + "; a file is needed";
       },
       "FILE");
 }

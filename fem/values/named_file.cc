@@ -15,6 +15,24 @@ std::string why_unreachable(const fs::path &name)
              : "cannot be reached (" + error.message() + "); give another name, or see to it";
 }
 
+std::string other_than_file(const fs::path &name)
+{
+  std::error_code none;
+  switch (fs::status(name, none).type())
+  {
+  case fs::file_type::directory:
+    return "a folder";
+  case fs::file_type::block:
+  case fs::file_type::character:
+    return "a device";
+  case fs::file_type::fifo:
+  case fs::file_type::socket:
+    return "a pipe";
+  default:
+    return "";
+  }
+}
+
 bool names_something(const fs::path &name)
 {
   if (const std::string reason = why_unreachable(name); !reason.empty())

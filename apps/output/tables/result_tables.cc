@@ -162,8 +162,13 @@ Json accuracy_json(const coupling::ModeAccuracy &mode)
           {"unstable", mode.unstable}};
 }
 
-Json energy_json(const coupling::EnergySummary &energy)
+/// Null where no balance was kept.
+Json energy_json(const coupling::RunResult &run)
 {
+  const coupling::EnergySummary &energy     = run.energy;
+  const bool                     has_column = std::count(run.columns.begin(), run.columns.end(), "energy input") > 0;
+  if (!has_column && !(energy.exchanged > 0.) && !(energy.residual > 0.))
+    return nullptr;
   return {{"input", energy.input},
           {"stored", energy.stored},
           {"dissipated", energy.dissipated},
@@ -377,7 +382,7 @@ std::string summary_json(const Result &result)
   json["wall_s"]   = Json::object();
   for (const auto &[phase, seconds] : result.wall_s)
     json["wall_s"][phase] = seconds;
-  json["energy"]   = energy_json(run.energy);
+  json["energy"]   = energy_json(run);
   json["warnings"] = all_warnings(result);
   return json_text(json);
 }

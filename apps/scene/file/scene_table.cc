@@ -403,8 +403,8 @@ std::string SceneTable::file(const std::string &key) const
     throw error(key, "the file \"" + given + "\" " + reason);
   if (!std::filesystem::exists(path))
     throw error(key, "there is no file \"" + given + "\" (" + path.string() + "); relative paths start at " + folder);
-  if (std::filesystem::is_directory(path))
-    throw error(key, "\"" + given + "\" is a folder; a file is needed");
+  if (const std::string other = fem::other_than_file(path); !other.empty())
+    throw error(key, "\"" + given + "\" is " + other + "; a file is needed");
   return path.string();
 }
 

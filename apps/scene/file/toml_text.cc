@@ -47,7 +47,8 @@ std::string line_of(const std::string &text, std::size_t number)
   return line;
 }
 
-constexpr int deepest = 50; ///< tables and arrays in each other; parsers take some of the stack for each
+constexpr std::size_t largest_text = 64000000; ///< bytes
+constexpr int         deepest      = 50; ///< tables and arrays in each other; parsers take some of the stack for each
 
 /// Past a string that begins at i: to its closing quotes, or the end of the text.
 std::size_t behind_string(const std::string &text, std::size_t i)
@@ -239,16 +240,21 @@ SceneNode parse_toml_file(const std::string &path)
   const auto fail = [&](const std::string &what) { throw std::invalid_argument(path + ": " + what); };
   if (!fem::names_something(path))
     fail("there is no such scene file; give the path of a .toml file");
-  if (std::filesystem::is_directory(path))
-    fail("is a folder; give the path of a .toml file");
+  if (const std::string other = fem::other_than_file(path); !other.empty() && other != "a pipe") // of a shell
+    fail("is " + other + "; give the path of a .toml file");
   std::ifstream in(path, std::ios::binary);
   if (!in)
     fail("cannot be read; check its permissions");
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (const auto [line, hint] = hint_of_bytes(text.str()); !hint.empty())
+  std::string text, part(1 << 16, '\0'); // of a pipe no length is known
+  while (text.size() <= largest_text && in.read(part.data(), std::streamsize(part.size())).gcount() > 0)
+    text.append(part, 0, std::size_t(in.gcount()));
+  if (in.bad())
+    fail("cannot be read");
+  if (text.size() > largest_text)
+    fail("has more than " + std::to_string(largest_text / 1000000) + " MB; is it a scene?");
+  if (const auto [line, hint] = hint_of_bytes(text); !hint.empty())
     throw std::invalid_argument(Place{path, line}.text() + ": " + hint);
-  return parse_toml_text(text.str(), path, std::filesystem::absolute(path).parent_path().lexically_normal().string());
+  return parse_toml_text(text, path, std::filesystem::absolute(path).parent_path().lexically_normal().string());
 }
 
 std::optional<SceneNode> parse_toml_value(const std::string &text, const Place &place, const std::string &folder)
