@@ -93,6 +93,11 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   share_among_ranks(team_left(), call);
   require_writable(call.folder);
   OwnFolder(call.folder).require_free(study_names(), study_inputs(options, study));
+  if (OwnFolder(call.folder).owns("summary.json"))
+    throw std::invalid_argument(
+        "result folder " + call.folder.string() +
+        ": it holds results of another command, whose report would be replaced; name another folder "
+        "with -o DIR, or remove its summary.json.");
   const StudyLock lock(call.folder, call.share);
   if (!lock.note().empty() && speaks)
     std::cerr << "gestell: warning: " << lock.note() << '\n';

@@ -42,6 +42,13 @@ void require_folder(const fs::path &folder)
                      failure.message() + ")");
 }
 
+/// A study's report would be replaced by that of a run.
+void require_no_study(const fs::path &folder)
+{
+  if (OwnFolder(folder).owns("study.json"))
+    refuse(folder, "it holds a study, whose report would be replaced");
+}
+
 constexpr int     most_looks = 1000;           ///< while others make and remove the place
 const char *const complete   = "summary.json"; ///< the first to be removed and the last to be written
 
@@ -119,6 +126,7 @@ void require_room(const fs::path &folder, const std::vector<std::string> &more, 
   std::vector<std::string> names = result_names();
   names.insert(names.end(), more.begin(), more.end());
   OwnFolder(folder).require_free(names, inputs);
+  require_no_study(folder);
 }
 
 void prepare_folder(const fs::path &folder, const std::vector<fs::path> &inputs)
@@ -126,6 +134,7 @@ void prepare_folder(const fs::path &folder, const std::vector<fs::path> &inputs)
   require_folder(folder);
   if (const std::error_code failure = probe(folder); failure && !is_full(failure))
     refuse_unwritable(folder, failure);
+  require_no_study(folder);
   OwnFolder own(folder);
   own.require_free(result_names(), inputs);
   std::error_code error;

@@ -1,5 +1,6 @@
 #include "apps/study/runs/study_folder.h"
 
+#include "apps/output/folder/own_folder.h"
 #include "apps/output/text/write_file.h"
 #include "fem/values/number_text.h"
 
@@ -120,6 +121,14 @@ void StudyFolder::refuse_changes() const
                               "\n  undo the change, or give another folder with -o");
 }
 
+/// In the list of what is ours, before the files appear.
+void StudyFolder::enter_own(const std::string &rows) const
+{
+  OwnFolder own(folder_);
+  own.adopt("study.json");
+  own.adopt(rows);
+}
+
 std::vector<RunRow> StudyFolder::begun_anew()
 {
   const auto        before = read_record(folder_ / "study.json");
@@ -129,6 +138,7 @@ std::vector<RunRow> StudyFolder::begun_anew()
                                 std::to_string(before->n_runs) +
                                 " rows of this study; go on with --resume, or remove runs.csv to begin anew");
   fs::create_directories(folder_);
+  enter_own("runs.csv");
   fs::remove(folder_ / "runs.csv");
   write_record(folder_ / "study.json", record_);
   return {};
@@ -159,11 +169,12 @@ std::vector<RunRow> StudyFolder::open(Begin begin, const StudyShare &share)
   if (begin == Begin::anew && !share.is_whole() && n_lines(rows_file(share)) > 0)
     throw std::invalid_argument(rows_file(share).string() + ": holds rows of this share already; go on with --resume, "
                                                             "or remove it");
+  std::vector<RunRow> known = rows();
   fs::create_directories(folder_);
+  enter_own(name_of(share));
   if (const auto before = read_record(folder_ / "study.json"); before && differences(*before, record_).empty())
     record_.units = before->units;
   write_record(folder_ / "study.json", record_);
-  std::vector<RunRow> known = rows();
   if (share.is_whole() && shares)
     merge(known);
   return known;

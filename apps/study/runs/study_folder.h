@@ -66,6 +66,7 @@ public:
 
 private:
   std::vector<RunRow>                begun_anew();
+  void                               enter_own(const std::string &rows) const;
   bool                               begins_anew(Begin begin, const StudyShare &share) const;
   std::vector<std::filesystem::path> share_files() const;
   void                               refuse_other_study() const;
