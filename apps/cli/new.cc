@@ -72,8 +72,10 @@ int make_new(const NewOptions &options)
   }
   catch (const coupling::WriteFailure &failure)
   {
+    std::error_code none;
+    std::filesystem::remove(frame, none); // was free: what stands there is ours
     throw std::invalid_argument(std::string(failure.what()) +
-                                "; give a file in a folder that can be written: gestell new " + chosen.kind +
+                                "; give a file where there is room and leave to write: gestell new " + chosen.kind +
                                 " FOLDER/" + scene.filename().string());
   }
   std::cout << "written: " << scene.string() << ", and its frame " << frame.string() << "\nnext:    gestell check "

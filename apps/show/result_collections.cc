@@ -128,7 +128,8 @@ std::vector<PictureFrame> read_collection(const fs::path &pvd)
     frames[time][part] = file_in(pvd, set);
   }
   if (frames.empty())
-    refuse(pvd, "names no data set");
+    refuse(pvd, "names no data set, as no body of the scene can be drawn; give bodies a 'size' or a 'radius' and run "
+                "the scene again");
   std::vector<PictureFrame> list;
   for (const auto &[time, parts] : frames)
   {

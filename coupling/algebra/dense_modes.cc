@@ -158,7 +158,8 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled, s
   if (C.rows() == 0)
     return {};
   if (!C.allFinite() || !M.allFinite())
-    throw std::invalid_argument("dense_modes: a mass or a stiffness is not finite; check units of very large numbers");
+    throw std::invalid_argument(
+        "modes: a mass, a stiffness or a sum of them is not finite; check the units of very large numbers");
   bool            floating  = false;
   const double    lowest    = lowest_quotient(C, M, cancelled, floating);
   const Stiffness stiffness = stiffness_of(C);

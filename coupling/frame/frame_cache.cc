@@ -76,7 +76,12 @@ constexpr fs::perms written_by_others = fs::perms::group_write | fs::perms::othe
 /// A folder that is there stays as it is, if others cannot change what is put there.
 void make_own_folder(const fs::path &folder)
 {
-  if (fs::create_directories(folder))
+  std::error_code error;
+  const bool      made = fs::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(folder.string() + " cannot be made (" + error.message() +
+                             "); name another folder with GESTELL_CACHE");
+  if (made)
     fs::permissions(folder, written_by_others, fs::perm_options::remove);
   if (const std::string reason = foreign(folder.string()); !reason.empty())
     throw std::runtime_error(folder.string() + " " + reason + "; name a folder of your own with GESTELL_CACHE");

@@ -122,7 +122,7 @@ TEST(PaintingOrder, LeavesTheNearestOnTopHoweverLargeTheTrianglesAre)
   {
     const Drawing            drawing = drawing_of(boxes, from);
     const View               view(drawing.points, 300., from);
-    const std::vector<Facet> painted = DepthRaster(drawing.facets, view).visible(drawing.facets);
+    const std::vector<Facet> painted  = DepthRaster(drawing.facets, view).visible(drawing.facets);
     int                      n_hiding = 0;
     EXPECT_EQ(n_wrong(painted, view, &n_hiding), 0) << from.towards.transpose();
     EXPECT_GT(n_hiding, 100);

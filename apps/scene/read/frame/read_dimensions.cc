@@ -9,6 +9,7 @@
 
 #include <cctype>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -140,8 +141,8 @@ std::string with_dimensions(const SceneTable &frame, const std::string &cad, dou
   std::string script = text.str();
   for (const char *word : {"Include ", "Merge ", "ShapeFromFile"})
     if (script.find(word) != std::string::npos)
-      throw frame.error("dimensions",
-                        path.filename().string() + " reads other files (" + word + "); write them into the script");
+      throw frame.error("dimensions", path.filename().string() + " reads other files (" +
+                                          std::string(word, std::strcspn(word, " ")) + "); write them into the script");
   for (const std::string &name : dimensions->keys())
     write_in(script, *dimensions, name, in_script(*dimensions, name, unit));
   return kept(script, path.stem().string());
