@@ -39,7 +39,7 @@ TEST(Dimensions, AreRefusedWhereTheScriptHasNone)
   expect_refusal([] { script_with("{ plate = '70 kg' }"); },
                  "needs a length such as \"70 mm\" or a plain number, got one in kg");
   expect_refusal([] { script_with("{ plate = 1 }", "Include \"other.geo\";\nplate = 2;\n"); },
-                 "reads other files (Include )");
+                 "reads other files (Include)");
 }
 
 } // namespace
