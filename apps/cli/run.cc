@@ -20,6 +20,7 @@
 #include "fem/values/shell_word.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>

@@ -24,13 +24,13 @@ void require_steps_for_loads(const Machine &machine, const MethodOptions &method
  *
  *     D(t) = |p(t) - linear between the ends of the step|,     R = max p - min p,     at the motion of the end,
  *
- * over up to 5000 steps, each at three instants.  A force is told if D > R/40 in a quarter of them (a harmonic one has
- * less than ten steps a period then), or if its values at the ends of steps span less than half of R; a rotor, if it
- * turns by more than a tenth of a turn in a step and a force changes with its angle alone.  Laws follow the motion, not
- * their history, afterwards.
+ * over up to 5000 steps, each at three instants.  There is a warning for a force with D > R/40 in a quarter of
+ * these steps (a harmonic force then has fewer than ten steps in a period) or whose values at the ends of steps span
+ * less than half of R, and for a rotor that turns by more than a tenth of a turn in a step while a force depends on its
+ * angle.  Laws follow the motion, not their history, afterwards.
  *
  * @param last  the motion at the end of the run; v velocities [n], of which those of rotors count
- * @return a text for each; none with controlled steps
+ * @return one warning for each; none with controlled steps
  */
 std::vector<std::string> unseen_forces(Machine &machine, const MethodOptions &method, double begin,
                                        const LocalState &last, const Eigen::VectorXd &v);

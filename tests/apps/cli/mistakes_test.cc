@@ -215,6 +215,8 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
   expect_answer(run("--set run.stp=1e-5"), 2, {"--set run.stp=1e-5", "did you mean 'step'"});
   expect_answer(run("--set run.step"), 2, {"needs the form key.path=value"});
   expect_answer(run("--jobs 0"), 2, {"gestell: run: --jobs", "above zero, got 0"});
+  expect_answer(run("--checkpoint nan"), 2, {"--checkpoint", "zero or above, got nan"});
+  expect_answer(run("--checkpoint -5"), 2, {"--checkpoint", "zero or above, got -5"});
   expect_answer(run("--fast"), 2, {"there is no option --fast"});
   expect_answer(run("--resume"), 2, {"checkpoint.bin", "is not there", "without --resume"});
   expect_answer(run("--resume --sensitivities all"), 2, {"--resume", "leave out one of the two"});
@@ -245,6 +247,23 @@ TEST(NameThatCannotBeReached, IsAnsweredWithItsPlaceAndTheReasonWhereverItStands
     expect_answer(gestell("new crane " + name + "/x.toml"), 2, {name, reason});
   }
   expect_answer(gestell("run " + press + " -o ''"), 2, {"--output", "is empty; give it a value"});
+}
+
+// They have no end, and some of them no begin.
+TEST(DeviceInPlaceOfAFile, IsRefusedByEveryDoor)
+{
+  const Folder folder("mistake");
+  for (const std::string command : {"check", "run", "study"})
+    for (const char *device : {"/dev/zero", "/dev/null"})
+      expect_answer(gestell(command + " " + device), 2, {device, "is a device"});
+  expect_answer(gestell("run " + scene("press_minimal.toml") + folder.option() + "--compare /dev/zero"), 2,
+                {"--compare", "/dev/zero is a device"});
+  const auto check = [&](const std::string &text) { return gestell("check " + folder.file("scene.toml", text)); };
+  expect_answer(check("extends = \"/dev/zero\"\n"), 2, {"/dev/zero", "is a device"});
+  expect_answer(check("[frame]\nmass = \"/dev/zero\"\nstiffness = \"/dev/zero\"\n"), 2,
+                {"scene.toml:2: frame.mass", "is a device"});
+  expect_answer(shell("(yes '# a line' | '" GESTELL_BINARY_DIR "/bin/gestell' check /dev/stdin 2>&1)"), 2,
+                {"more than 64 MB"});
 }
 
 // Memory and time grow with them: judged before anything is computed.

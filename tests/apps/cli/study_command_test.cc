@@ -52,6 +52,25 @@ TEST(StudyCommand, HasNoFailedRowOfRunsThatEndedWithIt)
   EXPECT_EQ(count(read(folder.results() / "runs.csv"), ",done,"), 40);
 }
 
+// Each would replace the report of the other.
+TEST(StudyCommand, SharesNoFolderWithARun)
+{
+  const Folder      run("study_beside_run"), own("study_before_run");
+  const std::string scene_of_run = scene("press_minimal.toml") + " --set run.end=0.001 --set run.energy=false";
+  ASSERT_EQ(gestell("run " + scene_of_run + run.option()).exit_code, 0);
+  EXPECT_NE(read(run.results() / "summary.json").find("\"energy\": null"), std::string::npos); // no perfect balance
+  const std::string report = read(run.results() / "report.html");
+  const std::string study  = "study " + own.file("s.toml", text) + " --set design.runs=4 ";
+  expect_answer(gestell(study + run.option()), 2, {"holds results of another command", "-o DIR"});
+  EXPECT_EQ(read(run.results() / "report.html"), report);
+
+  ASSERT_EQ(gestell(study + own.option() + "--share 1/2").exit_code, 0);
+  const std::string list = read(own.results() / ".gestell-files");
+  EXPECT_NE(list.find("study.json\n"), std::string::npos) << list;
+  EXPECT_NE(list.find("runs_share_1_of_2.csv\n"), std::string::npos) << list;
+  expect_answer(gestell("run " + scene_of_run + own.option()), 2, {"it holds a study", "-o DIR"});
+}
+
 TEST(StudyCommand, IsNotBegunTwiceInOneFolderAtOnce)
 {
   const Folder      folder("study_twice");

@@ -1,4 +1,5 @@
-// What happens between the ends of fixed steps is not seen: it is told, and what steps follow is not.
+// Fixed steps do not see what happens between their ends: a warning says so where forces change too fast, and only
+// there.
 
 #include "apps/session/session.h"
 #include "tests/support/refusal.h"
