@@ -18,7 +18,7 @@ macro(gestell_embed name file)
 endmacro()
 
 set(nothing "${PROJECT_BINARY_DIR}/generated/apps/nothing.js")
-file(WRITE "${nothing}" "")
+file(CONFIGURE OUTPUT "${nothing}" CONTENT "") # renewed by no second configuration
 set(GESTELL_DYGRAPHS_VERSION "")
 set(GESTELL_THREE_VERSION "")
 set(absent "")
