@@ -190,6 +190,14 @@ struct LinearPlace
   }
 };
 
+/// A rotation without that of one coordinate: of a rotor what its carrier turns it across its axis.
+std::array<Measure, 3> without(std::array<Measure, 3> rotation, int coordinate)
+{
+  for (Measure &u : rotation)
+    u.erase(std::remove_if(u.begin(), u.end(), [&](const auto &term) { return term.first == coordinate; }), u.end());
+  return rotation;
+}
+
 /// On a body that has its place by its own coordinates alone.
 PlacedPoint place_on(const Body &body, const Vector3 &at)
 {
@@ -235,13 +243,13 @@ PlacedPoint MachineModel::place(const std::string &name, const Vector3 &at) cons
   const bool     slides           = on && on->kind == BodyKind::slider;
   const auto     own_motion_alone = [&](const Measure &u)
   { return std::all_of(u.begin(), u.end(), [&](const auto &term) { return term.first == on->coordinate; }); };
-  refuse_far_turning(name, turns ? across(own.rotation, on->axis) : own.rotation);
+  const auto rotation = turns ? without(own.rotation, on->coordinate) : own.rotation;
+  refuse_far_turning(name, rotation);
   if (slides && std::all_of(own.translation.begin(), own.translation.end(), own_motion_alone))
     linear.add({{on->coordinate, 1.}}, vector(on->axis), zero); // guided by the ground
   else
     for (int d = 0; d < 3; ++d)
       linear.add(own.translation[d], Vector3d::Unit(d), zero);
-  const auto rotation = turns ? across(own.rotation, on->axis) : own.rotation;
   for (int d = 0; d < 3; ++d)
     linear.add(rotation[d], zero, Vector3d::Unit(d));
   PlacedPoint placed;

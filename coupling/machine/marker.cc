@@ -1,6 +1,8 @@
 #include "coupling/machine/marker.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -9,11 +11,23 @@ namespace gestell::coupling
 
 namespace
 {
+/// Of the larger of two terms: what rounding leaves of them where they cancel.  Each is a product of components of unit
+/// vectors, 2 epsilon wrong each, or a sum of three such.
+constexpr double rounding = 16. * std::numeric_limits<double>::epsilon();
+
+/// Weights that cancel leave nothing: along the axis of a rotor in a tilted plane, a_d - a_d (a.a) is 1e-17, and a
+/// joint across its plane would take that for a motion.
 Measure combine(const Measure &a, const Measure &b, double sign)
 {
   std::map<int, double> sum(a.begin(), a.end());
   for (const auto &[coordinate, weight] : b)
-    sum[coordinate] += sign * weight;
+  {
+    double      &own   = sum[coordinate];
+    const double terms = std::max(std::abs(own), std::abs(weight));
+    own += sign * weight;
+    if (std::abs(own) <= rounding * terms)
+      own = 0.;
+  }
   Measure result;
   for (const auto &term : sum)
     if (term.second != 0.)

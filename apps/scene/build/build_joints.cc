@@ -189,11 +189,12 @@ void add_joint(coupling::MachineModel &machine, const JointRequest &joint)
     return;
   }
   const Pair     pair(machine, joint.from, joint.to);
-  JointEquations equations(pair);
+  const bool     directed = joint.compliance && joint.compliance->directed;
+  JointEquations equations(pair, directed);
   demand(joint, pair, equations);
   if (equations.list.empty())
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
-  if (joint.compliance && joint.compliance->directed)
+  if (directed)
     equations.turn_with_first();
   Pair felt = pair;
   equations.leave_out_idle(felt);

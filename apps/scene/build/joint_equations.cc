@@ -23,9 +23,10 @@ using mechanism::RelativeMeasure;
 using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
 
-constexpr double immobile = 1e-12; ///< gradient of an equation that no motion of the two bodies changes
 constexpr double parallel = 1e-12; ///< 1 - cosine: rounding of unit vectors, enlarged by bodies of some hundred metres
 constexpr double closed   = 1e-10; ///< [m] by which the assembly of a machine leaves its joints open
+/// Sine of the angle between directions from which one is told across the other; less would enlarge rounding as much.
+constexpr double apart = 1e-3;
 
 std::string axis_name(const Vector3d &a, int number)
 {
@@ -45,11 +46,10 @@ bool are_parallel(const Vector3d &a, const Vector3d &b)
   return std::abs(a.dot(b)) > 1. - parallel;
 }
 
-/// Motion k of three of no order: what does not change in any of them does not change in any motion.
-void sample_motion(int k, int n, double *u)
+bool is_global(const Vector3d &axis)
 {
-  for (int i = 0; i < n; ++i)
-    u[i] = 0.5 * std::sin(1. + 7.3 * i + 2.1 * k);
+  const std::vector<Vector3d> all = global_axes();
+  return std::any_of(all.begin(), all.end(), [&](const Vector3d &a) { return are_parallel(a, axis); });
 }
 
 /// Unit vectors at right angles to the axis and to each other, at most so many, as near to `directions` as may be.
@@ -59,8 +59,8 @@ std::vector<Vector3d> across(const Vector3d &axis, const std::vector<Vector3d> &
   for (const Vector3d &a : directions)
   {
     Vector3d side = a - a.dot(axis) * axis;
-    if (side.norm() < 1e-9 || found.size() == at_most ||
-        (found.size() == 1 && side.cross(found[0]).norm() < 1e-9 * side.norm()))
+    if (side.norm() < apart || found.size() == at_most ||
+        (found.size() == 1 && side.cross(found[0]).norm() < apart * side.norm()))
       continue;
     side.normalize();
     if (!found.empty() && std::abs(side.dot(found[0])) > 1e-9)
@@ -100,92 +100,30 @@ RelativeMeasure seen_from_first(const Vector3d &a)
   return displacement;
 }
 
-// --- Pair
-
-Pair::Pair(const coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to)
-    : n_frame(machine.n_frame())
-{
-  const auto a = placed(machine, from), b = placed(machine, to);
-  first    = a.placement;
-  second   = b.placement;
-  measures = a.measures;
-  measures.insert(measures.end(), b.measures.begin(), b.measures.end());
-  for (const Body &body : machine.bodies())
-  {
-    if (body.name == from.marker)
-      on_first = &body;
-    if (body.name == to.marker)
-      on_second = &body;
-  }
-}
-
-const Body *Pair::planar() const
-{
-  for (const Body *body : {on_first, on_second})
-    if (body && body->kind == BodyKind::planar)
-      return body;
-  return nullptr;
-}
-
-bool Pair::in_space() const
-{
-  return (on_first && on_first->kind == BodyKind::rigid) || (on_second && on_second->kind == BodyKind::rigid);
-}
-
-bool Pair::has_point() const
-{
-  return (on_first && on_first->kind == BodyKind::point) || (on_second && on_second->kind == BodyKind::point);
-}
-
-double Pair::at_start(const RelativeMeasure &measure) const
-{
-  const double zero[PlacedMeasure::max_measures] = {};
-  double       gradient[PlacedMeasure::max_measures];
-  return PlacedMeasure{first, second, measure}.evaluate(zero, zero, gradient).s;
-}
-
-bool Pair::moves(const RelativeMeasure &measure, int from) const
-{
-  const auto counts = [from](const coupling::Measure &u)
-  { return std::any_of(u.begin(), u.end(), [from](const auto &term) { return term.first >= from; }); };
-  const double at_rest[PlacedMeasure::max_measures] = {};
-  double       u[PlacedMeasure::max_measures], gradient[PlacedMeasure::max_measures];
-  for (int sample = 0; sample < 3; ++sample)
-  {
-    sample_motion(sample, int(measures.size()), u);
-    PlacedMeasure{first, second, measure}.evaluate(u, at_rest, gradient);
-    for (std::size_t i = 0; i < measures.size(); ++i)
-      if (std::abs(gradient[i]) > immobile && counts(measures[i]))
-        return true;
-  }
-  return false;
-}
-
-std::vector<Vector3d> Pair::own_axes() const
-{
-  std::vector<Vector3d> axes;
-  for (const Body *body : {on_first, on_second})
-    if (body && (body->kind == BodyKind::rotor || body->kind == BodyKind::planar))
-      axes.push_back(vector(body->axis));
-  return axes;
-}
-
-// --- JointEquations
-
-/// Three directions, those of a planar body's plane first.
+/// Three directions, those of a planar body's plane first; of rotors and sliders the axis is one of them, so that each
+/// direction is one in which they move or one in which they do not.
 std::vector<Vector3d> JointEquations::directions() const
 {
   const Body *body = pair_.planar();
-  if (!body || pair_.in_space())
+  if (body && !pair_.in_space())
+    return {vector(body->e_1), vector(body->e_2), vector(body->axis)};
+  const std::vector<Vector3d> axes = pair_.in_space() ? std::vector<Vector3d>{} : pair_.fixed_axes();
+  if (on_global_axes_ || std::all_of(axes.begin(), axes.end(), is_global))
     return global_axes();
-  return {vector(body->e_1), vector(body->e_2), vector(body->axis)};
+  const Vector3d        third = axes.front();
+  std::vector<Vector3d> preferred(axes.begin() + 1, axes.end());
+  for (const Vector3d &a : global_axes())
+    preferred.push_back(a);
+  std::vector<Vector3d> basis = across(third, preferred, 2);
+  basis.push_back(third);
+  return basis;
 }
 
 /// Of a planar body the axis itself, and that of a partner which turns about another one.
 std::vector<Vector3d> JointEquations::axes_of_rotation() const
 {
   if (!pair_.planar() || pair_.in_space())
-    return global_axes();
+    return directions();
   const std::vector<Vector3d> own = pair_.own_axes();
   std::vector<Vector3d>       axes{vector(pair_.planar()->axis)};
   for (const Vector3d &a : own)
@@ -294,7 +232,7 @@ void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string
 /// What no motion can close must be closed as described.
 void JointEquations::require_closed(const Vector3d &a, double gap) const
 {
-  if (std::abs(gap) <= closed * std::max(1., pair_.first.size() + pair_.second.size()))
+  if (std::abs(gap) <= closed * std::max(1., pair_.size()))
     return;
   std::ostringstream message;
   message << "stays open by " << std::abs(gap) << " m along [" << a[0] << ", " << a[1] << ", " << a[2]
@@ -314,10 +252,7 @@ void JointEquations::add(IdealJoint::Equation equation, std::optional<double> va
 void JointEquations::ratio(IdealJoint::Equation equation, const Vector3d &a, double factor)
 {
   equation.measure = rotation_about(pair_, a, factor);
-  double largest   = 0.;
-  for (const double c : equation.measure.ratios)
-    largest = std::max(largest, std::abs(c));
-  if (largest > immobile)
+  if (pair_.moves(equation.measure))
     list.push_back(equation);
 }
 
@@ -372,12 +307,12 @@ void JointEquations::leave_out_idle(Pair &pair)
   const double      at_rest[PlacedMeasure::max_measures] = {};
   for (int sample = 0; sample < 3; ++sample)
   {
-    sample_motion(sample, n, u);
+    sample_motion(sample, pair, u);
     for (const IdealJoint::Equation &equation : list)
     {
       PlacedMeasure{pair.first, pair.second, equation.measure}.evaluate(u, at_rest, G);
       for (int i = 0; i < n; ++i)
-        felt[i] = felt[i] || std::abs(G[i]) > immobile;
+        felt[i] = felt[i] || std::abs(G[i]) > immobile * largest_gradient(pair, equation.measure, i);
     }
   }
   for (int i = n - 1; i >= 0; --i)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/build/joined_pair.h"
 #include "apps/scene/values/requests.h"
 #include "mechanism/joints/ideal_joint.h"
 
@@ -9,25 +10,6 @@
 
 namespace gestell::apps
 {
-
-/// Two places with the measures of both.
-struct Pair
-{
-  Pair(const coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
-
-  const coupling::Body *planar() const;    ///< one of the two, if it is
-  bool                  in_space() const;  ///< one of the two turns freely
-  bool                  has_point() const; ///< one of the two has no rotation to compare with
-  double                at_start(const mechanism::RelativeMeasure &measure) const; ///< in the position described
-  /// Some motion of the two changes it; of coordinates of the machine from that one on.
-  bool                             moves(const mechanism::RelativeMeasure &measure, int from = 0) const;
-  std::vector<mechanism::Vector3d> own_axes() const; ///< about which rotors and planar bodies turn
-
-  mechanism::Placement           first, second;
-  std::vector<coupling::Measure> measures;
-  const coupling::Body          *on_first = nullptr, *on_second = nullptr;
-  int                            n_frame; ///< coordinates of the frame, the first ones of the machine
-};
 
 /// Rotation of body 2 about a, less `factor` times that of body 1: of bodies that turn about one axis, or little.
 mechanism::RelativeMeasure rotation_about(const Pair &pair, const mechanism::Vector3d &a, double factor);
@@ -45,7 +27,10 @@ mechanism::RelativeMeasure seen_from_first(const mechanism::Vector3d &a);
 class JointEquations
 {
 public:
-  explicit JointEquations(const Pair &pair) : pair_(pair) {}
+  /// @param on_global_axes  directions are these as far as the bodies let: what yields has a stiffness along each
+  explicit JointEquations(const Pair &pair, bool on_global_axes = false) : pair_(pair), on_global_axes_(on_global_axes)
+  {
+  }
 
   std::vector<mechanism::IdealJoint::Equation> list;
 
@@ -92,6 +77,7 @@ private:
   void add(mechanism::IdealJoint::Equation equation, std::optional<double> value);
 
   const Pair &pair_;
+  bool        on_global_axes_;
 };
 
 } // namespace gestell::apps

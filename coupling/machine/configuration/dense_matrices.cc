@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <limits>
 
 namespace gestell::coupling
 {
@@ -253,8 +254,14 @@ Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &st
 
 Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G)
 {
-  Eigen::MatrixXd rows(G.n_rows(), machine.size());
+  // Of a unit translation, or of a lever as long as the places of the joint are far, a sum of some such terms.
+  constexpr double rounding = 64. * std::numeric_limits<double>::epsilon();
+  Eigen::MatrixXd  rows(G.n_rows(), machine.size());
   G.times(Eigen::MatrixXd(machine.forces().directions().transpose()), rows);
+  for (const ConstraintBlock &block : G.blocks())
+    for (int row = block.first_row; row < block.first_row + block.n_rows; ++row)
+      if (rows.row(row).norm() <= rounding * std::max(1., block.size))
+        rows.row(row).setZero();
   return rows;
 }
 

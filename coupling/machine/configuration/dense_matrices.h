@@ -35,7 +35,8 @@ Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u
 Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state,
                                     Acting acting = Acting::everything);
 
-/// G W^T [n_c x n]: the equations of the joints in the coordinates of the machine.
+/// G W^T [n_c x n]: the equations of the joints in the coordinates of the machine.  A row that is rounding of the terms
+/// it is made of is zero: no motion changes its equation here.
 Eigen::MatrixXd joint_jacobian(const Machine &machine, const ConstraintJacobian &G);
 
 /// Orthonormal columns [n x n - rank] that span the motions the joints leave free at a motion, G W^T Z = 0, with the
