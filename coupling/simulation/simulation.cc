@@ -10,6 +10,7 @@
 #include "coupling/simulation/checks/fast_forces.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
 #include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/joint_force_guard.h"
 #include "coupling/simulation/checks/momentary_modes.h"
 #include "coupling/simulation/checks/stiffness_check.h"
 #include "coupling/simulation/checks/unseen_forces.h"
@@ -231,6 +232,7 @@ public:
     cylinders_   = std::make_unique<HydraulicLimits>(machine_, *integrator_);
     stiffness_   = std::make_unique<StiffnessCheck>(machine_, initial, method_);
     fast_forces_ = std::make_unique<FastForces>(machine_, *integrator_);
+    joint_guard_ = std::make_unique<JointForceGuard>(machine_, *integrator_);
     momentary_   = std::make_unique<MomentaryModes>(machine_, options_.begin, options_.end);
     driver_.on_step([this] { look_at_step(); });
     driver_.on_event(
@@ -265,7 +267,7 @@ public:
   void exchange(StateArchive &archive)
   {
     driver_.exchange(archive);
-    archive(recorder_, *cylinders_, *stiffness_, *fast_forces_, *momentary_, crawl_, steps_);
+    archive(recorder_, *cylinders_, *stiffness_, *fast_forces_, *joint_guard_, *momentary_, crawl_, steps_);
   }
 
   std::string state()
@@ -295,6 +297,7 @@ private:
     if (!options_.force_unstable)
       stiffness_->step(integrator_->local());
     fast_forces_->step();
+    joint_guard_->step();
     momentary_->step(integrator_->local());
   }
 
@@ -315,6 +318,7 @@ private:
   std::unique_ptr<HydraulicLimits> cylinders_;
   std::unique_ptr<StiffnessCheck>  stiffness_;
   std::unique_ptr<FastForces>      fast_forces_;
+  std::unique_ptr<JointForceGuard> joint_guard_;
   std::unique_ptr<MomentaryModes>  momentary_;
   CrawlWatch                       crawl_{options_};
   long                             steps_      = 1; ///< the next one

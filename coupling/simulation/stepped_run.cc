@@ -67,9 +67,10 @@ SteppedRun::SteppedRun(Machine &machine, const InitialState &initial, const RunO
     : machine_(machine), options_(without_history(options)), method_(with_largest_step(machine, options)),
       signals_(std::move(signals)), steps_(machine, (check_run(machine, options_, signals_.size()),
                                                      machine.will_read(signals_), make_integrator(machine, method_))),
-      driver_(machine, steps_, events_of(options, initial.still)), coordinates_(coordinates_of(signals_)),
-      accelerations_(accelerations_for(signals_, machine)), q_(Eigen::VectorXd::Zero(machine.size())), v_(q_), a_(q_),
-      values_(signals_.size()), target_(options.begin), slack_(no_time * method_.step)
+      driver_(machine, steps_, events_of(options, initial.still)), joint_guard_(machine, steps_),
+      coordinates_(coordinates_of(signals_)), accelerations_(accelerations_for(signals_, machine)),
+      q_(Eigen::VectorXd::Zero(machine.size())), v_(q_), a_(q_), values_(signals_.size()), target_(options.begin),
+      slack_(no_time * method_.step)
 {
   const NoTinyNumbers while_it_starts;
   inside_.resize(machine);
@@ -106,6 +107,7 @@ bool SteppedRun::is_now(double t) const
 /// Its dense output and the history that holds on it are there.
 void SteppedRun::look_at_step()
 {
+  joint_guard_.step();
   on_step_ = machine_.events().save_history();
   if (!ahead_ && steps_.time() > target_ + slack_)
     look_into_step(target_, on_step_);

@@ -5,6 +5,7 @@
 #include "coupling/machine/accelerations.h"
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
+#include "coupling/simulation/checks/joint_force_guard.h"
 #include "coupling/simulation/resumable_steps.h"
 #include "coupling/simulation/run_result.h"
 
@@ -78,6 +79,7 @@ private:
   std::vector<std::string>     warnings_;
   ResumableSteps               steps_;
   EventDriver                  driver_;
+  JointForceGuard              joint_guard_;
   std::vector<int>             coordinates_;   ///< that signals read
   std::optional<Accelerations> accelerations_; ///< if a signal reads any
   LocalState                   inside_;        ///< scratch
