@@ -16,7 +16,6 @@ constexpr double rounding      = 8. * std::numeric_limits<double>::epsilon();
 constexpr double measure_floor = 1e-3;  ///< of the excursions of the coordinates a measure is made of
 constexpr double group_floor   = 1e-6;  ///< of the group that moves most, in its energy norm
 constexpr double law_floor     = 1e-3;  ///< of what the excursions of other measures make of the law of a virtual one
-constexpr double terms         = 8.;    ///< rounding of numbers that are the sum of several, enlarged by levers
 constexpr double uncoupled     = 1e-13; ///< entries of M, B, C below this part of the largest do not couple
 constexpr double rigid         = 1e-7;  ///< modes below this part of the highest frequency are rigid motions
 constexpr int    exact_masses  = 1000;  ///< coordinates up to which M_ii is computed and not estimated
@@ -48,7 +47,6 @@ ErrorScale::ErrorScale(const SecondOrderSystem &system, const std::vector<Spectr
   find_masses();
   find_groups();
   find_ends();
-  find_noise();
   const auto n = m_.size(), n_u = system.forces().directions().cols(), n_ends = Eigen::Index(end_index_.size());
   for (Eigen::VectorXd *x : {&q_begin_, &v_begin_})
     x->setZero(n);
@@ -216,44 +214,6 @@ void ErrorScale::laws(const Eigen::MatrixXd &dp_du, const Eigen::MatrixXd &dp_dv
   }
 }
 
-/// What joints and forces leave of the sizes of their terms in their own measures, from there in the coordinates, and
-/// so in all measures of these.
-void ErrorScale::find_noise()
-{
-  noise_.setZero(ends_.cols());
-  const auto own = [this](int first, int n, double size) { noise_.segment(first, n).setConstant(terms * size); };
-  for (const ConstraintBlock &block : system_.joints().blocks())
-    own(block.first_measure, block.n_measures, block.size);
-  joint_noise_ = noise_;
-  spread(joint_noise_, noise_of_groups_);
-  for (const ForceBlock &block : system_.forces().blocks())
-    own(block.first_measure, block.n_measures, block.size);
-  for (const Virtual &z : virtual_)
-    noise_[z.measure] = 0.;
-  spread(noise_, noise_of_groups_);
-}
-
-/// Noise of measures to that of the coordinates they are made of, and of all measures of these; groups: in the energy
-/// norm.
-void ErrorScale::spread(Eigen::VectorXd &noise, std::vector<double> &of_groups) const
-{
-  Eigen::VectorXd energy = Eigen::VectorXd::Zero(ends_.rows()); // of the coordinates, as its root
-  of_groups.assign(n_groups_, 0.);
-  for (int j = 0; j < ends_.outerSize(); ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
-      energy[it.row()] = std::max(energy[it.row()], root_mass_[j] * noise[j]);
-  for (int j = 0; j < ends_.outerSize(); ++j)
-  {
-    double of_ends = 0.;
-    for (Eigen::SparseMatrix<double>::InnerIterator it(ends_, j); it; ++it)
-      if (const double m = m_[end_index_[it.row()]]; m > 0.)
-        of_ends = std::max(of_ends, it.value() * energy[it.row()] / std::sqrt(m));
-    noise[j] = std::max(noise[j], of_ends);
-  }
-  for (std::size_t k = 0; k < end_index_.size(); ++k)
-    of_groups[end_group_[k]] = std::max(of_groups[end_group_[k]], energy[Eigen::Index(k)]);
-}
-
 /// sum m_i (x_i - from_i)^2 of each group; returns their sum.
 double ErrorScale::energy(const Vector &x, const Vector *from, std::vector<double> &sums) const
 {
@@ -274,6 +234,7 @@ void ErrorScale::begin(const Motion &at)
   v_begin_    = at.v;
   u_begin_    = at.u;
   rate_begin_ = at.u_rate;
+  find_noise();
   for (const auto x : all)
     (accepted_.*x).setZero();
   for (Virtual &z : virtual_)

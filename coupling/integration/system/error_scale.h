@@ -126,6 +126,7 @@ private:
   void        find_groups();
   void        find_ends();
   void        find_noise();
+  void        find_noise_of_joints();
   void        spread(Eigen::VectorXd &noise, std::vector<double> &of_groups) const;
   double      energy(const Vector &x, const Vector *from, std::vector<double> &sums) const;
   Inverse     invert(double h, const Excursion &of) const;

@@ -13,6 +13,7 @@ void ErrorScale::exchange(StateArchive &archive)
   for (Excursions *of : {&accepted_, &reached_, &expected_, &scale_})
     excursions(*of);
   archive(way_, speed_, size_, rate_, inverse_q_, inverse_v_, inverse_u_, inverse_rate_);
+  archive(noise_, joint_noise_, noise_of_groups_);
 }
 
 } // namespace gestell::coupling
