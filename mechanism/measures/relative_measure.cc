@@ -134,28 +134,33 @@ RelativeMeasure::Value RelativeMeasure::inclination(Pair &pair) const
   return {std::atan2(y, x), rate, w.dot(pair.d_bias) - 2. * stretch * rate};
 }
 
+/// Both directions of either body count, so that the angle of a tilted one does not depend on where a lies about the
+/// axis.
 RelativeMeasure::Value RelativeMeasure::angle(Pair &pair) const
 {
-  MovedVector e, f, moved;
+  MovedVector e, f, m, n;
   pair.direction_1(a, e);
   pair.direction_1(b, f);
-  pair.direction_2(a, moved);
-  const double x = e.value.dot(moved.value), y = f.value.dot(moved.value), r2 = x * x + y * y;
-  if (!(r2 > 0.)) // body 2 has tilted by a right angle: it has no angle about this axis
+  pair.direction_2(a, m);
+  pair.direction_2(b, n);
+  const double x = e.value.dot(m.value) + f.value.dot(n.value), y = f.value.dot(m.value) - e.value.dot(n.value),
+               r2 = x * x + y * y;
+  if (!(r2 > 0.)) // body 2 is upside down: it has no angle about this axis
     return {0., 0., 0.};
-  const Vector3d of_moved = (x * f.value - y * e.value) / r2;
-  add_turn(of_moved, moved, pair.of_2);
-  add_turn(Vector3d(x / r2 * moved.value), f, pair.of_1);
-  add_turn(Vector3d(-y / r2 * moved.value), e, pair.of_1);
+  add_turn(Vector3d((x * f.value - y * e.value) / r2), m, pair.of_2);
+  add_turn(Vector3d((-x * e.value - y * f.value) / r2), n, pair.of_2);
+  add_turn(Vector3d((x * m.value - y * n.value) / r2), f, pair.of_1);
+  add_turn(Vector3d((-x * n.value - y * m.value) / r2), e, pair.of_1);
   if (!pair.v_1)
     return {std::atan2(y, x), 0., 0.};
-  const Vector3d across = (x * f.bias - y * e.bias) / r2;
-  const double   x_rate = e.rate.dot(moved.value) + e.value.dot(moved.rate),
-               y_rate = f.rate.dot(moved.value) + f.value.dot(moved.rate), rate = (x * y_rate - y * x_rate) / r2;
-  return {std::atan2(y, x), rate,
-          of_moved.dot(moved.bias) + across.dot(moved.value) +
-              2. * (x * f.rate.dot(moved.rate) - y * e.rate.dot(moved.rate)) / r2 -
-              2. * (x * x_rate + y * y_rate) / r2 * rate};
+  const auto rate_of = [](const MovedVector &c, const MovedVector &d)
+  { return c.rate.dot(d.value) + c.value.dot(d.rate); };
+  const auto bias_of = [](const MovedVector &c, const MovedVector &d)
+  { return c.bias.dot(d.value) + 2. * c.rate.dot(d.rate) + c.value.dot(d.bias); };
+  const double x_rate = rate_of(e, m) + rate_of(f, n), y_rate = rate_of(f, m) - rate_of(e, n),
+               x_bias = bias_of(e, m) + bias_of(f, n), y_bias = bias_of(f, m) - bias_of(e, n),
+               rate = (x * y_rate - y * x_rate) / r2;
+  return {std::atan2(y, x), rate, (x * y_bias - y * x_bias) / r2 - 2. * (x * x_rate + y * y_rate) / r2 * rate};
 }
 
 RelativeMeasure::Value RelativeMeasure::spin(Pair &pair) const

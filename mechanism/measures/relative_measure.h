@@ -14,7 +14,8 @@ namespace gestell::mechanism
  *     square         a_1 . b_2           cosine between directions carried by the two         [1]
  *     distance       |d|                                                                      [m]
  *     inclination    atan2(b . d, a . d) angle of the line about a x b, in (-pi, pi]          [rad]
- *     angle          atan2(b_1 . a_2, a_1 . a_2)   of body 2 against body 1 about a x b       [rad]
+ *     angle          atan2(b_1 . a_2 - a_1 . b_2, a_1 . a_2 + b_1 . b_2)   of body 2 against
+ *                    body 1 about a x b                                                    [rad]
  *     ratio          sum c_i u_i         of the measures themselves                           [m or rad]
  *     spin           s' = a . (w_2 - w_1), angular velocities; s itself has no meaning, 0     [rad/s]
  *     gear           sum c_i u_i - c psi + f (inv(alpha) - inv(alpha_0)), two wheels in mesh  [m]

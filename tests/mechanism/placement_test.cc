@@ -150,6 +150,30 @@ TEST(RelativeMeasure, EveryFormHasTheGradientAndTheBiasOfItsValue)
         }
 }
 
+/// A body that tilts as well as it turns has one angle about an axis, not one for each direction across it.
+TEST(RelativeMeasure, TheAngleDoesNotDependOnTheDirectionsItIsTakenBetween)
+{
+  const Vector3d  a(2. / 3., -1. / 3., 2. / 3.), b(2. / 3., 2. / 3., -1. / 3.), n = a.cross(b);
+  const Matrix3d  tilted = (Eigen::AngleAxisd(0.3, (a + 0.2 * b).normalized()) * Eigen::AngleAxisd(1.1, n)).matrix();
+  VectorXd        u      = VectorXd::Zero(12);
+  const VectorXd  rest   = u;
+  double          gradient[PlacedMeasure::max_measures], first = 0.;
+  RelativeMeasure angle;
+  angle.form                         = Form::angle;
+  Eigen::Map<Matrix3d>(u.data() + 3) = tilted - Matrix3d::Identity();
+  for (int turn = 0; turn < 12; ++turn)
+  {
+    angle.a = Eigen::AngleAxisd(0.5 * turn, n) * a;
+    angle.b = Eigen::AngleAxisd(0.5 * turn, n) * b;
+    const double s =
+        PlacedMeasure{Placement(), Placement::free(point, centre), angle}.evaluate(u.data(), rest.data(), gradient).s;
+    if (turn == 0)
+      first = s;
+    EXPECT_NEAR(s, first, 1e-15) << turn;
+  }
+  EXPECT_NEAR(first, 1.1, 0.05);
+}
+
 /// Wheels in mesh: any combination of their measures, the line of centres, the other flank.
 TEST(RelativeMeasure, AMeshHasTheGradientAndTheBiasOfItsValue)
 {

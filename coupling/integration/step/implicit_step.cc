@@ -334,6 +334,8 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
     if (damping == 1. && is_converged(iteration, size, remaining(iteration, size, size_before)))
     {
       finish(form, base, local);
+      if (joints && size > turned_little)
+        follow_turn(condensed, base, local);
       return true;
     }
     if (iteration == 0 && good_predictions_)

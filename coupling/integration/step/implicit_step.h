@@ -112,12 +112,13 @@ public:
   void exchange(StateArchive &archive);
 
 private:
-  static constexpr double unseen_contraction = 1.;   ///< of Newton where it has not been seen: nothing is expected
-  static constexpr double best_contraction   = 1e-2; ///< that is expected of the steps to come
-  static constexpr double good_contraction   = 0.05; ///< of Newton's corrections: what was made of G serves on
-  static constexpr double sudden_growth      = 10.;  ///< of the first correction from step to step
-  static constexpr int    steps_of_levers    = 16;   ///< the levers of joints are looked at once in so many
-  static constexpr int    most_unseen        = 20;   ///< steps of one iteration before another one is looked at
+  static constexpr double unseen_contraction = 1.;    ///< of Newton where it has not been seen: nothing is expected
+  static constexpr double best_contraction   = 1e-2;  ///< that is expected of the steps to come
+  static constexpr double good_contraction   = 0.05;  ///< of Newton's corrections: what was made of G serves on
+  static constexpr double turned_little      = 1e-13; ///< correction that turns no direction by more than rounding
+  static constexpr double sudden_growth      = 10.;   ///< of the first correction from step to step
+  static constexpr int    steps_of_levers    = 16;    ///< the levers of joints are looked at once in so many
+  static constexpr int    most_unseen        = 20;    ///< steps of one iteration before another one is looked at
 
   void find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x, LocalState &local,
                    IntegrationWork &work);
@@ -126,6 +127,10 @@ private:
 
   bool   correct(const Condensed &condensed, const LocalState &local);
   void   finish(const StepForm &form, const LocalState &base, LocalState &local);
+  void   take_forces(LocalState &local);
+  void   follow_turn(const Condensed &condensed, const LocalState &base, LocalState &local);
+  bool   follow_turn_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base, Eigen::VectorXd &x,
+                            LocalState &local);
   void   find_measures(const Eigen::VectorXd &x, const StepForm &form, const LocalState &base);
   bool   correct_sparse(const StepForm &form, const Eigen::VectorXd &f, const Eigen::VectorXd &x, LocalState &local);
   bool   iterate(const Condensed &condensed, const LocalState &base, LocalState &local, IntegrationWork &work);

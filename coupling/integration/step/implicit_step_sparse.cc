@@ -93,7 +93,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
     if (damping == 1. && (size <= options_.tolerance || remaining <= options_.tolerance))
     {
       finish(form, base, local);
-      return true;
+      return size <= turned_little || follow_turn_sparse(form, f, base, x, local);
     }
     if (iteration > 0 && size > good_contraction * size_before)
       saddle_->forget_factor();

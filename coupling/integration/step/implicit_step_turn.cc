@@ -1,0 +1,53 @@
+#include "coupling/integration/step/implicit_step.h"
+
+namespace gestell::coupling
+{
+
+// Newton's last correction moves what joints hold along directions that it turns itself.  What that leaves is of second
+// order, but the same in every step: as large as rounding in positions it is 1e-8 of forces and, after some hundred
+// steps, of velocities.  And which correction is the last one depends on the axes that bodies are described along.  So
+// forces and joints are looked at once more, and what is open is closed by the factors that are there.
+
+/// The forces of elements, but not of what sticks, and of joints, where they are now.
+void ImplicitStep::take_forces(LocalState &local)
+{
+  residual_ = local.p;
+  system_.forces().force(local, local.p);
+  for (const HeldMeasure &h : system_.forces().held())
+    local.p[h.measure] = residual_[h.measure];
+  system_.joints().constraints(local, g_, G_);
+  G_.set_forces(local.lambda, local.p);
+}
+
+void ImplicitStep::follow_turn(const Condensed &condensed, const LocalState &base, LocalState &local)
+{
+  take_forces(local);
+  g_ /= condensed.form.w_u;
+  correction_ = xi_free_ - xi_;
+  correction_.noalias() += condensed.S.lazyProduct(local.p);
+  matrix_->solve_in_place(condensed.S, G_, correction_, g_);
+  for (const HeldMeasure &h : system_.forces().held())
+  {
+    local.p[h.measure] += correction_[h.measure];
+    correction_[h.measure] = 0.;
+  }
+  xi_ += correction_;
+  local.lambda += g_;
+  finish(condensed.form, base, local);
+}
+
+bool ImplicitStep::follow_turn_sparse(const StepForm &form, const Eigen::VectorXd &f, const LocalState &base,
+                                      Eigen::VectorXd &x, LocalState &local)
+{
+  take_forces(local);
+  if (!correct_sparse(form, f, x, local))
+    return false;
+  const auto n = x.size(), n_c = Eigen::Index(G_.n_rows());
+  x += y_.head(n);
+  local.lambda += y_.segment(n, n_c) / form.force;
+  find_measures(x, form, base);
+  finish(form, base, local);
+  return true;
+}
+
+} // namespace gestell::coupling
