@@ -1,6 +1,7 @@
 // Ideal joints with controlled steps: errors follow the tolerance.
 
 #include "tests/support/scene_motion.h"
+#include "tests/support/tilted_planes.h"
 
 #include <gtest/gtest.h>
 
@@ -65,6 +66,18 @@ TEST(ControlledJoints, ErrorsOfThePendulumFollowTheTolerance)
 }
 
 // The force of the pin by hand: of the mass on its circle, m (l phi'^2 + g cos(phi)) along the bar.
+// Lengths by 1e-3, times by the root of it: the same angles in as many steps.
+TEST(ControlledJoints, OfHalfAMillimetreSwingAsThoseOfHalfAMetre)
+{
+  for (const std::string tolerance : {"1e-8", "1e-10"})
+  {
+    const SceneRun large = run(double_pendulum(0.6, tolerance)), small = run(double_pendulum(0.6e-3, tolerance));
+    for (const char *angle : {"phi", "psi"})
+      EXPECT_NEAR(small.signal(angle).final, large.signal(angle).final, 1e3 * std::stod(tolerance)) << angle;
+    EXPECT_NEAR(double(small.result.work.steps) / double(large.result.work.steps), 1., 0.1);
+  }
+}
+
 TEST(ControlledJoints, MultipliersAreAsAccurateAsTheMotion)
 {
   const auto   exact = angle_and_speed(3.);
