@@ -2,6 +2,7 @@
 
 #include "apps/scene/file/parameters.h"
 #include "coupling/machine/machine.h"
+#include "tests/support/node_values.h"
 
 #include <Eigen/Geometry>
 
@@ -10,7 +11,6 @@
 #include <optional>
 #include <random>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 namespace gestell::tests
@@ -31,23 +31,10 @@ enum class Vector
   axial
 };
 
-std::string digits(double x)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << x;
-  return text.str();
-}
-
 std::string type_of(const SceneNode &table)
 {
   const SceneNode *type = table.find("type");
   return type ? type->text : "";
-}
-
-bool is_number(const SceneNode &node)
-{
-  return node.type == Type::integer || node.type == Type::real;
 }
 
 /// What the three values of a key are; nothing: no vector in space.
@@ -101,36 +88,6 @@ private:
 
   // --- values
 
-  /// weight * value as a text; a plain number gets the unit that its key understands.
-  static std::string product(double weight, const SceneNode &value, const std::string &unit)
-  {
-    const std::string text = is_number(value) ? value.text + unit : value.text;
-    return digits(weight) + "*(" + text + ")";
-  }
-
-  static bool is_zero(const SceneNode &value) { return is_number(value) && value.number == 0.; }
-
-  /// sum weights_i values_i + constant
-  static SceneNode sum(const std::vector<std::pair<double, SceneNode>> &terms, const std::string &unit,
-                       double constant = 0.)
-  {
-    std::string text;
-    for (const auto &[weight, value] : terms)
-      if (weight != 0. && !is_zero(value))
-        text += (text.empty() ? "" : " + ") + product(weight, value, unit);
-    if (constant != 0.)
-      text += (text.empty() ? "" : " + ") + ("(" + digits(constant)) + unit + ")";
-    return text.empty() ? number_node(0.) : text_node(text);
-  }
-
-  static SceneNode array_of(std::vector<SceneNode> elements)
-  {
-    SceneNode array;
-    array.type     = Type::array;
-    array.elements = std::move(elements);
-    return array;
-  }
-
   SceneNode vector(const SceneNode &value, Vector kind, const std::string &unit) const
   {
     if (value.type != Type::array || value.elements.size() != 3)
@@ -139,19 +96,11 @@ private:
     std::vector<SceneNode> components;
     for (int i = 0; i < 3; ++i)
       components.push_back(
-          sum({{R(i, 0), value.elements[0]}, {R(i, 1), value.elements[1]}, {R(i, 2), value.elements[2]}}, unit,
-              kind == Vector::point ? motion_.shift[i] : 0.));
-    SceneNode moved = array_of(components);
-    place(moved, value);
+          weighted_sum({{R(i, 0), value.elements[0]}, {R(i, 1), value.elements[1]}, {R(i, 2), value.elements[2]}}, unit,
+                       kind == Vector::point ? motion_.shift[i] : 0.));
+    SceneNode moved = array_node(components);
+    put_at(moved, value);
     return moved;
-  }
-
-  static void place(SceneNode &node, const SceneNode &as)
-  {
-    node.place  = as.place;
-    node.folder = as.folder;
-    for (SceneNode &element : node.elements)
-      place(element, as);
   }
 
   /// Of a table or of nothing but numbers and parameters.
@@ -201,11 +150,11 @@ private:
     SceneNode &inertia = *body.find("inertia");
     if (inertia.elements[0].type == Type::array)
     {
-      inertia = transformed(inertia, motion_.R, " kg m^2");
+      inertia = transformed_matrix(inertia, motion_.R, " kg m^2");
       return;
     }
-    SceneNode  unit_axes = array_of({array_of({number_node(1.), number_node(0.), number_node(0.)}),
-                                     array_of({number_node(0.), number_node(1.), number_node(0.)})});
+    SceneNode  unit_axes = array_node({array_node({number_node(1.), number_node(0.), number_node(0.)}),
+                                       array_node({number_node(0.), number_node(1.), number_node(0.)})});
     SceneNode *axes      = body.find("principal_axes");
     if (!axes)
     {
@@ -214,31 +163,7 @@ private:
     }
     for (SceneNode &axis : axes->elements)
       axis = vector(axis, Vector::polar, "");
-    place(*axes, inertia);
-  }
-
-  /// T matrix T^T
-  static SceneNode transformed(const SceneNode &matrix, const Eigen::MatrixXd &T, const std::string &unit)
-  {
-    const auto             n = T.rows();
-    std::vector<SceneNode> rows;
-    for (Eigen::Index i = 0; i < n; ++i)
-    {
-      std::vector<SceneNode> row;
-      for (Eigen::Index j = 0; j < n; ++j)
-      {
-        std::vector<std::pair<double, SceneNode>> terms;
-        for (Eigen::Index k = 0; k < n; ++k)
-          for (Eigen::Index l = 0; l < n; ++l)
-            if (const double weight = T(i, k) * T(j, l); weight != 0.)
-              terms.emplace_back(weight, matrix.elements.at(std::size_t(k)).elements.at(std::size_t(l)));
-        row.push_back(sum(terms, unit));
-      }
-      rows.push_back(array_of(row));
-    }
-    SceneNode result = array_of(rows);
-    place(result, matrix);
-    return result;
+    put_at(*axes, inertia);
   }
 
   /// What lies at the origin unless something else is said.
@@ -247,8 +172,8 @@ private:
     const auto at_origin = [&](const std::string &key)
     {
       SceneNode at =
-          array_of({number_node(motion_.shift[0]), number_node(motion_.shift[1]), number_node(motion_.shift[2])});
-      place(at, table);
+          array_node({number_node(motion_.shift[0]), number_node(motion_.shift[1]), number_node(motion_.shift[2])});
+      put_at(at, table);
       table.entries.emplace_back(key, at);
     };
     if (kind == "body" && (type == "rotor" || type == "slider") && !table.find("position"))
@@ -270,7 +195,7 @@ private:
     const Eigen::MatrixXd T = motions_of_rows(frame);
     for (auto &[key, unit] : {std::pair{"mass", " kg"}, std::pair{"stiffness", " N/m"}, std::pair{"damping", " N s/m"}})
       if (SceneNode *matrix = frame.find(key); matrix && matrix->type == Type::array)
-        *matrix = transformed(*matrix, T, unit);
+        *matrix = transformed_matrix(*matrix, T, unit);
     for (auto &[name, interface] : frame.find("interface")->entries)
       if (SceneNode *position = interface.find("position"))
         *position = vector(*position, Vector::point, " m");
@@ -392,8 +317,8 @@ private:
         for (std::size_t k = 0; k < triple.names.size(); ++k)
           if (const SceneNode *own = values.find(triple.names[k]))
             terms.emplace_back(triple.moved_directions[i].dot(matrix(triple.kind) * triple.directions[k]), *own);
-        SceneNode component = sum(terms, (triple.kind == Vector::polar ? " m" : " rad") + per_second);
-        place(component, value);
+        SceneNode component = weighted_sum(terms, (triple.kind == Vector::polar ? " m" : " rad") + per_second);
+        put_at(component, value);
         rest.entries.emplace_back(triple.moved_names[i], component);
       }
     }

@@ -2,48 +2,16 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/scene.h"
+#include "tests/support/node_values.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace gestell::tests
 {
 
 using apps::SceneNode;
-
-SceneNode &table_of(SceneNode &parent, const std::string &key)
-{
-  if (!parent.find(key))
-  {
-    SceneNode table;
-    table.place  = parent.place;
-    table.folder = parent.folder;
-    parent.entries.emplace_back(key, table);
-  }
-  return *parent.find(key);
-}
-
-SceneNode text_node(const std::string &text)
-{
-  SceneNode node;
-  node.type = SceneNode::Type::text;
-  node.text = text;
-  return node;
-}
-
-SceneNode number_node(double value)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << value;
-  SceneNode node;
-  node.type   = SceneNode::Type::real;
-  node.number = value;
-  node.text   = text.str();
-  return node;
-}
 
 SceneNode with_resultants(SceneNode scene)
 {

@@ -33,12 +33,6 @@ struct Restated
 };
 using Restatement = std::function<Restated(const apps::SceneNode &)>;
 
-/// The table of the tree, made where it is missing.
-apps::SceneNode &table_of(apps::SceneNode &parent, const std::string &key);
-/// A text or a number as values of a tree.
-apps::SceneNode text_node(const std::string &text);
-apps::SceneNode number_node(double value);
-
 /// The tree with the resultant of each joint that has one among its signals, under the name "|JOINT|".
 apps::SceneNode with_resultants(apps::SceneNode scene);
 

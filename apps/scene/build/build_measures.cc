@@ -184,16 +184,6 @@ std::vector<coupling::Measure> measures_of(const std::vector<MotionMeasure> &mot
   return measures;
 }
 
-Vector3 point_of(const coupling::MachineModel &machine, const PlaceRequest &place)
-{
-  return place.at ? *place.at : machine.position(place.marker);
-}
-
-coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place)
-{
-  return machine.place(place.marker, point_of(machine, place));
-}
-
 void draw_places(coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to)
 {
   for (const PlaceRequest *place : {&from, &to})

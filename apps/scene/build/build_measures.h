@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/scene/build/joined_pair.h"
 #include "apps/scene/values/requests.h"
 #include "coupling/machine/machine.h"
 
@@ -12,13 +13,7 @@ coupling::Measure measure_of(const MotionMeasure &motion, const coupling::Machin
 std::vector<coupling::Measure> measures_of(const std::vector<MotionMeasure> &motions,
                                            const coupling::MachineModel     &machine);
 
-inline mechanism::Vector3d vector(const Vector3 &a)
-{
-  return {a[0], a[1], a[2]};
-}
-Vector3               point_of(const coupling::MachineModel &machine, const PlaceRequest &place);
-coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place);
-void                  draw_places(coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
+void draw_places(coupling::MachineModel &machine, const PlaceRequest &from, const PlaceRequest &to);
 
 /// The measures of a scene, in the machine; bodies must be there.
 void add_measures(coupling::MachineModel &machine, const Scene &scene);

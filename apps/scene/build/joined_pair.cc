@@ -1,7 +1,5 @@
 #include "apps/scene/build/joined_pair.h"
 
-#include "apps/scene/build/build_measures.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,6 +32,16 @@ Reach reach_of(const Pair &pair, int i)
 }
 
 } // namespace
+
+Vector3 point_of(const coupling::MachineModel &machine, const PlaceRequest &place)
+{
+  return place.at ? *place.at : machine.position(place.marker);
+}
+
+coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place)
+{
+  return machine.place(place.marker, point_of(machine, place));
+}
 
 double largest_gradient(const Pair &pair, const RelativeMeasure &measure, int i)
 {

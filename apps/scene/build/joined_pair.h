@@ -1,12 +1,20 @@
 #pragma once
 
 #include "apps/scene/values/requests.h"
+#include "coupling/machine/machine.h"
 #include "mechanism/measures/relative_measure.h"
 
 #include <vector>
 
 namespace gestell::apps
 {
+
+inline mechanism::Vector3d vector(const Vector3 &a)
+{
+  return {a[0], a[1], a[2]};
+}
+Vector3               point_of(const coupling::MachineModel &machine, const PlaceRequest &place);
+coupling::PlacedPoint placed(const coupling::MachineModel &machine, const PlaceRequest &place);
 
 /// Two places with the measures of both.
 struct Pair

@@ -1,7 +1,5 @@
 #include "apps/scene/build/joint_equations.h"
 
-#include "apps/scene/build/build_measures.h"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
