@@ -233,26 +233,46 @@ void SignalExtremes::see(std::size_t signal, double t, double value)
 /// Looks for extremes beyond those seen about three successive samples, inside the last step.
 void SignalExtremes::turn(int middle)
 {
-  const SignalSample &a = samples_[middle - 1], &b = samples_[middle], &c = samples_[middle + 1];
   for (std::size_t i = 0; i < signals_.size(); ++i)
     for (const double sign : {-1., 1.})
-    {
-      const SignalSummary &summary = summaries_[i];
-      Point                top;
-      if (!watched_[i])
-        continue;
-      const bool turns = maximum({a.t, sign * a.values[i]}, {b.t, sign * b.values[i]}, {c.t, sign * c.values[i]}, top);
-      if (turns && top.f > (sign > 0. ? summary.max : -summary.min))
-        search(i, sign, middle);
-    }
+      if (watched_[i])
+      {
+        turn({i, sign, false}, middle);
+        if (nears_zero({i, sign, true}, middle))
+          turn({i, sign, true}, middle);
+      }
 }
 
-/// The maximum of sign * signal on the dense output, by parabolas that close in on it.
-void SignalExtremes::search(std::size_t signal, double sign, int middle)
+void SignalExtremes::turn(const Sought &sought, int middle)
+{
+  const SignalSample *s = &samples_[middle - 1];
+  Point               p[3], top;
+  for (int k = 0; k < 3; ++k)
+    p[k] = {s[k].t, sought.of(s[k].values[sought.signal])};
+  const SignalSummary &summary = summaries_[sought.signal];
+  if (maximum(p[0], p[1], p[2], top) && top.f > sought.of(sought.sign > 0. ? summary.max : summary.min))
+    search(sought, middle);
+}
+
+/// Towards zero on one side of it, by half and more.
+bool SignalExtremes::nears_zero(const Sought &sought, int middle) const
+{
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.;
+  for (int k = middle - 1; k <= middle + 1; ++k)
+  {
+    const double below = -sought.sign * samples_[k].values[sought.signal];
+    nearest            = std::min(nearest, below);
+    farthest           = std::max(farthest, below);
+  }
+  return nearest > 0. && nearest < 0.5 * farthest;
+}
+
+/// The maximum of what is sought on the dense output, by parabolas that close in on it.
+void SignalExtremes::search(const Sought &sought, int middle)
 {
   std::array<Point, 3> p;
   for (int k = 0; k < 3; ++k)
-    p[k] = {samples_[middle - 1 + k].t, sign * samples_[middle - 1 + k].values[signal]};
+    p[k] = {samples_[middle - 1 + k].t, sought.of(samples_[middle - 1 + k].values[sought.signal])};
   const double close = 1e-6 * (p[2].t - p[0].t);
   Point        top;
   for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], top); ++k)
@@ -268,7 +288,7 @@ void SignalExtremes::search(std::size_t signal, double sign, int middle)
     if (found)
       return;
     run_.evaluate(top.t, probe_);
-    top.f = sign * probe_.values[signal];
+    top.f = sought.of(probe_.values[sought.signal]);
     see(probe_);
     // The end that is farther away gives place.
     p[top.t - p[0].t > p[2].t - top.t ? 0 : 2] = top;

@@ -3,6 +3,7 @@
 #include "coupling/machine/machine_model.h"
 #include "coupling/simulation/run_result.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -49,7 +50,9 @@ struct Sampling
  * to that share, however long the steps are.
  *
  * Where a parabola through three samples turns beyond what was seen, the dense output itself is evaluated and the
- * parabola drawn closer.
+ * parabola drawn closer.  Where a signal nears zero between them by half and more, this is done of its square, too: the
+ * length of a vector that passes close to zero, as the resultant of a joint, turns in far less than a step, its square
+ * does not.
  */
 class SignalExtremes
 {
@@ -78,6 +81,16 @@ public:
   void exchange(StateArchive &archive);
 
 private:
+  /// The largest (sign 1) or smallest value (-1) of a signal, or of its square, sign kept.
+  struct Sought
+  {
+    std::size_t signal;
+    double      sign;
+    bool        square;
+
+    double of(double value) const { return sign * (square ? value * std::abs(value) : value); }
+  };
+
   void   append(double t);
   void   divide(double begin, double end);
   void   halve(int first);
@@ -86,7 +99,9 @@ private:
   bool   rough(int first) const;
   double range(std::size_t signal) const;
   void   turn(int middle);
-  void   search(std::size_t signal, double sign, int middle);
+  void   turn(const Sought &sought, int middle);
+  bool   nears_zero(const Sought &sought, int middle) const;
+  void   search(const Sought &sought, int middle);
   void   see(std::size_t signal, double t, double value);
 
   SampledRun                 &run_;
