@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace gestell::coupling
 {
@@ -17,9 +18,8 @@ constexpr double rounding = 1e-9; ///< of the largest value of a signal: what is
 /// Likewise at an event.  Its instant is located to delta = 1e-12 s or better, rounding of times of seconds and of the
 /// guard; a signal that goes to zero there, as a force of a contact of omega = sqrt(c/m) does, is told as y' delta =
 /// omega delta of its size: 1e-6 up to omega = 1e6 1/s, beyond what a run resolves.  Percentages of less say nothing.
-constexpr double located   = 1e-6;
-constexpr double of_values = 1e-13; ///< of the same, rounding of one value
-constexpr double distinct  = 30.;   ///< times its rounding is a second derivative at least
+constexpr double located = 1e-6;
+constexpr double level   = 1e-4; ///< of the largest value, what y' or y'' make of a step: flat to first order
 
 const double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
@@ -111,27 +111,51 @@ void ExtremeDerivatives::at_event(double t, const Told &told, const VectorXd &ra
   }
 }
 
-void ExtremeDerivatives::at_turn(double t, const Told &told, const SignalRates &rates, double way, double step)
+std::map<std::size_t, double> ExtremeDerivatives::turning_at(double t) const
 {
-  for (Extreme &extreme : extremes_)
+  std::map<std::size_t, double> found;
+  for (const Extreme &extreme : extremes_)
     if (extreme.t == t && !is_rounding(extreme))
-      turn(extreme, told, rates, way, step);
+      found[extreme.signal] = sizes_[extreme.signal];
+  return found;
 }
 
-void ExtremeDerivatives::turn(Extreme &extreme, const Told &told, const SignalRates &rates, double way, double step)
+void ExtremeDerivatives::at_turn(double t, std::size_t signal, const Turn &turn, double step)
 {
-  const Index    i      = Index(extreme.signal);
-  const VectorXd slope  = rates.d_rate.row(i).transpose();
-  const double   second = (extreme.largest ? -1. : 1.) * rates.second[i]; // > 0 where it turns
-  const double   shift  = -rates.rate[i] / rates.second[i];
-  const bool     turns = second > distinct * of_values * sizes_[extreme.signal] / (way * way) && std::abs(shift) < step;
-  if (!turns)
+  for (Extreme &extreme : extremes_)
+    if (extreme.signal == signal && extreme.t == t && !is_rounding(extreme))
+      take(extreme, turn, step);
+}
+
+/// Why an extreme lies where its signal does not turn; "": it does, or nearly.
+std::string ExtremeDerivatives::no_turn(const Extreme &extreme, const Turn &turn, double step) const
+{
+  std::ostringstream text;
+  if (turn.kink == Kink::jump)
+    text << "the signal jumps there, at no event";
+  else if (turn.kink == Kink::corner)
+    text << "the signal has a corner there, where its rate goes from " << turn.before << " to " << turn.behind
+         << " per second";
+  else if (std::abs(turn.rate) * step > level * sizes_[extreme.signal])
+    text << "the signal does not turn there, its rate is " << turn.rate << " per second";
+  return text.str();
+}
+
+void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
+{
+  const double second = (extreme.largest ? -1. : 1.) * turn.second; // > 0 where it turns
+  const double shift  = -turn.rate / turn.second;
+  if (!turn.known() || !(second > 0.) || !(std::abs(shift) < step))
   {
-    set(extreme, told.dy.row(i).transpose(), VectorXd::Constant(slope.size(), none));
-    leave_out(output(extreme, true), "the peak is flat");
+    set(extreme, turn.dy, VectorXd::Constant(turn.dy.size(), none));
+    const std::string why  = no_turn(extreme, turn, step);
+    const bool        flat = second * step * step < level * sizes_[extreme.signal];
+    leave_out(output(extreme, true), !why.empty() ? why : flat ? "the peak is flat" : "its curvature is not known");
+    if (!why.empty())
+      leave_out(output(extreme, false), why);
     return;
   }
-  VectorXd dt  = -slope / rates.second[i];
+  VectorXd dt  = -turn.d_rate / turn.second;
   bool     far = false;
   for (Index k = 0; k < dt.size(); ++k)
     if (std::abs(one_percent * twins_[std::size_t(k)].value * dt[k]) > length_)
@@ -139,7 +163,7 @@ void ExtremeDerivatives::turn(Extreme &extreme, const Told &told, const SignalRa
       dt[k] = none;
       far   = true;
     }
-  set(extreme, told.dy.row(i).transpose() + shift * slope, dt);
+  set(extreme, turn.dy + shift * turn.d_rate, dt);
   if (far)
     output(extreme, true).note = "no derivative where one percent would move it by more than the run: the peak is flat";
 }

@@ -4,6 +4,7 @@
 #include "coupling/sensitivity/signal_derivatives.h"
 #include "coupling/simulation/run_result.h"
 
+#include <map>
 #include <set>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace gestell::coupling
  *
  * An extreme has one where its signal turns, y' = 0, or at an event.  Of the values that a signal has about an event it
  * is the derivative of the one nearest to the extreme.  None have, and their notes tell why: extremes that are zero but
- * for rounding; instants of a peak that is flat, whose y'' is not larger than its own rounding, whose slope asks for
- * more than a step to where it turns, or which one percent of a parameter moves by more than the run lasts.
+ * for rounding; those at a corner or a jump that is no event, and all others whose y' does not vanish; instants of a
+ * peak that is flat, whose y'' is not known to a ten thousandth, whose slope asks for more than a step to where it
+ * turns, or which one percent of a parameter moves by more than the run lasts.
  *
  * Source: docs/sensitivities.md (9) to (11).
  */
@@ -29,13 +31,14 @@ public:
   /// Instants of extremes inside a piece of the motion.
   std::set<double> instants(double begin, double end) const;
   bool             any_at(double t) const;
+  /// Signals that have an extreme there, and their largest |y|.
+  std::map<std::size_t, double> turning_at(double t) const;
 
   /// About an event that moves by dt: before it, between two of one instant, behind it.
   void at_event(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
-  /// Where signals turn.
-  /// @param way   [s] over which rates were found
+  /// Where a signal turns.
   /// @param step  [s] of the variational equations
-  void at_turn(double t, const Told &told, const SignalRates &rates, double way, double step);
+  void at_turn(double t, std::size_t signal, const Turn &turn, double step);
   /// The end of the run, which moves by `end`.
   void at_end(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &end);
 
@@ -55,7 +58,8 @@ private:
   void               set(const Extreme &extreme, const Eigen::VectorXd &of_value, const Eigen::VectorXd &of_instant);
   void               leave_out(OutputDerivatives &output, const std::string &reason);
   bool               is_rounding(const Extreme &extreme) const;
-  void               turn(Extreme &extreme, const Told &told, const SignalRates &rates, double way, double step);
+  void               take(Extreme &extreme, const Turn &turn, double step);
+  std::string        no_turn(const Extreme &extreme, const Turn &turn, double step) const;
 
   const std::vector<ParameterTwins> &twins_;
   double                             near_, length_;

@@ -15,8 +15,11 @@ using Eigen::VectorXd;
 
 constexpr double bend  = 1e-6; ///< of the size of a joint, by which its measures are moved
 constexpr double shift = 1e-7; ///< of the size of an element, likewise
-constexpr double exact = 1e-5; ///< of derivatives: quotients do not differ by more
-constexpr double slow  = 1e-3; ///< [m/s, rad/s] speed below which measures are moved as if they had it
+constexpr double wider = 3.;   ///< times as far for quotients that tell how well the others are known
+constexpr double sure =
+    10.; ///< times what quotients of both differ by, and rounding: a difference that is none of theirs
+constexpr double digit = 1e-15; ///< of the terms of a force, their rounding
+constexpr double slow  = 1e-3;  ///< [m/s, rad/s] speed below which measures are moved as if they had it
 
 /// (plus - minus)/2 step as a sparse matrix; empty if it is zero.
 Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, const Eigen::SparseMatrix<double> &plus,
@@ -71,10 +74,10 @@ void require_variational(const Machine &machine)
 
 MotionLinearisation::MotionLinearisation(Machine &machine, const std::vector<ParameterTwins> &twins)
     : machine_(machine), twins_(twins),
-      consistent_((require_variational(machine), machine), "the variational equations")
+      consistent_((require_variational(machine), machine), "the variational equations"), virtual_rates_(machine)
 {
   const Index n_c = machine.joints().n_rows();
-  for (VectorXd *x : {&rate_, &bias_, &g_})
+  for (VectorXd *x : {&rate_, &g_})
     x->setZero(n_c);
   G_minus_ = G_plus_ = ConstraintJacobian(machine.joints().blocks());
   moved_.resize(machine);
@@ -107,6 +110,7 @@ void MotionLinearisation::complete(MotionState &state)
   keep_held_rates(machine_, state.local.v);
   state.a.resize(state.q.size());
   consistent_.solve(state.q, state.v, state.a, state.local, work_);
+  virtual_rates_.settle(state.q, state.v, state.local);
   for (const int i : machine_.linear().virtual_coordinates())
     state.a[i] = 0.;
 }
@@ -119,11 +123,12 @@ void MotionLinearisation::begin_piece(const std::vector<MotionState> &passed)
   for (const MotionState &state : passed)
     find_inexact(state);
   Linearised at;
-  MatrixXd   p, gamma, P_a;
+  MatrixXd   p, g, g_rate, gamma, P_a;
   for (const MotionState &state : passed)
   {
     linearise(state, at);
-    for (auto &[sum, part] : {std::pair(&p, &at.p), std::pair(&gamma, &at.gamma), std::pair(&P_a, &at.P_a)})
+    for (auto &[sum, part] : {std::pair(&p, &at.p), std::pair(&g, &at.g), std::pair(&g_rate, &at.g_rate),
+                              std::pair(&gamma, &at.gamma), std::pair(&P_a, &at.P_a)})
     {
       if (sum->size() == 0)
         sum->setZero(part->rows(), part->cols());
@@ -133,7 +138,8 @@ void MotionLinearisation::begin_piece(const std::vector<MotionState> &passed)
   for (std::size_t k = 0; k < changes_.size() && !passed.empty(); ++k)
   {
     changes_[k].forces = !p.col(Index(k)).isZero(0.);
-    changes_[k].joints = changes_[k].forces || !gamma.col(Index(k)).isZero(0.);
+    changes_[k].joints = changes_[k].forces || !g.col(Index(k)).isZero(0.) || !g_rate.col(Index(k)).isZero(0.) ||
+                         !gamma.col(Index(k)).isZero(0.);
   }
   of_accelerations_ = passed.empty() || !P_a.isZero(0.);
 }
@@ -145,7 +151,7 @@ void MotionLinearisation::linearise(const MotionState &state, Linearised &at)
   at.P_v.setZero(n_u, n_u);
   product_.resize(n_u);
   machine_.forces().derivatives(state.local, product_, at.P_u, at.P_v);
-  differentiate(state, inexact_, at);
+  differentiate(state, inexact_, 1., at);
   if (of_accelerations_)
   {
     at.P_a.resize(n_u, n_u);
@@ -158,7 +164,8 @@ void MotionLinearisation::linearise(const MotionState &state, Linearised &at)
       P->row(h.measure).setZero();
   at.r.setZero(n, K);
   at.p.setZero(n_u, K);
-  at.gamma.setZero(n_c, K);
+  for (MatrixXd *x : {&at.g, &at.g_rate, &at.gamma})
+    x->setZero(n_c, K);
   const bool turns = std::any_of(changes_.begin(), changes_.end(), [](const Changes &c) { return c.W.size() > 0; });
   for (MatrixXd *x : {&at.u, &at.v, &at.a})
     x->setZero(turns ? n_u : 0, turns ? K : 0);
@@ -206,8 +213,17 @@ void MotionLinearisation::add_forces(const MotionState &state, int k, Linearised
   at.p.col(k) = (plus_ - minus_) * (0.5 / twin.step);
 }
 
-/// Quotients for P_u and P_v of the blocks that are marked, by moving the same measure of all at once.
-void MotionLinearisation::differentiate(const MotionState &state, const std::vector<char> &marked, Linearised &at)
+/// By which a measure of a block, or its rate, is moved for quotients.
+double MotionLinearisation::way(const ForceBlock &block, int measure, bool rates, const LocalState &local)
+{
+  const double x    = std::abs(rates ? local.v[measure] : local.u[measure]);
+  const double size = rates ? slow : block.size > 0. ? block.size : 1.;
+  return shift * std::max(x, size);
+}
+
+/// Quotients for P_u and P_v of the blocks that are marked, by moving the same measure of all at once `by` ways.
+void MotionLinearisation::differentiate(const MotionState &state, const std::vector<char> &marked, double by,
+                                        Linearised &at)
 {
   int most = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
@@ -215,20 +231,15 @@ void MotionLinearisation::differentiate(const MotionState &state, const std::vec
   for (int j = 0; j < most; ++j)
     for (const bool rates : {false, true})
     {
-      const auto way = [&](const ForceBlock &block)
-      {
-        const int    measure = block.first_measure + j;
-        const double x       = std::abs(rates ? state.local.v[measure] : state.local.u[measure]);
-        const double size    = rates ? slow : block.size > 0. ? block.size : 1.;
-        return shift * std::max(x, size);
-      };
+      const auto far = [&](const ForceBlock &block)
+      { return by * way(block, block.first_measure + j, rates, state.local); };
       const auto forces_at = [&](double sign, VectorXd &p)
       {
         moved_      = state.local;
         VectorXd &x = rates ? moved_.v : moved_.u;
         for (std::size_t b = 0; b < blocks_.size(); ++b)
           if (marked[b] && j < blocks_[b].n_measures)
-            x[blocks_[b].first_measure + j] += sign * way(blocks_[b]);
+            x[blocks_[b].first_measure + j] += sign * far(blocks_[b]);
         p = state.local.p;
         machine_.forces().force(moved_, p);
       };
@@ -237,40 +248,54 @@ void MotionLinearisation::differentiate(const MotionState &state, const std::vec
       for (std::size_t b = 0; b < blocks_.size(); ++b)
         if (const ForceBlock &block = blocks_[b]; marked[b] && j < block.n_measures)
           (rates ? at.P_v : at.P_u).col(block.first_measure + j).segment(block.first_measure, block.n_measures) =
-              (plus_ - minus_).segment(block.first_measure, block.n_measures) * (0.5 / way(block));
+              (plus_ - minus_).segment(block.first_measure, block.n_measures) * (0.5 / far(block));
     }
 }
 
+/// Marks blocks of which a derivative is not that of the forces, however small it is beside the others of its block: a
+/// stiff element on a measure that turns is stiff along it, and across it has the force itself over a length.
 void MotionLinearisation::find_inexact(const MotionState &state)
 {
   const Index n_u = state.local.u.size();
-  Linearised  told, seen;
-  for (Linearised *at : {&told, &seen})
+  Linearised  told, seen, wide;
+  for (Linearised *at : {&told, &seen, &wide})
   {
     at->P_u.setZero(n_u, n_u);
     at->P_v.setZero(n_u, n_u);
   }
   product_.resize(n_u);
   machine_.forces().derivatives(state.local, product_, told.P_u, told.P_v);
-  differentiate(state, std::vector<char>(blocks_.size(), 1), seen);
+  const std::vector<char> all(blocks_.size(), 1);
+  differentiate(state, all, 1., seen);
+  differentiate(state, all, wider, wide);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (MatrixXd Linearised::*P : {&Linearised::P_u, &Linearised::P_v})
-    {
-      const int      first = blocks_[b].first_measure, k = blocks_[b].n_measures;
-      const MatrixXd own = (told.*P).block(first, first, k, k), other = (seen.*P).block(first, first, k, k);
-      if (!((own - other).cwiseAbs().maxCoeff() <= exact * other.cwiseAbs().maxCoeff()))
-        inexact_[b] = 1;
-    }
+    for (const bool rates : {false, true})
+      for (int i = blocks_[b].first_measure; i < blocks_[b].first_measure + blocks_[b].n_measures; ++i)
+      {
+        double terms = 0.;
+        for (int j = blocks_[b].first_measure; j < blocks_[b].first_measure + blocks_[b].n_measures; ++j)
+          terms += std::abs(told.P_u(i, j)) * way(blocks_[b], j, false, state.local) / shift +
+                   std::abs(told.P_v(i, j)) * way(blocks_[b], j, true, state.local) / shift;
+        for (int j = blocks_[b].first_measure; j < blocks_[b].first_measure + blocks_[b].n_measures; ++j)
+        {
+          const auto   of       = [&](const Linearised &at) { return (rates ? at.P_v : at.P_u)(i, j); };
+          const double rounding = digit * terms / way(blocks_[b], j, rates, state.local);
+          if (!(std::abs(of(told) - of(seen)) <= sure * (std::abs(of(seen) - of(wide)) + rounding)))
+            inexact_[b] = 1;
+        }
+      }
 }
 
-/// G u'' + bias [n_c] at a motion, and G.
-void MotionLinearisation::joint_terms(const Machine &machine, const LocalState &local, VectorXd &terms,
+/// The terms at a motion, and G.
+void MotionLinearisation::joint_terms(const Machine &machine, const LocalState &local, JointTerms &terms,
                                       ConstraintJacobian &G)
 {
-  machine.joints().constraints(local, g_, G);
-  machine.joints().rates(local, rate_, bias_);
-  terms = bias_;
-  G.add_product(1., local.a, terms);
+  for (VectorXd *x : {&terms.g, &terms.rate, &terms.acceleration})
+    x->resize(G.n_rows());
+  machine.joints().constraints(local, terms.g, G);
+  machine.joints().rates(local, terms.rate, terms.acceleration);
+  G.add_product(1., local.v, terms.rate);
+  G.add_product(1., local.a, terms.acceleration);
 }
 
 void MotionLinearisation::add_joints(const MotionState &state, Linearised &at)
@@ -279,11 +304,12 @@ void MotionLinearisation::add_joints(const MotionState &state, Linearised &at)
   if (at.G.n_rows() != n_c)
     at.G = ConstraintJacobian(machine_.joints().blocks());
   machine_.joints().constraints(state.local, g_, at.G);
-  at.Gamma_u.setZero(n_c, n_u);
-  at.Gamma_v.setZero(n_c, n_u);
-  bend_joints(state, &LocalState::u, at.Gamma_u, &at.P_u);
+  for (MatrixXd *x : {&at.Gamma_u, &at.Gamma_v, &at.G_rate})
+    x->setZero(n_c, n_u);
+  bend_joints(state, &LocalState::u, at.Gamma_u, &at);
   bend_joints(state, &LocalState::v, at.Gamma_v, nullptr);
-  VectorXd below(n_c), above(n_c), p_below = VectorXd::Zero(n_u), p_above = p_below;
+  JointTerms below, above;
+  VectorXd   p_below = VectorXd::Zero(n_u), p_above = p_below;
   for (int k = 0; k < int(twins_.size()); ++k)
   {
     if (!changes_[std::size_t(k)].joints)
@@ -292,7 +318,9 @@ void MotionLinearisation::add_joints(const MotionState &state, Linearised &at)
     const double          quotient = 0.5 / twin.step;
     joint_terms(*twin.minus.machine, state.local, below, G_minus_);
     joint_terms(*twin.plus.machine, state.local, above, G_plus_);
-    at.gamma.col(k) = quotient * (above - below);
+    at.g.col(k)      = quotient * (above.g - below.g);
+    at.g_rate.col(k) = quotient * (above.rate - below.rate);
+    at.gamma.col(k)  = quotient * (above.acceleration - below.acceleration);
     p_below.setZero();
     p_above.setZero();
     G_minus_.set_forces(state.local.lambda, p_below);
@@ -303,28 +331,32 @@ void MotionLinearisation::add_joints(const MotionState &state, Linearised &at)
   }
 }
 
-/// Derivatives of G u'' + bias and of G^T lambda, by moving the same measure of all joints at once: no two share one.
+/// Derivatives of G u'' + bias by measures, and of G u' + rate and G^T lambda by positions, into `of_u`, by moving the
+/// same measure of all joints at once: no two share one.
 void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalState::*moved, MatrixXd &Gamma,
-                                      MatrixXd *P)
+                                      Linearised *of_u)
 {
   const auto &blocks = machine_.joints().blocks();
   int         most   = 0;
   for (const ConstraintBlock &block : blocks)
     most = std::max(most, block.n_measures);
-  VectorXd   below(Gamma.rows()), above(Gamma.rows()), p_below = VectorXd::Zero(Gamma.cols()), p_above = p_below;
-  const auto terms = [&](VectorXd &of_joints, ConstraintJacobian &G)
+  JointTerms below, above;
+  VectorXd   p_below = VectorXd::Zero(Gamma.cols()), p_above = p_below;
+  for (JointTerms *terms : {&below, &above})
+    terms->acceleration.resize(Gamma.rows());
+  const auto find = [&](JointTerms &terms, ConstraintJacobian &G)
   {
-    if (P)
-      joint_terms(machine_, moved_, of_joints, G);
+    if (of_u)
+      joint_terms(machine_, moved_, terms, G);
     else // G does not depend on u'
-      machine_.joints().rates(moved_, rate_, of_joints);
+      machine_.joints().rates(moved_, rate_, terms.acceleration);
   };
   for (int j = 0; j < most; ++j)
   {
     const auto way = [&](const ConstraintBlock &block)
     {
       const double size = block.size > 0. ? block.size : 1.;
-      return bend * (P ? size : std::max(size, std::abs((state.local.*moved)[block.first_measure + j])));
+      return bend * (of_u ? size : std::max(size, std::abs((state.local.*moved)[block.first_measure + j])));
     };
     const auto move = [&](double sign)
     {
@@ -334,10 +366,10 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
           (moved_.*moved)[block.first_measure + j] += sign * way(block);
     };
     move(-1.);
-    terms(below, G_minus_);
+    find(below, G_minus_);
     move(1.);
-    terms(above, G_plus_);
-    if (P)
+    find(above, G_plus_);
+    if (of_u)
     {
       G_minus_.set_forces(state.local.lambda, p_below);
       G_plus_.set_forces(state.local.lambda, p_above);
@@ -348,11 +380,13 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
         continue;
       const double quotient = 0.5 / way(block);
       const int    column   = block.first_measure + j;
-      Gamma.col(column).segment(block.first_row, block.n_rows) =
-          quotient * (above - below).segment(block.first_row, block.n_rows);
-      if (P)
-        P->col(column).segment(block.first_measure, block.n_measures) =
-            quotient * (p_above - p_below).segment(block.first_measure, block.n_measures);
+      const auto   take     = [&](MatrixXd &to, const VectorXd &minus, const VectorXd &plus, int first, int n)
+      { to.col(column).segment(first, n) = quotient * (plus - minus).segment(first, n); };
+      take(Gamma, below.acceleration, above.acceleration, block.first_row, block.n_rows);
+      if (!of_u)
+        continue;
+      take(of_u->G_rate, below.rate, above.rate, block.first_row, block.n_rows);
+      take(of_u->P_u, p_below, p_above, block.first_measure, block.n_measures);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/step/consistent_start.h"
+#include "coupling/integration/step/virtual_rates.h"
 #include "coupling/sensitivity/parameter_twins.h"
 
 #include <vector>
@@ -26,9 +27,10 @@ struct Linearised
   Eigen::MatrixXd    P_u, P_v, P_a; ///< dp/du, dp/du', dp/du'' [n_u x n_u]; that of joints, d(G^T lambda)/du, is in P_u
   ConstraintJacobian G;
   Eigen::MatrixXd    Gamma_u, Gamma_v; ///< d(G u'' + bias)/du, /du' [n_c x n_u]
+  Eigen::MatrixXd    G_rate;           ///< d(G u' + rate)/du [n_c x n_u]
   Eigen::MatrixXd    r;                ///< [n x K] loads by M, B, C, W and f_t of the parameters
   Eigen::MatrixXd    p;                ///< [n_u x K] forces by the parameters
-  Eigen::MatrixXd    gamma;            ///< [n_c x K] of g'' by the parameters
+  Eigen::MatrixXd    g, g_rate, gamma; ///< [n_c x K] of g, g' and g'' by the parameters
   Eigen::MatrixXd    u, v, a;          ///< [n_u x K] of W^T q, q', q'' by W; empty: no parameter changes W
 };
 
@@ -45,7 +47,8 @@ public:
   /// @throws std::invalid_argument as require_variational(), and for a coordinate without mass that is no lag
   MotionLinearisation(Machine &machine, const std::vector<ParameterTwins> &twins);
 
-  /// Accelerations, forces and multipliers of a motion; state.t, q, v are given, local.lambda is where to begin.
+  /// Accelerations, forces and multipliers of a motion, and the rates of coordinates without mass; state.t, q, v are
+  /// given, local.lambda is where to begin.
   void complete(MotionState &state);
   /// A smooth piece of the motion begins, that passes these instants: parameters whose two machines have bit by bit
   /// equal forces at all of them are not looked at on it, nor are forces' dependences on u'' that are zero there. None:
@@ -63,22 +66,32 @@ private:
     Eigen::SparseMatrix<double> M, B, C, W;
   };
 
+  /// g, g' = G u' + rate and g'' = G u'' + bias [n_c] at a motion.
+  struct JointTerms
+  {
+    Eigen::VectorXd g, rate, acceleration;
+  };
+
   void find_changes();
   void find_inexact(const MotionState &state);
-  void differentiate(const MotionState &state, const std::vector<char> &blocks, Linearised &at);
+  void differentiate(const MotionState &state, const std::vector<char> &marked, double by, Linearised &at);
+
+  static double way(const ForceBlock &block, int measure, bool rates, const LocalState &local);
+
   void add_loads(const MotionState &state, int k, Linearised &at);
   void add_forces(const MotionState &state, int k, Linearised &at);
   void add_joints(const MotionState &state, Linearised &at);
   void bend_joints(const MotionState &state, Eigen::VectorXd LocalState::*moved, Eigen::MatrixXd &Gamma,
-                   Eigen::MatrixXd *P);
-  void joint_terms(const Machine &machine, const LocalState &local, Eigen::VectorXd &terms, ConstraintJacobian &G);
+                   Linearised *of_u);
+  void joint_terms(const Machine &machine, const LocalState &local, JointTerms &terms, ConstraintJacobian &G);
 
   Machine                           &machine_;
   const std::vector<ParameterTwins> &twins_;
   ConsistentStart                    consistent_;
+  VirtualRates                       virtual_rates_;
   IntegrationWork                    work_;
   std::vector<Changes>               changes_;
-  Eigen::VectorXd                    minus_, plus_, product_, rate_, bias_, g_;
+  Eigen::VectorXd                    minus_, plus_, product_, rate_, g_;
   ConstraintJacobian                 G_minus_, G_plus_;
   LocalState                         moved_;
   std::vector<ForceBlock>            blocks_;

@@ -189,10 +189,11 @@ void Passage::compare_structures(double t, const std::string &after)
 RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state, const MotionColumns &columns)
 {
   const double way = little * steps_.step();
+  const Course on  = signals_.course(state, way);
   VectorXd     g(std::max(1, machine_.events().n_guards())), below = g, above = g;
   const auto   guard_at = [&](double by)
   {
-    const MotionState there = signals_.moved(state, VectorXd::Zero(state.q.size()), by);
+    const MotionState there = signals_.moved(state, on, by);
     machine_.events().guard_values(there.local, g);
     return g[guard];
   };
@@ -336,12 +337,9 @@ void Passage::pass_piece(std::size_t number)
     advance_to(stop);
     if (interrupted_)
       return;
-    if (extremes_.any_at(stop))
-    {
-      const double way = little * steps_.step();
-      extremes_.at_turn(stop, signals_.tell(steps_.state(), steps_.columns()),
-                        signals_.rates(steps_.state(), steps_.columns(), way), way, steps_.step());
-    }
+    for (const auto &[signal, size] : extremes_.turning_at(stop))
+      extremes_.at_turn(stop, signal, signals_.turn(signal, steps_.state(), steps_.columns(), steps_.step(), size),
+                        steps_.step());
     growth_.look(stop, steps_.columns().q);
   }
   advance_to(end);

@@ -1,5 +1,7 @@
 #include "coupling/sensitivity/signal_derivatives.h"
 
+#include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -11,6 +13,21 @@ namespace
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+constexpr double      longest = 0.32, shorter = 0.25; ///< ways of rates: of a step, and from one to the next
+constexpr std::size_t ways      = 8;
+constexpr double      accurate  = 1e-4;  ///< of y'', its error
+constexpr int         most      = 3;     ///< of Newton's steps to where a signal turns
+constexpr double      arrived   = 1e-3;  ///< of a way: no step is needed
+constexpr double      same      = 0.25;  ///< share within which a jump is the same over both of two ways
+constexpr double      of_values = 1e-13; ///< of the largest value of a signal, rounding of one value
+constexpr double      distinct  = 30.;   ///< times its rounding is a jump at least
+
+/// What a signal does over the two shortest ways is a jump: it does not become less with the way.
+bool jumps(double at_far, double at_near, double rounding)
+{
+  return std::abs(at_near) > distinct * rounding && std::abs(at_far - at_near) < same * std::abs(at_near);
+}
 } // namespace
 
 SignalDerivatives::SignalDerivatives(Machine &machine, const std::vector<Signal> &signals,
@@ -57,21 +74,36 @@ VectorXd SignalDerivatives::values(const MotionState &state) const
   return y;
 }
 
-/// The motion at another instant by Taylor's series, on the branches of here.
-MotionState SignalDerivatives::moved(const MotionState &state, const VectorXd &jerk, double by)
+/// By quotients of order 4.
+Course SignalDerivatives::course(const MotionState &state, double way)
+{
+  const auto  &lags = equation_.lags();
+  const Course still{state.a, VectorXd::Zero(state.a.size())};
+  Course       found = still;
+  for (const auto &[by, of_rate, of_second] :
+       {std::tuple(way, 8. / 12., 16. / 12.), std::tuple(2. * way, -1. / 12., -1. / 12.)})
+    for (const double sign : {1., -1.})
+    {
+      const MotionState there = moved(state, still, sign * by);
+      found.third += sign * of_rate / way * there.a; // of lags zero
+      for (const int i : lags)
+      {
+        found.second[i] += sign * of_rate / way * there.v[i];
+        found.third[i] += of_second / (way * way) * (there.v[i] - state.v[i]);
+      }
+    }
+  return found;
+}
+
+/// On the branches of here.
+MotionState SignalDerivatives::moved(const MotionState &state, const Course &course, double by)
 {
   MotionState there = state;
   there.t           = state.t + by;
-  there.q           = state.q + by * state.v + 0.5 * by * by * state.a + by * by * by / 6. * jerk;
-  there.v           = state.v + by * state.a + 0.5 * by * by * jerk;
+  there.q           = state.q + by * state.v + 0.5 * by * by * course.second + by * by * by / 6. * course.third;
+  there.v           = state.v + by * course.second + 0.5 * by * by * course.third;
   equation_.linearisation().complete(there);
   return there;
-}
-
-VectorXd SignalDerivatives::jerk(const MotionState &state, double by)
-{
-  const VectorXd zero = VectorXd::Zero(state.q.size());
-  return (moved(state, zero, by).a - moved(state, zero, -by).a) / (2. * by);
 }
 
 /// Columns that go with moved().
@@ -86,18 +118,18 @@ MotionColumns SignalDerivatives::moved(const MotionState &at, const MotionColumn
   return there;
 }
 
-/// Rates of the measures and forces, and of the signals, by central quotients of two distances: order 4.
+/// By central quotients of two distances: order 4.
 void SignalDerivatives::find_rates(const MotionState &state, double way, LocalState &rates, VectorXd &y_rates)
 {
-  const VectorXd j = jerk(state, way);
-  rates            = state.local;
+  const Course on = course(state, way);
+  rates           = state.local;
   y_rates.setZero(Index(signals_.size()));
   for (VectorXd *x : {&rates.u, &rates.v, &rates.a, &rates.p, &rates.lambda})
     x->setZero();
   for (const auto &[by, weight] : {std::pair(way, 8. / 12.), std::pair(2. * way, -1. / 12.)})
     for (const double sign : {1., -1.})
     {
-      const MotionState there  = moved(state, j, sign * by);
+      const MotionState there  = moved(state, on, sign * by);
       const double      factor = sign * weight / way;
       rates.u += factor * there.local.u;
       rates.v += factor * there.local.v;
@@ -108,22 +140,78 @@ void SignalDerivatives::find_rates(const MotionState &state, double way, LocalSt
     }
 }
 
-/// y', y'' and the rate of dy/dx here, of all signals.
-SignalRates SignalDerivatives::rates(const MotionState &state, const MotionColumns &columns, double way)
+bool Turn::known() const
 {
-  const VectorXd j = jerk(state, way), here = values(state);
-  const Index    n = here.size();
-  SignalRates    found{VectorXd::Zero(n), VectorXd::Zero(n), MatrixXd::Zero(n, Index(twins_.size()))};
-  for (const auto &[by, of_rate, of_second] :
-       {std::tuple(way, 8. / 12., 16. / 12.), std::tuple(2. * way, -1. / 12., -1. / 12.)})
+  return off <= accurate * std::abs(second);
+}
+
+/// Rates here.  @return the way over which they were found
+double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, double step, double size, Turn &found)
+{
+  struct Over
+  {
+    double way, rate, second, before, behind, jump; ///< jump: y behind less y before
+  };
+  const auto   y    = [&](const MotionState &m) { return machine_.evaluate(signals_[signal], m.q, m.v, m.a, m.local); };
+  const double here = y(at);
+  std::vector<Over> over;
+  for (double way = longest * step; over.size() < ways; way *= shorter)
+  {
+    const Course on     = course(at, way);
+    const auto   rise   = [&](double by) { return y(moved(at, on, by)) - here; };
+    const double near[] = {rise(-way), rise(way)}, far[] = {rise(-2. * way), rise(2. * way)};
+    over.push_back({way, (8. * (near[1] - near[0]) - (far[1] - far[0])) / (12. * way),
+                    (16. * (near[0] + near[1]) - (far[0] + far[1])) / (12. * way * way),
+                    (far[0] - 4. * near[0]) / (2. * way), (4. * near[1] - far[1]) / (2. * way), near[1] - near[0]});
+  }
+  const auto  differ = [&](std::size_t j) { return std::abs(over[j].second - over[j + 1].second); };
+  std::size_t best   = 0;
+  for (std::size_t j = 1; j + 1 < ways; ++j)
+    best = differ(j) < differ(best) ? j : best;
+  // Where rounding, which grows by the square of the ways, is less than what they differ by, the next is better.
+  const double rounds = best + 2 < ways ? differ(best + 1) * shorter * shorter : differ(best);
+  found.off           = std::min(rounds, differ(best));
+  best += 2. * rounds < differ(best) ? 1 : 0;
+  const Over  &last = over[ways - 1], &but_one = over[ways - 2];
+  const double rounding = of_values * size;
+  found.rate            = over[best].rate;
+  found.second          = over[best].second;
+  found.before          = last.before;
+  found.behind          = last.behind;
+  found.kink            = jumps(but_one.jump, last.jump, rounding) ? Kink::jump
+                          : jumps(but_one.behind - but_one.before, last.behind - last.before, rounding / last.way) ? Kink::corner
+                                                                                                                   : Kink::none;
+  return over[best].way;
+}
+
+VectorXd SignalDerivatives::d_rates(std::size_t signal, const MotionState &at, const MotionColumns &columns, double way)
+{
+  const Course on    = course(at, way);
+  VectorXd     found = VectorXd::Zero(Index(twins_.size()));
+  for (const auto &[by, weight] : {std::pair(way, 8. / 12.), std::pair(2. * way, -1. / 12.)})
     for (const double sign : {1., -1.})
     {
-      const MotionState there = moved(state, j, sign * by);
-      const Told        told  = tell(there, moved(there, columns, sign * by));
-      found.rate += sign * of_rate / way * told.y;
-      found.d_rate += sign * of_rate / way * told.dy;
-      found.second += of_second / (way * way) * (told.y - here);
+      const MotionState there = moved(at, on, sign * by);
+      found += sign * weight / way * tell(there, moved(there, columns, sign * by)).dy.row(Index(signal)).transpose();
     }
+  return found;
+}
+
+Turn SignalDerivatives::turn(std::size_t signal, MotionState at, MotionColumns columns, double step, double size)
+{
+  Turn   found;
+  double way = find_turn(signal, at, step, size, found);
+  for (int k = 0; k < most; ++k)
+  {
+    const double by = -found.rate / found.second;
+    if (!found.known() || !(std::abs(by) < step) || std::abs(by) < arrived * way)
+      break;
+    at      = moved(at, course(at, way), by);
+    columns = moved(at, columns, by);
+    way     = find_turn(signal, at, step, size, found);
+  }
+  found.dy     = tell(at, columns).dy.row(Index(signal)).transpose();
+  found.d_rate = d_rates(signal, at, columns, way);
   return found;
 }
 

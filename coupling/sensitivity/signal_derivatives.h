@@ -14,17 +14,41 @@ struct Told
   Eigen::MatrixXd dy;
 };
 
-/// What becomes of signals in time.
-struct SignalRates
+/// How a signal goes on behind an instant.
+enum class Kink
 {
-  Eigen::VectorXd rate, second; ///< y', y'' [n_y]
-  Eigen::MatrixXd d_rate;       ///< dy'/dx [n_y x K]
+  none,
+  corner, ///< its rate jumps
+  jump    ///< it does
+};
+
+/// What becomes of a signal in time where it turns, or nearly.
+struct Turn
+{
+  double          rate = 0., second = 0., off = 0.; ///< y', y'', error of y''
+  Eigen::VectorXd dy, d_rate;                       ///< dy/dx, dy'/dx [K]
+  Kink            kink   = Kink::none;
+  double          before = 0., behind = 0.; ///< y' of either side
+
+  /// y'' is known to a ten thousandth: changes of instants are told to as many figures.
+  bool known() const;
+};
+
+/// The motion about an instant by Taylor's series: q'' of all coordinates, those without mass included, whose rate
+/// follows from a law, and its rate.
+struct Course
+{
+  Eigen::VectorXd second, third; // [n]
 };
 
 /**
  * Signals of a run along a motion, and their derivatives: by parameters at a fixed time, from the two machines of each
  * parameter at the motion moved by as much of its derivative; in time, by quotients over a little of the smooth motion
  * about an instant, of order 4, on the branches that hold there.
+ *
+ * Over which way: the shorter, the less the quotients err and the more does rounding.  turn() goes through ways of
+ * 1/3 of a step to 1/50000 and takes the first of two neighbours whose y'' agree best; what they differ by is the
+ * error. At a corner y'' grows as the way shortens, and neighbours never agree.
  */
 class SignalDerivatives
 {
@@ -37,15 +61,21 @@ public:
   /// The measures and forces at a motion moved by `by` times its derivative by parameter k.
   LocalState local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const;
 
-  /// The motion at another instant by Taylor's series.
-  MotionState moved(const MotionState &state, const Eigen::VectorXd &jerk, double by);
+  /// @param way  [s] short against what moves
+  Course course(const MotionState &state, double way);
+  /// The motion at another instant.
+  MotionState moved(const MotionState &state, const Course &course, double by);
   /// Rates of measures, forces and multipliers, and of the signals.
   /// @param way  [s] short against what moves
-  void        find_rates(const MotionState &state, double way, LocalState &rates, Eigen::VectorXd &of_signals);
-  SignalRates rates(const MotionState &state, const MotionColumns &columns, double way);
+  void find_rates(const MotionState &state, double way, LocalState &rates, Eigen::VectorXd &of_signals);
+  /// Of a signal at the turn next to a motion, where it is found by Newton's method.
+  /// @param step  [s] of the variational equations
+  /// @param size  of the signal, its largest value
+  Turn turn(std::size_t signal, MotionState at, MotionColumns columns, double step, double size);
 
 private:
-  Eigen::VectorXd jerk(const MotionState &state, double by);
+  double          find_turn(std::size_t signal, const MotionState &at, double step, double size, Turn &found);
+  Eigen::VectorXd d_rates(std::size_t signal, const MotionState &at, const MotionColumns &columns, double way);
   MotionColumns   moved(const MotionState &at, const MotionColumns &columns, double by);
 
   Machine                           &machine_;

@@ -264,6 +264,47 @@ void VariationalEquation::find_forces(const Linearised &at, MotionColumns &colum
     columns.p.row(held[std::size_t(h)].measure) = right_.bottomRows(n_h).row(h);
 }
 
+/// s and its measures by the impulses on joints, and on what sticks there, that change G W^T s by -open.
+void VariationalEquation::move(const Linearised &at, const MatrixXd &open, MatrixXd &s, MatrixXd &of_measures)
+{
+  const Base &mass = base(0.);
+  const auto &held = machine_.forces().held();
+  const Index n_c = open.rows(), n_h = Index(held.size());
+  MatrixXd    S_J(of_measures.rows(), n_c + n_h), Y_J(s.rows(), n_c + n_h), J_S_J(n_c + n_h, n_c + n_h),
+      product(n_c, n_c + n_h);
+  at.G.times_transposed(mass.S, S_J); // of the first columns
+  at.G.times_transposed(mass.Y, Y_J);
+  for (Index h = 0; h < n_h; ++h)
+  {
+    S_J.col(n_c + h) = mass.S.col(held[std::size_t(h)].measure);
+    Y_J.col(n_c + h) = mass.Y.col(held[std::size_t(h)].measure);
+  }
+  at.G.times(S_J, product);
+  J_S_J.topRows(n_c) = product;
+  for (Index h = 0; h < n_h; ++h)
+    J_S_J.row(n_c + h) = S_J.row(held[std::size_t(h)].measure);
+  MatrixXd right         = MatrixXd::Zero(n_c + n_h, open.cols());
+  right.topRows(n_c)     = -open;
+  const MatrixXd impulse = lu_solution(J_S_J, right);
+  s.noalias() += Y_J * impulse;
+  of_measures.noalias() += S_J * impulse;
+}
+
+void VariationalEquation::close_joints(const Linearised &at, MotionColumns &columns)
+{
+  if (machine_.joints().n_rows() == 0)
+    return;
+  MatrixXd open(at.g.rows(), at.g.cols());
+  at.G.times(columns.u, open);
+  open += at.g;
+  move(at, open, columns.q, columns.u);
+  at.G.times(columns.u_rate, open);
+  open += at.g_rate;
+  open.noalias() += at.G_rate * columns.u;
+  move(at, open, columns.v, columns.u_rate);
+  solve(at, 0., columns);
+}
+
 void VariationalEquation::solve(const Linearised &at, double c, MotionColumns &columns)
 {
   const auto &W = machine_.forces().directions();

@@ -46,6 +46,12 @@ public:
   const Eigen::VectorXd  &mass_diagonal() const { return mass_; }
   const std::vector<int> &lags() const { return lags_; }
 
+  /// Moves s and s', as little as their masses allow, to where they keep joints closed,
+  ///
+  ///     G W^T s + g_x = 0,   G W^T s' + (G u' + rate)_u W^T s + (G u' + rate)_x = 0,
+  ///
+  /// of which steps keep the second derivative only; and all else that follows from s and s'.
+  void close_joints(const Linearised &at, MotionColumns &columns);
   /// Of columns.q = s_0, columns.v = s'_0 the stage: all of `columns`.
   void solve(const Linearised &at, double c, MotionColumns &columns);
 
@@ -68,6 +74,7 @@ private:
   Eigen::MatrixXd joint_rows(const Linearised &at, double c) const;
   Eigen::MatrixXd joint_right(const Linearised &at, const MotionColumns &columns) const;
 
+  void move(const Linearised &at, const Eigen::MatrixXd &open, Eigen::MatrixXd &s, Eigen::MatrixXd &of_measures);
   void settle_lags(const Linearised &at, MotionColumns &columns) const;
 
   Machine               &machine_;

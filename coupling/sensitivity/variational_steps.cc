@@ -201,6 +201,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     std::swap(state_, stage_state_);
     std::swap(at_, stage_at_);
     std::swap(columns_, stage_);
+    equation_.close_joints(at_, columns_);
     ++n_steps_;
     note_sizes();
     if (!last && err < growth)

@@ -44,8 +44,12 @@ void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &
   const Eigen::MatrixXd slopes =
       coupling::frequency_sensitivities(at(scene, prepared.machine), result.coupled_modes, sides);
   for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
-    found.outputs.push_back({"modes." + std::to_string(j + 1), "Hz", "", result.coupled_modes[j].frequency_hz,
-                             slopes.row(Eigen::Index(j)).transpose()});
+  {
+    const Eigen::VectorXd slope = slopes.row(Eigen::Index(j)).transpose();
+    found.outputs.push_back({"modes." + std::to_string(j + 1), "Hz",
+                             slope.hasNaN() ? "no derivative: the frequency is zero, or meets another" : "",
+                             result.coupled_modes[j].frequency_hz, slope});
+  }
 }
 
 } // namespace

@@ -184,6 +184,65 @@ double quotient(const std::string &path, std::vector<std::string> overrides, con
   return (8. * (at(h) - at(-h)) - (at(2. * h) - at(-2. * h))) / (12. * h * value);
 }
 
+/// A cam at a given speed lifts a follower by h sin(phi) through a stiff spring.
+const char *const stiff_cam = R"(
+name = 'stiff_cam'
+[parameters]
+w = '10 rad/s'
+h = '20 mm'
+[body.cam]
+type    = 'rotor'
+axis    = [0, 1, 0]
+inertia = '0.02 kg m^2'
+[body.follower]
+type = 'slider'
+axis = [0, 0, 1]
+mass = '2 kg'
+[measure.height]
+type      = 'along'
+from      = 'follower'
+to        = 'ground'
+at_to     = [0, 0, 0]
+direction = [0, 0, 1]
+[measure.gap]
+type     = 'position function'
+from     = 'cam.angle'
+to       = 'height'
+function = 'h*sin(x)'
+[element.contact]
+type      = 'spring-damper'
+on        = 'gap'
+stiffness = '20 kN/mm'
+damping   = '100 N s/m'
+[joint.drive]
+type   = 'prescribed motion'
+on     = 'cam.angle'
+motion = { speed = 'w' }
+[start]
+rule = 'given'
+v    = { cam = 'w', follower = 'h*w' }
+[run]
+method    = 'bdf'
+tolerance = 1e-9
+end       = '0.53 s'
+[output.signals]
+F = 'contact.force'
+M = 'drive.torque'
+)";
+
+TEST(Sensitivities, OfAStiffElementOnAMeasureThatTurnsHoldAcrossItToo)
+{
+  // Of a spring that is stiff enough z = h sin(wt), F = m z'' and M = F h cos(wt), but for (w^2 m/c) = 1e-5 and what
+  // the tolerance leaves of s, times the stiffness.
+  const test::SceneFolder folder;
+  const auto   found = *Session(folder.write("cam.toml", test::quoted(stiff_cam))).run("parameters.w").sensitivities;
+  const double m = 2., h = 0.02, w = 10., T = 0.53, phi = w * T;
+  EXPECT_NEAR(std::abs(output(found, "F.final").derivative[0]),
+              std::abs(m * h * (2. * w * std::sin(phi) + w * w * T * std::cos(phi))), 1e-3 * m * h * w * w);
+  EXPECT_NEAR(output(found, "M.final").derivative[0],
+              -m * h * h * (w * std::sin(2. * phi) + w * w * T * std::cos(2. * phi)), 1e-3 * m * h * h * w * w);
+}
+
 TEST(Sensitivities, OfTheCraneAreQuotientsOfConvergedRuns)
 {
   // Joints, the limiter's switch on a joint's force, the braking profile.  Of the quotient by runs of order 4 some 1e-6

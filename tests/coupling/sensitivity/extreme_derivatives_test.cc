@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace
 {
@@ -15,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double near = 1e-9, length = 1., way = 1e-5, step = 1e-3;
+constexpr double near = 1e-9, length = 1., step = 1e-3;
 
 /// One parameter of value 2.
 std::vector<ParameterTwins> one_parameter()
@@ -35,10 +36,11 @@ protected:
     run.signals = {{"y", "N", smallest, 0.2, largest, 0.6, 0.}};
     return ExtremeDerivatives(run, twins_, near, length);
   }
-  Told        told(double y, double dy) const { return {VectorXd::Constant(1, y), MatrixXd::Constant(1, 1, dy)}; }
-  SignalRates rates(double rate, double second, double d_rate) const
+  Told told(double y, double dy) const { return {VectorXd::Constant(1, y), MatrixXd::Constant(1, 1, dy)}; }
+  /// @param off  error of the second derivative
+  Turn turn(double dy, double rate, double second, double d_rate, double off = 0., Kink kink = Kink::none) const
   {
-    return {VectorXd::Constant(1, rate), VectorXd::Constant(1, second), MatrixXd::Constant(1, 1, d_rate)};
+    return {rate, second, off, VectorXd::Constant(1, dy), VectorXd::Constant(1, d_rate), kink, -60., 80.};
   }
 
   std::vector<ParameterTwins> twins_ = one_parameter();
@@ -64,7 +66,7 @@ TEST_F(Extremes, AreOfTheSideOfAJumpWhoseValueTheyHave)
 TEST_F(Extremes, ThatAreZeroButForRoundingHaveNone)
 {
   auto extremes = of(-4e-12, 9.);
-  extremes.at_turn(0.2, told(-4e-12, 5e3), rates(0., 1e3, 2.), way, step);
+  extremes.at_turn(0.2, 0, turn(5e3, 0., 1e3, 2.), step);
   const auto outputs = extremes.take();
   EXPECT_TRUE(std::isnan(outputs[0].derivative[0]));
   EXPECT_TRUE(std::isnan(outputs[1].derivative[0]));
@@ -86,7 +88,7 @@ TEST_F(Extremes, AtAnEventThatAreZeroButForItsLocationHaveNone)
 
   // Where the signal turns, the value is as exact as the motion, and a percentage of it is none.
   auto turning = of(-2.5e-5, 19613.);
-  turning.at_turn(0.2, told(-2.5e-5, 3.), rates(0., 1e9, 2.), way, step);
+  turning.at_turn(0.2, 0, turn(3., 0., 1e9, 2.), step);
   const auto turned = turning.take();
   EXPECT_EQ(turned[0].derivative[0], 3.);
   EXPECT_TRUE(turned[0].is_zero);
@@ -102,7 +104,7 @@ TEST_F(Extremes, ThatALawMakesExactlyZeroHaveOne)
 TEST_F(Extremes, MoveByTheirSlopeOverTheirCurvature)
 {
   auto extremes = of(-3., 9.);
-  extremes.at_turn(0.6, told(9., 4.), rates(0., -50., 2.), way, step);
+  extremes.at_turn(0.6, 0, turn(4., 0., -50., 2.), step);
   const auto outputs = extremes.take();
   EXPECT_EQ(outputs[2].derivative[0], 4.);
   EXPECT_DOUBLE_EQ(outputs[3].derivative[0], 2. / 50.);
@@ -110,13 +112,12 @@ TEST_F(Extremes, MoveByTheirSlopeOverTheirCurvature)
 
 TEST_F(Extremes, OfFlatPeaksHaveAValueButNoInstant)
 {
-  // y'' of 1e-13 of 9 over the square of the way is rounding; a signal that turns the other way, or beyond a step, is
-  // no peak by its curvature.
-  const double rounding = 9. * 1e-13 / (way * way);
-  for (const auto &[rate, second] : {std::pair(0., -rounding), std::pair(0., 50.), std::pair(0.2, -50.)})
+  // y'' that is not known; a signal that turns the other way, or beyond a step, is no peak by its curvature.
+  for (const auto &[rate, second, off] :
+       {std::tuple(0., -50., 0.02), std::tuple(0., 50., 0.), std::tuple(0.2, -50., 0.)})
   {
     auto extremes = of(-3., 9.);
-    extremes.at_turn(0.6, told(9., 4.), rates(rate, second, 2.), way, step);
+    extremes.at_turn(0.6, 0, turn(4., rate, second, 2., off), step);
     const auto outputs = extremes.take();
     EXPECT_EQ(outputs[2].derivative[0], 4.);
     EXPECT_TRUE(std::isnan(outputs[3].derivative[0]));
@@ -124,11 +125,29 @@ TEST_F(Extremes, OfFlatPeaksHaveAValueButNoInstant)
   }
 }
 
+TEST_F(Extremes, WhereTheSignalDoesNotTurnHaveNone)
+{
+  // At a corner y'' is not known; a signal that still falls by 1 % of its size in a step does not turn.
+  const auto reason = [&](const Turn &at)
+  {
+    auto extremes = of(-3., 9.);
+    extremes.at_turn(0.6, 0, at, step);
+    const auto outputs = extremes.take();
+    EXPECT_TRUE(std::isnan(outputs[2].derivative[0]));
+    EXPECT_TRUE(std::isnan(outputs[3].derivative[0]));
+    EXPECT_EQ(outputs[2].note, outputs[3].note);
+    return outputs[2].note;
+  };
+  EXPECT_THAT(reason(turn(4., 10., 1e6, 2., 8e5, Kink::corner)), ::testing::HasSubstr("rate goes from -60 to 80"));
+  EXPECT_THAT(reason(turn(4., 10., 1e6, 2., 8e5, Kink::jump)), ::testing::HasSubstr("jumps"));
+  EXPECT_THAT(reason(turn(4., -90., -50., 2.)), ::testing::HasSubstr("its rate is -90"));
+}
+
 TEST_F(Extremes, WhoseInstantOnePercentMovesOutOfTheRunHaveNoInstant)
 {
   // 0.01 2 x 2/0.03 = 1.3 runs
   auto extremes = of(-3., 9.);
-  extremes.at_turn(0.6, told(9., 4.), rates(0., -0.03, 2.), 1e-3, step);
+  extremes.at_turn(0.6, 0, turn(4., 0., -0.03, 2.), step);
   const auto outputs = extremes.take();
   EXPECT_TRUE(std::isnan(outputs[3].derivative[0]));
   EXPECT_THAT(outputs[3].note, ::testing::HasSubstr("more than the run"));

@@ -2,6 +2,7 @@
 
 #include "mechanism/elements/clearance.h"
 #include "mechanism/elements/coulomb_friction.h"
+#include "mechanism/elements/dynamic_motor.h"
 #include "tests/coupling/sensitivity/twin_machines.h"
 
 #include <gtest/gtest.h>
@@ -144,6 +145,32 @@ TEST(RunSensitivities, GoOverSticking)
   EXPECT_NEAR(t[1], m / F, 1e-7);
   EXPECT_NEAR(q[0], -m * v * v / (2. * F * F), 1e-7);
   EXPECT_NEAR(q[1], m * v / F, 1e-7);
+}
+
+/// x = (scale of time): a motor starts, whose torque follows its characteristic with a lag; both rise, turn and fall.
+Made starting(const VectorXd &x)
+{
+  MachineModel model;
+  const double T  = x[0];
+  const int rotor = model.add_rotor("rotor", {0., 0., 1.}, 0.5, 0., "ground"), torque = model.add_lag("lag", 0.1 * T);
+  const gestell::mechanism::KlossMotor::Parameters motor{20. / (T * T), 0.2, 100. / T, 1.};
+  model.attach("motor", std::make_shared<gestell::mechanism::DynamicMotor>(motor), {{{rotor, 1.}}, {{torque, 1.}}});
+  Machine             machine(std::move(model));
+  std::vector<Signal> signals = {machine.signal("M", "motor.torque"), machine.signal("w", "rotor.speed")};
+  InitialState        at_rest;
+  at_rest.q = at_rest.v = VectorXd::Zero(2);
+  return {std::move(machine), at_rest, std::move(signals)};
+}
+
+TEST(RunSensitivities, OfInstantsAtWhichMasslessStatesTurnAreInProportionToAllTimes)
+{
+  const auto found = differentiated(starting, VectorXd::Constant(1, 1.), fine(6.));
+  for (const std::string name : {"M.t_max", "w.t_max"})
+  {
+    ASSERT_LT(found[name].value, 5.9) << name; // it turns
+    EXPECT_NEAR(found[name].derivative[0], found[name].value, 1e-5 * found[name].value) << name;
+  }
+  EXPECT_NEAR(found["M.max"].derivative[0], -2. * found["M.max"].value, 1e-6 * found["M.max"].value);
 }
 
 } // namespace

@@ -1,0 +1,101 @@
+// Buckingham's identities: how outputs change with the units of length, mass and time is known, whatever the machine.
+
+#include "apps/session/session.h"
+#include "tests/support/scaled_scene.h"
+#include "tests/support/scene_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::SensitivityOutput;
+using apps::Session;
+
+/// "F_P" of "F_P.t_max", "events" of "events.3.t".
+std::string signal_of(const std::string &output)
+{
+  return output.compare(0, 7, "events.") == 0 ? "events" : output.substr(0, output.rfind('.'));
+}
+
+bool is_time(const std::string &output)
+{
+  const std::string what = output.substr(output.rfind('.') + 1);
+  return what == "t" || what == "t_min" || what == "t_max";
+}
+
+/// A scene of apps/scenes, shortened and by a method exact enough to be the motion that its equations have.
+struct Shipped
+{
+  std::string              scene;
+  std::vector<std::string> overrides;
+  double                   error;       ///< of derivatives, relative to the largest value of their signal
+  double                   of_instants; ///< likewise of instants of peaks
+};
+
+class Identities : public ::testing::TestWithParam<Shipped>
+{
+};
+
+TEST_P(Identities, OfLengthMassAndTimeHold)
+{
+  const Shipped          &shipped = GetParam();
+  const test::SceneFolder folder;
+  const std::string       path = test::write_scaled_scene(shipped.scene, folder.path(""));
+  std::string             keys;
+  for (const char *scale : test::scales)
+    keys += (keys.empty() ? "parameters." : ",parameters.") + std::string(scale);
+  const apps::Result result = Session(path, shipped.overrides).run(keys);
+  const auto        &found  = *result.sensitivities;
+  ASSERT_EQ(found.failure, "");
+  std::map<std::string, double> sizes;
+  for (const SensitivityOutput &output : found.outputs)
+    if (!is_time(output.output))
+    {
+      double &size = sizes[signal_of(output.output)];
+      size         = std::max(size, std::abs(output.value));
+    }
+  const double end  = result.run->rows[result.run->rows.size() - result.run->columns.size()];
+  int          told = 0;
+  for (const SensitivityOutput &output : found.outputs)
+  {
+    const bool   frequency = signal_of(output.output) == "modes", instant = is_time(output.output);
+    const double size  = frequency ? std::abs(output.value) : instant ? end : sizes[signal_of(output.output)];
+    const auto   power = test::exponents(output.unit);
+    for (std::size_t k = 0; k < test::scales.size(); ++k)
+    {
+      const double derivative = output.derivative[Eigen::Index(k)];
+      if (!std::isfinite(derivative))
+      {
+        EXPECT_NE(output.note, "") << output.output;
+        continue;
+      }
+      ++told;
+      EXPECT_NEAR(derivative, power[k] * output.value, (instant ? shipped.of_instants : shipped.error) * size)
+          << output.output << " by " << test::scales[k] << ", of " << output.value << ' ' << output.unit;
+    }
+  }
+  EXPECT_GT(told, 0);
+}
+
+// Errors are those of runs with these tolerances, across events larger than without; forces of stiff contacts enlarge
+// them by the stiffness.  What is missing or wrong in a derivative is a share of its output.
+INSTANTIATE_TEST_SUITE_P(
+    OfShippedScenes, Identities,
+    ::testing::Values(
+        Shipped{"crane_minimal.toml", {"run.tolerance=1e-10", "run.end=(5 s)*scale_of_time"}, 2e-6, 1e-5},
+        Shipped{"press_minimal.toml", {"run.tolerance=1e-10", "parameters.t_end=(0.25 s)*scale_of_time"}, 1e-4, 1e-3},
+        Shipped{"crank_press_joints.toml", {"run.tolerance=1e-10", "run.end=(0.4 s)*scale_of_time"}, 1e-4, 1e-4},
+        Shipped{"double_four_bar.toml", {"run.tolerance=1e-9", "run.end=(1 s)*scale_of_time"}, 1e-6, 1e-4},
+        Shipped{"run_up.toml", {"run.tolerance=1e-9", "run.end=(0.5 s)*scale_of_time"}, 1e-5, 1e-5},
+        Shipped{"cam_follower.toml", {"run.tolerance=1e-9", "run.end=(0.2 s)*scale_of_time"}, 1e-3, 1e-3}),
+    [](const auto &info) { return info.param.scene.substr(0, info.param.scene.find('.')); });
+
+} // namespace
+} // namespace gestell::tests
