@@ -175,6 +175,7 @@ void BdfControlled::restart()
   system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;
   scale_.laws(dp_du_, dp_dv_);
+  scale_.inertia(local_);
   stiffness_ = (dp_du_.diagonal() - stiffness_).cwiseAbs();
 }
 

@@ -41,7 +41,9 @@ class StateArchive;
  * Errors that rounding explains do not count: scales are not below rounding / tolerance times |q|, |v|,
  * what forces that balance each other would do alone, and the numbers whose difference a joint closes or a force
  * depends on: l - l cos(phi) knows an angle below 1e-8 no more.  Joints close positions, so that rounding r of these is
- * r/h in rates, and a law with dp/du' moves its virtual coordinate by  h/(T + h) |dp/du'| r/h  in a step.
+ * r/h in rates, and a law with dp/du' moves its virtual coordinate by  h/(T + h) |dp/du'| r/h  in a step.  It is r/h^2
+ * in accelerations: a force with dp/du'' takes r of one of its measures, whatever the step, to the others, 1/m
+ * |dp/du''| r.
  */
 class ErrorScale
 {
@@ -65,6 +67,8 @@ public:
   void expect(double way, double speed);
   /// dp/du, dp/du' [n_u x n_u] of the laws, where they change.
   void laws(const Eigen::MatrixXd &dp_du, const Eigen::MatrixXd &dp_dv);
+  /// Forces that depend on accelerations, as they do at this motion, carry what rounding joints leave.
+  void inertia(const LocalState &at);
 
   /// A step of length h [s] would lead from `from` to `to` at t: the scales for its errors.
   /// @param moved  [n_u] how far local forces alone move the measures in the step: a force that holds a body leaves

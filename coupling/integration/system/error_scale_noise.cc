@@ -44,6 +44,34 @@ void ErrorScale::find_noise_of_joints()
   }
 }
 
+/// In a step by a force with dp/du'' a measure moves by  1/m dp/du''  times what the others do, if nothing else moves
+/// it; the norm of dp/du'' is that of any position, as of an unbalance however it has turned.
+void ErrorScale::inertia(const LocalState &at)
+{
+  if (system_.joints().n_rows() == 0)
+    return;
+  const std::vector<ForceBlock> blocks = system_.forces().blocks();
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(noise_.size()), tangent = Eigen::VectorXd::Zero(tangent_size(blocks));
+  system_.forces().tangent_blocks(at, 0., 0., 1., p, tangent);
+  const double *entry    = tangent.data();
+  bool          carry_it = false;
+  for (const ForceBlock &block : blocks)
+  {
+    const int    n  = block.n_measures;
+    const double dp = Eigen::Map<const Eigen::MatrixXd>(entry, n, n).norm();
+    entry += n * n;
+    if (!(dp > 0.))
+      continue;
+    carry_it           = true;
+    const double noise = joint_noise_.segment(block.first_measure, n).maxCoeff();
+    for (int j = block.first_measure; j < block.first_measure + n; ++j)
+      if (root_mass_[j] > 0.)
+        noise_[j] = std::max(noise_[j], dp * noise / (root_mass_[j] * root_mass_[j]));
+  }
+  if (carry_it)
+    spread(noise_, noise_of_groups_);
+}
+
 /// What joints and forces leave of the sizes of their terms in their own measures, from there in the coordinates, and
 /// so in all measures of these.
 void ErrorScale::find_noise()
