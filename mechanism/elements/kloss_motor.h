@@ -2,6 +2,8 @@
 
 #include "mechanism/differentiable_element.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
 
@@ -10,7 +12,9 @@ namespace gestell::mechanism
  *
  * Measure u: angle of the driven shaft [rad]; torque on it, driving positive, acts as p = M:
  *
- *     s = 1 - i u'/Omega_sync,     M = i 2 M_K s s_K / (s^2 + s_K^2)          [N m]
+ *     s = 1 - i u'/Omega_sync,     M = sign(Omega_sync) i 2 M_K s s_K / (s^2 + s_K^2)          [N m]
+ *
+ * A negative synchronous speed is reverse running: M(-u', -Omega_sync) = -M(u', Omega_sync).
  *
  * Source: Kloss 1901; reference model of the crank press, section 3.
  */
@@ -32,7 +36,7 @@ public:
   {
     const auto &[M_K, s_K, sync, i] = parameters_;
     const Number s                  = 1. - i / sync * m.v[0];
-    p[0]                            = (2. * i * M_K * s_K) * s / (s * s + s_K * s_K);
+    p[0]                            = std::copysign(2. * i * M_K * s_K, sync) * s / (s * s + s_K * s_K);
   }
 
   Work                  work() const override { return Work::input; }

@@ -21,7 +21,7 @@ std::vector<Key> kloss_keys()
   const mechanism::KlossMotor::Parameters own;
   return {key::number("breakdown_torque", kind::torque, "largest torque of the motor").above_zero(),
           key::number("breakdown_slip", kind::number, "slip at that torque").as_share(),
-          key::number("synchronous_speed", kind::angular_speed, "of the motor"),
+          key::number("synchronous_speed", kind::angular_speed, "of the motor; negative: it runs backwards"),
           key::number("ratio", kind::number, "motor speed / shaft speed").above_zero().by_default(own.ratio)};
 }
 

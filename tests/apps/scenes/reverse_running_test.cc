@@ -1,0 +1,50 @@
+// A drive whose synchronous speed is negative turns the machine as its mirror image does.
+
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+/// Angle and torque of a rotor against friction, from a speed; all rows.
+std::vector<double> motion(const std::string &type, double synchronous, double speed)
+{
+  Keys motor = {{"on", "r"}, {"breakdown_torque", "20"}, {"breakdown_slip", "0.2"}, {"ratio", "3"}};
+  motor.push_back({"synchronous_speed", number(synchronous) + " 1/min"});
+  if (type == "dynamic motor")
+    motor.push_back({"time_constant", "20 ms"});
+  const test::SceneFolder folder;
+  const std::string       text = rotor_body("r", "0.4", "[0, 1, 0]") + element("m", type, motor) +
+                           element("f", "spring-damper", {{"from", "r"}, {"damping", "0.05"}}) +
+                           start("v = { r = " + number(speed) + " }") + steps("1 ms", "1.5 s") +
+                           signals("a = 'r.angle', w = 'r.speed', T = 'm.torque', s = 'm.slip'");
+  return SceneRun(folder.write("scene.toml", text)).result.rows;
+}
+
+// Motoring, braking against the field, generating, from speeds of both signs.
+TEST(ReverseRunning, IsTheMirrorImageOfRunningForwards)
+{
+  for (const std::string type : {"asynchronous motor", "dynamic motor"})
+    for (const double speed : {-50., 0., 20., 60.}) // synchronous: 34.9 rad/s of the shaft
+    {
+      const auto forwards = motion(type, 1000., speed), backwards = motion(type, -1000., -speed);
+      ASSERT_EQ(forwards.size(), backwards.size());
+      const std::size_t columns = 5; // t, a, w, T, s
+      ASSERT_EQ(forwards.size() % columns, 0u);
+      for (std::size_t i = 0; i < forwards.size(); ++i)
+      {
+        const bool mirrored = i % columns >= 1 && i % columns <= 3;
+        ASSERT_EQ(backwards[i], mirrored ? -forwards[i] : forwards[i]) << type << ' ' << speed << " at " << i;
+      }
+      EXPECT_NEAR(backwards[backwards.size() - 3], -34.9, 1.) << type; // it reaches its speed and stays there
+    }
+}
+
+} // namespace
+} // namespace gestell::tests
