@@ -54,17 +54,28 @@ void GasForce::accept(const LocalMotion &motion, double *history) const
   history[1] = pressure(motion, history) * std::pow(volume(motion.u[0]), parameters_.exponent);
 }
 
+double GasForce::stored_with_valves(double P) const
+{
+  const double n = parameters_.exponent, P_s = parameters_.valves->suction;
+  const double at_suction = P_s * std::pow(P / P_s, 1. / n); // P_s V_s/V
+  return (n > 1. ? (P - at_suction) / (n - 1.) : P * std::log(P / P_s)) - at_suction;
+}
+
 double GasForce::stored_energy(const LocalMotion &motion, const double *history) const
 {
-  if (parameters_.valves)
-    return 0.;
   const double V = volume(motion.u[0]), n = parameters_.exponent, K = history[1];
+  if (parameters_.valves)
+    return (stored_with_valves(pressure(motion, history)) + parameters_.back_pressure) * V;
   return (n > 1. ? K * std::pow(V, 1. - n) / (n - 1.) : -K * std::log(V)) + parameters_.back_pressure * V;
 }
 
 double GasForce::stored_power(const LocalMotion &motion, const double *history) const
 {
-  return parameters_.valves ? 0. : resistance(motion, history) * motion.v[0];
+  const bool delivers = parameters_.valves && pressure(motion, history) == parameters_.valves->delivery;
+  if (delivers && (!motion.by_history || branch_of(history) == delivery))
+    return (stored_with_valves(parameters_.valves->delivery) + parameters_.back_pressure) * side() * parameters_.area *
+           motion.v[0];
+  return resistance(motion, history) * motion.v[0];
 }
 
 int GasForce::n_guards(const double *history) const

@@ -21,8 +21,14 @@ namespace gestell::mechanism
  *     delivery    P = P_d, from where P has risen to P_d until the volume no longer falls
  *
  * What is left in the clearance volume V_c expands before new gas comes in.  Valves have neither mass nor resistance.
- * Without valves the gas is a spring, its energy K V^(1-n)/(n-1) + P_a V is stored; with valves the work of the cycle
- * counts as dissipated.  Below V_c/2, where only a trial motion gets, P goes on along its tangent.
+ * Without valves the gas is a spring, its energy K V^(1-n)/(n-1) + P_a V is stored.  With valves stored is what the
+ * enclosed gas gives back until it has the pressure of the suction line, at the volume V_s = V (P/P_s)^(1/n), and the
+ * work of that line and of the other side,
+ *
+ *     E = (P V - P_s V_s)/(n - 1) - P_s V_s + P_a V,     dE/dV = P_a - P  while enclosed or in suction,
+ *
+ * so that compression and expansion dissipate nothing, and delivery n/(n-1) (P_d - P_s V_s/V) per volume delivered: over
+ * a cycle the work of the compressor.  For n = 1 the first term is P V ln(P/P_s).  Below V_c/2, where only a trial motion gets, P goes on along its tangent.
  *
  * Source: Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.1 (compressor forces); any textbook of reciprocating
  * compressors.
@@ -113,6 +119,8 @@ private:
   }
 
   double pressure(const LocalMotion &motion, const double *history) const;
+  /// E/V with valves, less P_a, of gas at the pressure P.
+  double stored_with_valves(double P) const;
 
   Parameters parameters_;
 };

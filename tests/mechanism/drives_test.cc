@@ -133,6 +133,24 @@ TEST(SpeedDrive, WithoutAnIntegralLeavesItsStateAlone)
   EXPECT_EQ(drive.n_guards(history.data()), 0);
 }
 
+// A motor whose synchronous speed is negative is the mirror image of one whose speed is positive: motoring, generating
+// and braking in both directions.
+TEST(KlossMotor, RunsBackwardsAsItRunsForwards)
+{
+  const KlossMotor forwards({240., 0.15, 157., 49.}), backwards({240., 0.15, -157., 49.});
+  const double     synchronous = 157. / 49.;
+  for (const double share : {-1.5, -0.9, -0.2, 0., 0.3, 0.8, 0.99, 1., 1.02, 1.7})
+  {
+    const Probe  there = probe1(0., share * synchronous), mirrored = probe1(0., -share * synchronous);
+    const double M = force(forwards, there, nullptr)[0], M_mirrored = force(backwards, mirrored, nullptr)[0];
+    EXPECT_EQ(M_mirrored, -M) << share;
+    EXPECT_EQ(M > 0., share < 1.) << share; // towards the synchronous speed
+    for (int i = 0; i < 3; ++i)             // torque, power, slip
+      EXPECT_EQ(backwards.quantity(i, mirrored.motion(), nullptr),
+                (i == 0 ? -1. : 1.) * forwards.quantity(i, there.motion(), nullptr));
+  }
+}
+
 TEST(DynamicMotor, PassesItsStateOnAndFollowsKloss)
 {
   const KlossMotor::Parameters data{240., 0.15, 157., 49.};
@@ -322,16 +340,26 @@ TEST(GasForce, OfACompressorTakesItsIndicatedWork)
                    Eigen::VectorXd::Constant(1, -s * 0.5 * stroke * std::sin(0.3 + time)), Eigen::VectorXd::Zero(1)};
     };
     Eigen::VectorXd history = started(gas, motion(0.));
-    double          work = 0., begin = 0.;
+    double          work = 0., dissipated = 0., begin = 0., begin_dissipated = 0.;
     constexpr int   steps = 400000; // two turns; the second one is periodic
     const double    h     = 4. * M_PI / steps;
     std::string     kinds;
     for (int i = 0; i < steps; ++i)
     {
       if (i == steps / 2)
-        begin = work;
-      const Probe middle = motion((i + 0.5) * h), end = motion((i + 1) * h);
-      work -= h * force(gas, middle, history.data(), true)[0] * middle.v[0];
+      {
+        begin            = work;
+        begin_dissipated = dissipated;
+      }
+      const Probe  middle = motion((i + 0.5) * h), end = motion((i + 1) * h);
+      const double taken = -force(gas, middle, history.data(), true)[0] * middle.v[0];
+      const double lost  = taken - gas.stored_power(middle.motion(true), history.data());
+      work += h * taken;
+      dissipated += h * lost;
+      // Compression and expansion lose nothing, delivery does; it is closed at the end of the step in which it turns.
+      const bool delivers = gas.guards(history.data())[0].kind == "delivery_closes", turned = s * middle.v[0] > 0.;
+      ASSERT_GE(delivers && turned ? 0. : lost, -1e-12 * std::abs(taken));
+      ASSERT_LE(delivers ? 0. : lost, 1e-12 * std::abs(taken));
       for (int g = 0; g < gas.n_guards(history.data()); ++g)
         if (past(gas, g, motion(i * h), history.data()) <= 0. && past(gas, g, end, history.data()) > 0.)
         {
@@ -344,8 +372,31 @@ TEST(GasForce, OfACompressorTakesItsIndicatedWork)
     const double n = 1.3, V_1 = 5e-5 + 0.01 * stroke, V_4 = 5e-5 * std::pow(6., 1. / n);
     const double indicated = n / (n - 1.) * 1e5 * (V_1 - V_4) * (std::pow(6., (n - 1.) / n) - 1.);
     EXPECT_NEAR(work - begin, indicated, 1e-3 * indicated); // transitions at the ends of steps
+    EXPECT_NEAR(dissipated - begin_dissipated, indicated, 1e-3 * indicated);
     EXPECT_EQ(kinds, "delivery_opens delivery_closes suction_opens suction_closes delivery_opens delivery_closes "
                      "suction_opens suction_closes ");
+  }
+}
+
+TEST(GasForce, WithValvesStoresWhatItsPowerSays)
+{
+  for (const double n : {1., 1.3})
+  {
+    GasForce::Parameters data = cylinder();
+    data.exponent             = n;
+    data.initial_pressure     = 2e5;
+    const GasForce gas(data);
+    for (const double branch : {-1., 0., 1.})
+    {
+      Eigen::VectorXd history = started(gas, probe1(0.05, 0.));
+      history[0]              = branch;
+      const double u = 0.03, d = 1e-7, speed = -0.7;
+      const double slope = (gas.stored_energy(probe1(u + d, 0.).motion(true), history.data()) -
+                            gas.stored_energy(probe1(u - d, 0.).motion(true), history.data())) /
+                           (2. * d);
+      const double power = gas.stored_power(probe1(u, speed).motion(true), history.data());
+      EXPECT_NEAR(power, slope * speed, 1e-6 * std::abs(power)) << n << ' ' << branch;
+    }
   }
 }
 
