@@ -118,7 +118,7 @@ void Newmark::formula_step(const Point &from, double h, Point &to)
     f_ += (weight * alpha_f) * from.f;
     for (int j = 0; j < W.outerSize(); ++j)
       for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it; ++it)
-        f_[it.row()] += weight * alpha_f * it.value() * start.local.p[j];
+        f_[it.row()] += weight * alpha_f * it.value() * from.p[j];
   }
   if (alpha_m != 0.)
   {

@@ -37,6 +37,7 @@ OneStep::OneStep(const SecondOrderSystem &system, const std::string &name, doubl
     resize(*point);
   q_inside_.setZero(system.linear().size());
   v_inside_.setZero(system.linear().size());
+  a_found_.setZero(system.linear().size());
 }
 
 void OneStep::resize(Point &point) const
@@ -45,6 +46,7 @@ void OneStep::resize(Point &point) const
   for (Eigen::VectorXd *x : {&point.motion.q, &point.motion.v, &point.a, &point.f})
     x->setZero(n);
   point.motion.local.resize(system_);
+  point.keep_balance();
 }
 
 /// The present point becomes t, q, v with its measures; no step lies behind it.
@@ -72,6 +74,7 @@ void OneStep::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v
   implicit_.begin(here.local.u);
   start_.project(here.q, here.v, here.local);
   start_.solve(here.q, here.v, end_.a, here.local, work_);
+  end_.keep_balance();
 }
 
 void OneStep::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a)
@@ -93,6 +96,7 @@ void OneStep::restart()
   system_.linear().excitation().at(here.t, end_.f);
   start_.project(here.q, here.v, here.local);
   start_.solve(here.q, here.v, end_.a, here.local, work_);
+  end_.keep_balance();
 }
 
 void OneStep::advance()
@@ -117,15 +121,19 @@ void OneStep::advance()
   end_.motion.t = end_.motion.local.t = t_begin_ + static_cast<double>(index_) * step_;
   if (!system_.forces().held().empty())
     start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
+  end_.keep_balance();
+  if (system_.joints().n_rows() > 0 && system_.joints().wants_multipliers())
+    start_.solve(end_.motion.q, end_.motion.v, a_found_, end_.motion.local, work_);
 }
 
 void OneStep::step_or_divide(const Point &from, double length, int halvings, Point &to)
 {
   try
   {
-    to.motion.local.p      = from.motion.local.p;
-    to.motion.local.lambda = from.motion.local.lambda;
+    to.motion.local.p      = from.p;
+    to.motion.local.lambda = from.lambda;
     formula_step(from, length, to);
+    to.keep_balance();
   }
   catch (const ConvergenceFailure &failure)
   {
@@ -223,9 +231,15 @@ void OneStep::cut(double t)
     start_.solve(here.q, here.v, cut_point_.a, here.local, work_);
 }
 
+void OneStep::Point::keep_balance()
+{
+  p      = motion.local.p;
+  lambda = motion.local.lambda;
+}
+
 void OneStep::Point::exchange(StateArchive &archive)
 {
-  archive(motion, a, f);
+  archive(motion, a, f, p, lambda);
 }
 
 void OneStep::exchange(StateArchive &archive)

@@ -19,6 +19,8 @@ namespace gestell::coupling
  * - Dense output: cubic Hermite through q, q' at both ends (order 4 in the step), q' its derivative; a and p linear.
  * - The force that holds a measure follows from the equation of motion at q and q', at ends of steps and inside
  *   (ConsistentStart::hold()).
+ * - So do multipliers of ideal joints wherever somebody looks at them: those of the method, which averages forces, are
+ *   of another instant and swing about those of the motion from step to step.
  * - A cut takes the dense output; advance() after it begins anew there.
  */
 class OneStep : public TimeIntegrator, public Resumable
@@ -47,7 +49,9 @@ protected:
   {
     Instant         motion;
     Eigen::VectorXd a, f;
+    Eigen::VectorXd p, lambda; ///< [n_u], [n_c] as the method balances them; those of the motion where they are found
 
+    void keep_balance(); ///< they are those of the motion
     void exchange(StateArchive &archive);
   };
 
@@ -75,6 +79,7 @@ private:
   mutable ConsistentStart start_;
   Point                   begin_, end_, cut_point_;
   mutable Eigen::VectorXd q_inside_, v_inside_;
+  Eigen::VectorXd         a_found_;
   std::vector<Point>      middle_; ///< of divided steps, by the number of halvings
   double                  t_begin_ = 0.;
   long                    index_   = 0;     ///< of the end of the last step, t = t_begin + index h
