@@ -2,8 +2,25 @@
 
 #include "mechanism/local_motion.h"
 
+#include <cmath>
+
 namespace gestell::mechanism
 {
+
+/// Play of an element: relative motions s of two bodies in which it leaves them free as far as |s| <= gap.
+struct Play
+{
+  static constexpr int max_motions = 2;
+
+  int    n              = 0;    ///< number of motions s, which are zero in the middle of the play; 0: there is no play
+  double gap            = 0.;   ///< [m, rad]
+  bool   both           = true; ///< false: nothing limits s below, as of a stop, whose gap may be negative
+  double s[max_motions] = {}, rate[max_motions] = {}, bias[max_motions] = {}; ///< s' = G v, s'' = G a + bias
+
+  /// Distance of s from the middle, of one side from where s is counted.
+  double eccentricity() const { return both ? std::hypot(s[0], s[1]) : s[0]; }
+  bool   presses() const { return n > 0 && eccentricity() > gap; }
+};
 
 /**
  * Facet of an element that is stiff or damps: what natural frequencies and the step of an integrator see of it.
@@ -40,6 +57,12 @@ public:
   {
     return (void)u, (void)v, (void)g, (void)gradient, (void)curvature, false;
   }
+
+  /// The play at u, v with the gradients G of its motions [k x n, column major].
+  virtual Play play(const double *u, const double *v, double *G) const { return (void)u, (void)v, (void)G, Play(); }
+
+  /// How far [m, rad] beyond the gap of its play the element yields to a force [N, N m].
+  virtual double yielding(double force) const { return (void)force, 0.; }
 
   /// How deep [m or rad] bodies that a contact keeps apart lie in each other; 0: they do not, or nothing keeps them.
   virtual double penetration(const LocalMotion &) const { return 0.; }

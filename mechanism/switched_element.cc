@@ -149,6 +149,11 @@ double SwitchedElement::penetration(const LocalMotion &motion) const
   return begin_ == Begin::on ? structure_->penetration(motion) : 0.;
 }
 
+Play SwitchedElement::play(const double *u, const double *v, double *G) const
+{
+  return begin_ == Begin::on ? structure_->play(u, v, G) : Play();
+}
+
 int SwitchedElement::n_guards(const double *history) const
 {
   return branches_act(history) ? branches_->n_guards(history + n_slots) : 0;

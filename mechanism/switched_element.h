@@ -46,7 +46,8 @@ public:
   bool            holds(const double *history, double &rate) const override;
 
   const Structure *structure() const override { return structure_ ? this : nullptr; }
-  /// As it begins, likewise closure() and penetration(): structure and start of a run are asked for, no later instant.
+  /// As it begins, likewise closure(), penetration() and play(): structure and start of a run are asked for, no later
+  /// instant.
   void   engaged(const double *u, double *K, double *D) const override;
   void   stiffest(const double *u, double *K, double *D) const override { structure_->stiffest(u, K, D); }
   void   open_branch(const double *u, double *K, double *D) const override;
@@ -54,6 +55,8 @@ public:
   void   geometric(const LocalMotion &motion, const double *history, double *K) const override;
   bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
   double penetration(const LocalMotion &motion) const override;
+  Play   play(const double *u, const double *v, double *G) const override;
+  double yielding(double force) const override { return structure_->yielding(force); }
 
   const Commands *commands() const override { return this; }
   bool            command(const SwitchCommand &order, const LocalMotion &motion, double *history) const override;

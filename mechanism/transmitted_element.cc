@@ -206,6 +206,24 @@ double TransmittedElement::penetration(const LocalMotion &motion) const
   return structure_->penetration(seen.motion(motion));
 }
 
+/// s of the law as a function of the measures: s'' = G (g u'' + b), with the law's gradient G and b of the measures.
+Play TransmittedElement::play(const double *u, const double *v, double *G) const
+{
+  if (!structure_)
+    return {};
+  const Seen seen                                = see({0., u, v, at_rest}, nullptr);
+  double     own[Play::max_motions * max_of_law] = {};
+  Play       play                                = structure_->play(seen.s, seen.rate, own);
+  const int  n_law = law_->n_measures(), n = n_measures();
+  for (int i = 0; i < play.n; ++i)
+  {
+    spread(seen, own + n_law * i, G + n * i);
+    for (int j = 0; j < n_seen(); ++j)
+      play.bias[i] += own[j + n_law * i] * seen.acceleration[j];
+  }
+  return play;
+}
+
 // --- events: those of the law, then those of the position function
 
 std::vector<Guard> TransmittedElement::guards(const double *history) const

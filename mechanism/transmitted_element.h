@@ -54,6 +54,8 @@ public:
   bool             stiffens() const override { return structure_ && structure_->stiffens(); }
   void             geometric(const LocalMotion &motion, const double *history, double *K) const override;
   double           penetration(const LocalMotion &motion) const override;
+  Play             play(const double *u, const double *v, double *G) const override;
+  double           yielding(double force) const override { return structure_ ? structure_->yielding(force) : 0.; }
 
   double size_of_terms() const override;
   double stored_energy(const LocalMotion &motion, const double *history) const override;

@@ -40,6 +40,8 @@ public:
 
   void evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &lambda, double share, Eigen::MatrixXd &saddle,
                 Eigen::VectorXd &residual);
+  /// The forces on these measures act no more.
+  void leave_out(int first_measure, int n_measures) { acts_.segment(first_measure, n_measures).setZero(); }
   /// The saddle matrix with the stiffness of engaged elements: open play gives none, closed elements show the way.
   Eigen::MatrixXd with_closed_chains(const Eigen::VectorXd &q, Eigen::MatrixXd saddle) const;
 

@@ -3,10 +3,12 @@
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/machine/configuration/loop_closure.h"
+#include "coupling/machine/configuration/plays.h"
 
 #include <Eigen/QR>
 
 #include <cmath>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -46,6 +48,19 @@ public:
     X_ += Z_ * solver.solve(demands.b - demands.A * X_);
     Z_ = Z_ * solver.null_space();
     return solver.rank();
+  }
+
+  /// Of rows of the size `whole`: nothing, if they have no part in what is free.
+  bool satisfy(const Demands &demands, double whole)
+  {
+    const MatrixXd P         = demands.A * Z_;
+    const double   threshold = free_threshold(P, whole);
+    if (threshold >= 1.)
+      return false;
+    const LeastSquaresSolver solver(P, threshold);
+    X_ += Z_ * solver.solve(demands.b - demands.A * X_);
+    Z_ = Z_ * solver.null_space();
+    return true;
   }
 
   const MatrixXd &motions() const { return X_; }
@@ -147,6 +162,19 @@ Demands chain_demands(const Machine &machine, const VectorXd &q, const VectorXd 
   return {chain.J, sides(VectorXd::Zero(chain.g.size()), -chain.curvature, n_held)};
 }
 
+/// Both sides of plays move together, and what presses on a stop stays there.  @return those that something free closes
+std::vector<int> satisfy_plays(const Machine &machine, const VectorXd &q, const VectorXd &v, const VectorXd &scale,
+                               Freedom &freedom, Eigen::Index n_held)
+{
+  std::vector<int> closed;
+  for (const PlacedPlay &own : plays(machine, q, v))
+    if ((own.play.both || own.play.presses()) &&
+        (own.chain || freedom.satisfy({own.G, sides(VectorXd::Zero(own.play.n), -own.bias(), n_held)},
+                                      (own.G * scale.asDiagonal()).norm())))
+      closed.push_back(own.first_measure);
+  return closed;
+}
+
 /// Stationary elastic energy 1/2 x^T K x in what is free, Z^T K x = 0.
 Demands elastic_demands(const Machine &machine, const VectorXd &q, const MatrixXd &Z, Eigen::Index n_motions)
 {
@@ -190,11 +218,12 @@ SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const 
                 chain     = chain_demands(machine, q, v_before, n_held);
   freedom.satisfy(compliant);
   freedom.satisfy(chain);
+  std::vector<int> closed_plays = satisfy_plays(machine, q, v_before, scale, freedom, n_held);
   freedom.satisfy(elastic_demands(machine, q, freedom.free(), 2 + n_held));
   const MatrixXd &X = freedom.motions();
   require_closed(compliant, X, scale);
   require_closed(chain, X, scale);
-  return {X.col(0), X.col(1), X.rightCols(n_held)};
+  return {X.col(0), X.col(1), X.rightCols(n_held), std::move(closed_plays)};
 }
 
 } // namespace

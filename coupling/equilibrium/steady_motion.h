@@ -2,6 +2,8 @@
 
 #include "coupling/machine/configuration/assembly.h"
 
+#include <vector>
+
 namespace gestell::coupling
 {
 
@@ -12,13 +14,14 @@ namespace gestell::coupling
  *     G W^T v = -rate,        v_h = given,       G W^T a = -bias,       a_h = 0,
  *     G W^T S = 0,            S_h = E.
  *
- * What that leaves open closes compliant joints and chains of closed elements, then costs least elastic energy, then
- * moves least.
+ * What that leaves open closes compliant joints and chains of closed elements, then plays, the tightest first, then
+ * costs least elastic energy, then moves least.
  */
 struct SteadyMotion
 {
-  Eigen::VectorXd v, a; ///< [n]
-  Eigen::MatrixXd S;    ///< [n x n_h] acceleration per unit acceleration of what has a given speed
+  Eigen::VectorXd  v, a;  ///< [n]
+  Eigen::MatrixXd  S;     ///< [n x n_h] acceleration per unit acceleration of what has a given speed
+  std::vector<int> plays; ///< that it closes, by the first measure of their element
 };
 
 /**

@@ -1,5 +1,6 @@
 #include "coupling/equilibrium/steady_start.h"
 
+#include "coupling/equilibrium/seated_plays.h"
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/equilibrium/steady_motion.h"
 #include "coupling/integration/system/dense_solvers.h"
@@ -257,13 +258,15 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
       std::any_of(known.v_given.begin() + machine.model().n_frame(), known.v_given.end(), [](char g) { return g; });
   if (!given && known.rates.empty() && known.spins.empty())
     throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
-  InitialState     state = assemble(machine, known);
+  InitialState     state = assemble(machine, known, BehindPlay::followed);
   const KnownStart held  = held_at(machine, known, state);
   for (int round = 0; round < most_rounds; ++round)
   {
     const SteadyMotion motion = steady_motion(machine, held, state.q);
-    HeldEquilibrium    next   = held_equilibrium(machine, held, &motion, &state);
-    const double       change = (next.q - state.q).cwiseAbs().maxCoeff();
+    InitialState       from   = state;
+    from.q                    = seated_plays(machine, held, motion, state);
+    HeldEquilibrium next      = held_equilibrium(machine, held, &motion, &from);
+    const double    change    = (next.q - state.q).cwiseAbs().maxCoeff();
     state.q                   = next.q;
     state.v                   = motion.v;
     if (change <= least_change * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))

@@ -74,6 +74,25 @@ double Clearance::penetration(const LocalMotion &motion) const
   return branch == open ? 0. : side(branch) * motion.u[0] - parameters_.gap;
 }
 
+/// Of a stop below, s = -u.
+Play Clearance::play(const double *u, const double *v, double *G) const
+{
+  const double direction = parameters_.stops == Stops::below ? -1. : 1.;
+  Play         play;
+  play.n       = 1;
+  play.gap     = parameters_.gap;
+  play.both    = parameters_.stops == Stops::both;
+  play.s[0]    = direction * u[0];
+  play.rate[0] = direction * v[0];
+  G[0]         = direction;
+  return play;
+}
+
+double Clearance::yielding(double force) const
+{
+  return std::pow(std::abs(force) / parameters_.stiffness, 1. / parameters_.exponent);
+}
+
 int Clearance::n_guards(const double *history) const
 {
   return branch_of(history) == open && parameters_.stops != Stops::both ? 1 : 2;

@@ -81,6 +81,8 @@ public:
   double                stored_energy(const LocalMotion &motion, const double *history) const override;
   double                stored_power(const LocalMotion &motion, const double *history) const override;
   double                penetration(const LocalMotion &motion) const override;
+  Play                  play(const double *u, const double *v, double *G) const override;
+  double                yielding(double force) const override;
   int                   n_guards(const double *history) const override;
   std::vector<Guard>    guards(const double *history) const override;
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;

@@ -66,6 +66,19 @@ bool ConnectingRod::closure(const double *u, const double *v, double &g, double 
   return true;
 }
 
+/// s = delta + s_cl/2: closed under compression above, under tension below.
+Play ConnectingRod::play(const double *u, const double *v, double *G) const
+{
+  Play   play;
+  double delta;
+  play.n   = 1;
+  play.gap = 0.5 * parameters_.clearance;
+  closure(u, v, delta, G, play.bias[0]);
+  play.s[0]    = delta + play.gap;
+  play.rate[0] = G[0] * v[0] + G[1] * v[1] + G[2] * v[2];
+  return play;
+}
+
 double ConnectingRod::stored_energy(const LocalMotion &motion, const double *history) const
 {
   const double e = deflection(motion, history);

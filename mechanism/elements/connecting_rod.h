@@ -60,6 +60,8 @@ public:
   void   engaged(const double *u, double *K, double *D) const override;
   void   open_branch(const double *u, double *K, double *D) const override; ///< the oil film
   bool   closure(const double *u, const double *v, double &g, double *gradient, double &curvature) const override;
+  Play   play(const double *u, const double *v, double *G) const override;
+  double yielding(double force) const override { return std::abs(force) / parameters_.stiffness; }
   double size_of_terms() const override { return parameters_.crank_radius + parameters_.length; }
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   double stored_power(const LocalMotion &motion, const double *history) const override;

@@ -64,6 +64,21 @@ double JournalBearing::penetration(const LocalMotion &motion) const
   return std::max(0., Polar(motion).r - parameters_.clearance);
 }
 
+Play JournalBearing::play(const double *u, const double *v, double *G) const
+{
+  Play play;
+  play.n   = 2;
+  play.gap = parameters_.clearance;
+  std::fill_n(G, 6, 0.);
+  for (int i = 0; i < 2; ++i)
+  {
+    play.s[i]    = u[i];
+    play.rate[i] = v[i];
+    G[i + 3 * i] = 1.;
+  }
+  return play;
+}
+
 void JournalBearing::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
   const Polar polar(motion);

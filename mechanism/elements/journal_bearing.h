@@ -69,6 +69,8 @@ public:
   double             stored_energy(const LocalMotion &motion, const double *history) const override;
   double             stored_power(const LocalMotion &motion, const double *history) const override;
   double             penetration(const LocalMotion &motion) const override;
+  Play               play(const double *u, const double *v, double *G) const override;
+  double             yielding(double force) const override { return normal_.yielding(force); }
   int                n_guards(const double *history) const override { return normal_.n_guards(history); }
   std::vector<Guard> guards(const double *history) const override { return normal_.guards(history); }
   void               guard_values(const LocalMotion &motion, const double *history, double *g) const override;

@@ -19,6 +19,12 @@ void PointContact::engaged(const double *u, double *K, double *) const
   K[0] = k;
 }
 
+Play PointContact::play(const double *u, const double *v, double *G) const
+{
+  G[1] = G[2] = 0.;
+  return normal_.play(u, v, G);
+}
+
 double PointContact::stored_energy(const LocalMotion &motion, const double *history) const
 {
   return normal_.stored_energy(motion, history);

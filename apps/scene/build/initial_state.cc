@@ -3,6 +3,7 @@
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/machine/configuration/loop_closure.h"
+#include "coupling/machine/configuration/plays.h"
 #include "mechanism/joints/orthonormal_directors.h"
 
 #include <Eigen/Core>
@@ -170,6 +171,9 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     coupling::InitialState state = found();
     state.t                      = scene.run.options.begin;
     state.settled                = start.rule != StartRule::given;
+    if (start.rule != StartRule::rest && !start.periodic) // of these the speeds follow from loads, or from the orbit
+      for (std::string &warning : coupling::closing_warnings(machine, known.v_given, state.q, state.v))
+        state.notes.push_back(std::move(warning));
     if (start.rule == StartRule::rest && has_speed(start))
       state.notes.push_back(
           "start.v has no part in rule = \"static\", which starts at rest; take \"steady\", or \"given\" "

@@ -3,10 +3,12 @@
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/configuration/plays.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -55,11 +57,15 @@ public:
     machine.events().start(local_); // the laws of driven joints begin here
   }
 
-  InitialState assembled()
+  InitialState assembled(BehindPlay bodies)
   {
     with_yielding([this] { return close(); });
+    if (bodies == BehindPlay::followed)
+      close_plays();
     refuse_dependent();
     with_yielding([this] { return turn(); });
+    if (bodies == BehindPlay::followed)
+      turn_plays();
     return state_;
   }
 
@@ -76,7 +82,96 @@ private:
     closing();
   }
 
-  /// Rows: joints, then measures, then compliant joints; columns: free coordinates, scaled to equal mass.
+  /// Given values may tear bodies out of plays in which the scene describes them: these follow, if joints let them.
+  void close_plays()
+  {
+    const InitialState joined = state_;
+    while (tear())
+      if (!close())
+      {
+        state_ = joined;
+        break;
+      }
+    torn_.clear();
+  }
+
+  /// Whether further plays are torn: the body that closes one leaves the next.
+  bool tear()
+  {
+    const Eigen::VectorXd described = Eigen::VectorXd::Zero(machine_.size());
+    const auto            before    = plays(machine_, described, described);
+    const std::size_t     so_far    = torn_.size();
+    for (const PlacedPlay &own : plays(machine_, state_.q, described))
+    {
+      const auto is_own = [&own](const PlacedPlay &p) { return p.first_measure == own.first_measure; };
+      const bool known  = std::find(torn_.begin(), torn_.end(), own.first_measure) != torn_.end();
+      if (own.play.both && own.play.presses() && !known &&
+          !std::find_if(before.begin(), before.end(), is_own)->play.presses())
+        torn_.push_back(own.first_measure);
+    }
+    return torn_.size() > so_far;
+  }
+
+  /// Bodies on both sides of a play move together, as far as joints and given speeds let them.
+  void turn_plays()
+  {
+    const auto own = plays(machine_, state_.q, state_.v);
+    if (std::none_of(own.begin(), own.end(), [](const PlacedPlay &p) { return p.play.both; }))
+      return;
+    Eigen::VectorXd residual;
+    Eigen::MatrixXd rows;
+    evaluate(rates_, residual, rows, true);
+    const Free free(machine_, known_.v_given);
+    if (free.index.empty())
+      return;
+    Eigen::MatrixXd Z = residual.size() > 0 ? LeastSquaresSolver(free.scaled(rows), 1e-12).null_space()
+                                            : Eigen::MatrixXd::Identity(free.scale.size(), free.scale.size());
+    for (const PlacedPlay &place : own)
+    {
+      const Eigen::MatrixXd G = free.scaled(place.G), P = G * Z;
+      const double          threshold = free_threshold(P, G.norm());
+      if (!place.play.both || threshold >= 1.)
+        continue;
+      const LeastSquaresSolver solver(P, threshold);
+      const Eigen::VectorXd    rate = place.G * state_.v, x = solver.solve(-rate);
+      const double             still = closed * std::max(1., state_.v.cwiseAbs().maxCoeff());
+      if (rate.cwiseAbs().maxCoeff() > still)
+      {
+        if ((P * x + rate).cwiseAbs().maxCoeff() > still)
+          continue;
+        free.add(Z * x, state_.v);
+      }
+      Z = Z * solver.null_space();
+    }
+  }
+
+  /// Coordinates of bodies that are not given, scaled to equal mass.
+  struct Free
+  {
+    Free(const Machine &machine, const std::vector<char> &given)
+    {
+      for (int i = machine.model().n_frame(); i < machine.size(); ++i)
+        if (!given[i])
+          index.push_back(i);
+      scale.resize(Eigen::Index(index.size()));
+      Eigen::VectorXd unit = Eigen::VectorXd::Zero(machine.size()), column = unit;
+      for (std::size_t j = 0; j < index.size(); ++j)
+      {
+        unit[index[j]] = 1.;
+        machine.linear().mass_times(unit, column);
+        unit[index[j]]         = 0.;
+        const double m         = column[index[j]];
+        scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
+      }
+    }
+    Eigen::MatrixXd scaled(const Eigen::MatrixXd &rows) const { return rows(Eigen::all, index) * scale.asDiagonal(); }
+    void            add(const Eigen::VectorXd &x, Eigen::VectorXd &to) const { to(index) += scale.cwiseProduct(x); }
+
+    std::vector<int> index;
+    Eigen::VectorXd  scale;
+  };
+
+  /// Rows: joints, then measures, then compliant joints, then plays; columns: coordinates of the machine.
   void evaluate(const std::vector<Demand> &demands, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates)
   {
     machine_.gather(state_.t, state_.q, state_.v, Eigen::VectorXd::Zero(machine_.size()), local_);
@@ -86,7 +181,11 @@ private:
     Eigen::Index n_yielding = 0;
     for (const CompliantPlace &own : yielding_)
       n_yielding += own.joint->n_equations();
-    residual.resize(n_c_ + Eigen::Index(demands.size()) + n_yielding);
+    const auto   plays_to_close = torn_plays();
+    Eigen::Index n_torn         = 0;
+    for (const PlacedPlay &own : plays_to_close)
+      n_torn += own.play.n;
+    residual.resize(n_c_ + Eigen::Index(demands.size()) + n_yielding + n_torn);
     rows.resize(residual.size(), machine_.size());
     if (rates)
     {
@@ -115,6 +214,24 @@ private:
       rows.row(n_c_ + Eigen::Index(i)) = gradient.transpose();
     }
     add_yielding(n_c_ + Eigen::Index(demands.size()), residual, rows, rates);
+    for (const PlacedPlay &own : plays_to_close)
+    {
+      residual.segment(residual.size() - n_torn, own.play.n) = own.s();
+      rows.middleRows(rows.rows() - n_torn, own.play.n)      = own.G;
+      n_torn -= own.play.n;
+    }
+  }
+
+  std::vector<PlacedPlay> torn_plays() const
+  {
+    if (torn_.empty())
+      return {};
+    auto own = plays(machine_, state_.q, Eigen::VectorXd::Zero(machine_.size()));
+    own.erase(std::remove_if(own.begin(), own.end(),
+                             [this](const PlacedPlay &p)
+                             { return std::find(torn_.begin(), torn_.end(), p.first_measure) == torn_.end(); }),
+              own.end());
+    return own;
   }
 
   void add_yielding(Eigen::Index row, Eigen::VectorXd &residual, Eigen::MatrixXd &rows, bool rates) const
@@ -152,27 +269,10 @@ private:
   /// The smallest change of the free coordinates that takes the residual away to first order.
   Eigen::VectorXd change(const Eigen::VectorXd &residual, const Eigen::MatrixXd &rows, const std::vector<char> &given)
   {
-    std::vector<int> free;
-    for (int i = machine_.model().n_frame(); i < machine_.size(); ++i)
-      if (!given[i])
-        free.push_back(i);
     Eigen::VectorXd delta = Eigen::VectorXd::Zero(machine_.size());
-    if (free.empty())
-      return delta;
-    Eigen::VectorXd unit = delta, column = delta, scale(free.size());
-    Eigen::MatrixXd A(rows.rows(), free.size());
-    for (std::size_t j = 0; j < free.size(); ++j)
-    {
-      unit[free[j]] = 1.;
-      machine_.linear().mass_times(unit, column);
-      unit[free[j]]          = 0.;
-      const double m         = column[free[j]];
-      scale[Eigen::Index(j)] = m > 0. ? 1. / std::sqrt(m) : 1.;
-      A.col(Eigen::Index(j)) = scale[Eigen::Index(j)] * rows.col(free[j]);
-    }
-    const Eigen::VectorXd x = LeastSquaresSolver(A, 1e-12).solve(-residual);
-    for (std::size_t j = 0; j < free.size(); ++j)
-      delta[free[j]] = scale[Eigen::Index(j)] * x[Eigen::Index(j)];
+    const Free      free(machine_, given);
+    if (!free.index.empty())
+      free.add(LeastSquaresSolver(free.scaled(rows), 1e-12).solve(-residual), delta);
     return delta;
   }
 
@@ -235,7 +335,7 @@ private:
     return is_closed(residual, rates_, "m/s or rad/s", "velocities");
   }
 
-  /// false: compliant joints have to open.  @throws std::invalid_argument if without them others stay open
+  /// false: compliant joints or plays have to open.  @throws std::invalid_argument if without them others stay open
   bool is_closed(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
                  const std::string &what) const
   {
@@ -245,7 +345,7 @@ private:
     const double open  = residual.cwiseAbs().maxCoeff(&worst);
     if (open <= closed * std::max(1., what == "velocities" ? state_.v.cwiseAbs().maxCoeff() : 1.))
       return true;
-    if (!yielding_.empty())
+    if (!yielding_.empty() || !torn_.empty())
       return false;
     std::ostringstream message;
     message << "the mechanism cannot be assembled: with the given " << what << " "
@@ -264,13 +364,14 @@ private:
   Eigen::VectorXd             g_, rate_, bias_;
   int                         n_c_;
   std::vector<CompliantPlace> yielding_; ///< compliant joints that are to close
+  std::vector<int>            torn_;     ///< plays that are to close, by the first measure of their element
 };
 
 } // namespace
 
-InitialState assemble(Machine &machine, const KnownStart &known)
+InitialState assemble(Machine &machine, const KnownStart &known, BehindPlay bodies)
 {
-  return Assembly(machine, known).assembled();
+  return Assembly(machine, known).assembled(bodies);
 }
 
 /// e . omega = 1/2 sum d_i' . (e x d_i)

@@ -29,6 +29,13 @@ struct KnownStart
   std::vector<KnownSpin>              spins;  ///< those not given of a body are zero, if joints let
 };
 
+/// What becomes of bodies behind a play.
+enum class BehindPlay
+{
+  left,    ///< they are where and as fast as least motion has them
+  followed ///< what given values tear out of a play goes back to its middle, and both sides of plays move together
+};
+
 /**
  * Closes the joints of a machine and gives measures their values, g(t, q) = 0 and s(q) = s_0, by moving coordinates of
  * bodies that are not given as little as possible, measured by their masses; then the velocities likewise,
@@ -38,7 +45,7 @@ struct KnownStart
  * @throws std::invalid_argument if it cannot be done: the joint that stays open most, and by how much; or if equations
  * of joints depend on each other there: the one that does
  */
-InitialState assemble(Machine &machine, const KnownStart &known);
+InitialState assemble(Machine &machine, const KnownStart &known, BehindPlay bodies = BehindPlay::left);
 
 /// e . omega = s . q' of a rigid body turning about the global axis e, s [n] at q.
 Eigen::VectorXd spin_gradient(const Machine &machine, const KnownSpin &spin, const Eigen::VectorXd &q);

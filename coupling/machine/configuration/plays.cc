@@ -1,0 +1,100 @@
+#include "coupling/machine/configuration/plays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double rounding = 1e-10; ///< of a row with scaled coordinates, against the whole row
+
+/// A journal crosses its play at speeds of gap times the angular speed of what turns; ten times that has another cause.
+constexpr double crossings = 10.;
+
+double fastest_turning(const Machine &machine, const Eigen::VectorXd &v)
+{
+  double fastest = 0.;
+  for (const Body &body : machine.model().bodies())
+    switch (body.kind)
+    {
+    case BodyKind::rotor:
+      fastest = std::max(fastest, std::abs(v[body.coordinate]));
+      break;
+    case BodyKind::planar:
+      fastest = std::max(fastest, std::abs(v[body.coordinate + 2]));
+      break;
+    case BodyKind::rigid: // rates of unit directors
+      fastest = std::max(fastest, v.segment<9>(body.coordinate + 3).norm() / std::sqrt(2.));
+      break;
+    default:
+      break;
+    }
+  return fastest;
+}
+
+} // namespace
+
+std::vector<PlacedPlay> plays(const Machine &machine, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  const auto             &W = machine.forces().directions();
+  const Eigen::VectorXd   u = W.transpose() * q, u_rate = W.transpose() * v;
+  std::vector<PlacedPlay> found;
+  int                     first = 0;
+  for (const ElementPlacement &placement : machine.model().elements())
+  {
+    const int                   k         = placement.element->n_measures();
+    const mechanism::Structure *structure = placement.element->structure();
+    Eigen::MatrixXd             own       = Eigen::MatrixXd::Zero(k, mechanism::Play::max_motions);
+    const auto                  play =
+        structure ? structure->play(u.data() + first, u_rate.data() + first, own.data()) : mechanism::Play();
+    if (play.n > 0)
+    {
+      std::vector<double> gradient(k);
+      double              g, curvature;
+      const bool chain = structure->closure(u.data() + first, u_rate.data() + first, g, gradient.data(), curvature);
+      found.push_back({placement.name, structure, first, k, play, chain,
+                       (W.middleCols(first, k) * own.leftCols(play.n)).transpose()});
+    }
+    first += k;
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const PlacedPlay &a, const PlacedPlay &b) { return a.play.gap < b.play.gap; });
+  return found;
+}
+
+double free_threshold(const Eigen::MatrixXd &P, double whole)
+{
+  const double part = P.norm(), least = rounding * whole;
+  return part > least ? least / part : 1.;
+}
+
+std::vector<std::string> closing_warnings(const Machine &machine, const std::vector<char> &v_given,
+                                          const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+{
+  const double             turning = fastest_turning(machine, v);
+  std::vector<std::string> warnings;
+  for (const PlacedPlay &own : plays(machine, q, v))
+  {
+    const double speed = own.rate().norm();
+    bool         open  = false; // something whose speed is not given moves it
+    for (int i = machine.model().n_frame(); i < machine.size(); ++i)
+      open = open || (!v_given[i] && !own.G.col(i).isZero(0.));
+    if (!own.play.both || !(own.play.gap > 0.) || !open || speed <= crossings * own.play.gap * turning ||
+        speed <= rounding * v.norm())
+      continue;
+    std::ostringstream text;
+    text << "the start closes the play of \"" << own.name << "\" at " << std::setprecision(3) << speed
+         << " m/s (or rad/s): the bodies on both sides of it start at speeds that do not fit together, so that the "
+            "first impact belongs to the start alone. Take start.rule = \"steady\" with the speed of the drive in "
+            "start.v, or give the speeds of these bodies there, zero included";
+    warnings.push_back(text.str());
+  }
+  return warnings;
+}
+
+} // namespace gestell::coupling
