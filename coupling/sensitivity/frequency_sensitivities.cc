@@ -48,47 +48,97 @@ Matrices matrices(const LinearisedAt &at)
   return found;
 }
 
-bool stands_alone(const std::vector<Mode> &modes, std::size_t j)
+Matrices mean(const Matrices &a, const Matrices &b)
 {
-  const double f = modes[j].frequency_hz;
-  for (const std::size_t other : {j - 1, j + 1})
-    if (other < modes.size() && std::abs(modes[other].frequency_hz - f) <= meet * f)
-      return false;
-  return f > rest * modes.back().frequency_hz;
+  return {0.5 * (a.M + b.M), 0.5 * (a.K + b.K), 0.5 * (a.G + b.G)};
+}
+
+/// A mode with its left eigenvector, and what joints have to hold of both.
+struct TwoSidedMode
+{
+  VectorXd v, w, mu, mu_w;
+};
+
+/// By inverse iteration in the motions Z that joints leave free.
+VectorXd left_vector(const Matrices &own, const MatrixXd &Z, const VectorXd &v, double square)
+{
+  constexpr double beside     = 1e-8; // of omega^2: nearer than any other frequency, and regular
+  constexpr int    iterations = 4;    // from the right vector
+  const MatrixXd   A = Z.transpose() * (own.K.transpose() - (1. + beside) * square * own.M) * Z, M = Z.transpose() * own.M;
+  VectorXd         w = v;
+  for (int i = 0; i < iterations; ++i)
+  {
+    w = Z * lu_solution(A, MatrixXd(M * w));
+    w /= w.norm();
+  }
+  return w / w.dot(own.M * v);
+}
+
+/// Modes that have derivatives; others are left empty.
+std::vector<TwoSidedMode> pairs_of(const Matrices &own, const std::vector<Mode> &modes)
+{
+  constexpr double   rounding = 1e-12;
+  const bool         follows  = (own.K - own.K.transpose()).cwiseAbs().maxCoeff() > rounding * own.K.cwiseAbs().maxCoeff();
+  const bool         jointed  = own.G.rows() > 0;
+  const LeastSquaresSolver joints  = jointed ? LeastSquaresSolver(MatrixXd(own.G.transpose())) : LeastSquaresSolver();
+  const MatrixXd           Z       = !follows  ? MatrixXd()
+                                     : jointed ? LeastSquaresSolver(own.G).null_space()
+                                               : MatrixXd::Identity(own.K.rows(), own.K.rows());
+  std::vector<TwoSidedMode>    pairs(modes.size());
+  for (std::size_t j = 0; j < modes.size(); ++j)
+  {
+    if (!without_derivative(modes, j).empty())
+      continue;
+    const double omega = 2. * M_PI * modes[j].frequency_hz, square = omega * omega;
+    TwoSidedMode    &pair  = pairs[j];
+    pair.v             = modes[j].shape;
+    pair.w             = follows ? left_vector(own, Z, pair.v, square) : pair.v;
+    if (!jointed)
+      continue;
+    pair.mu   = joints.solve(VectorXd(square * (own.M * pair.v) - own.K * pair.v));
+    pair.mu_w = follows ? joints.solve(VectorXd(square * (own.M * pair.w) - own.K.transpose() * pair.w)) : pair.mu;
+  }
+  return pairs;
 }
 
 } // namespace
 
-MatrixXd frequency_sensitivities(const LinearisedAt &at, const std::vector<Mode> &modes,
-                                 const std::vector<FrequencyTwins> &twins)
+std::string without_derivative(const std::vector<Mode> &modes, std::size_t j)
+{
+  const double f = modes[j].frequency_hz;
+  if (modes[j].growth > 0. && f == 0.)
+    return "the motion grows without a frequency";
+  if (f == 0.)
+    return "the motion is free, its frequency is zero";
+  if (f <= rest * modes.back().frequency_hz)
+    return "the frequency is zero beside the highest one";
+  for (const std::size_t other : {j - 1, j + 1})
+    if (other < modes.size() && std::abs(modes[other].frequency_hz - f) <= meet * f)
+      return modes[j].growth != 0. ? "the mode flutters together with mode " + std::to_string(other + 1)
+                                   : "mode " + std::to_string(other + 1) + " has the same frequency";
+  return "";
+}
+
+MatrixXd frequency_sensitivities(const std::vector<Mode> &modes, const std::vector<FrequencyTwins> &twins)
 {
   MatrixXd found =
       MatrixXd::Constant(Index(modes.size()), Index(twins.size()), std::numeric_limits<double>::quiet_NaN());
-  const Matrices     own     = matrices(at);
-  const bool         jointed = own.G.rows() > 0;
-  LeastSquaresSolver joints;
-  if (jointed)
-    joints = LeastSquaresSolver(MatrixXd(own.G.transpose()));
-  std::vector<VectorXd> mu(modes.size());
-  for (std::size_t j = 0; j < modes.size() && jointed; ++j)
-  {
-    const double   omega = 2. * M_PI * modes[j].frequency_hz;
-    const VectorXd left  = omega * omega * (own.M * modes[j].shape) - own.K * modes[j].shape;
-    mu[j]                = joints.solve(left);
-  }
+  std::vector<TwoSidedMode> pairs;
   for (std::size_t k = 0; k < twins.size(); ++k)
   {
     const Matrices below = matrices(twins[k].minus), above = matrices(twins[k].plus);
     const double   quotient = 0.5 / twins[k].step;
+    if (k == 0)
+      pairs = pairs_of(mean(below, above), modes);
     for (std::size_t j = 0; j < modes.size(); ++j)
     {
-      if (!stands_alone(modes, j))
+      const auto &[v, w, mu, mu_w] = pairs[j];
+      if (v.size() == 0)
         continue;
-      const VectorXd &v     = modes[j].shape;
-      const double    omega = 2. * M_PI * modes[j].frequency_hz;
-      double          slope = v.dot((above.K - below.K) * v) - omega * omega * v.dot((above.M - below.M) * v);
-      if (jointed)
-        slope += 2. * mu[j].dot((above.G - below.G) * v);
+      const double omega = 2. * M_PI * modes[j].frequency_hz;
+      double       slope = w.dot((above.K - below.K) * v) - omega * omega * w.dot((above.M - below.M) * v);
+      if (mu.size() > 0)
+        slope += mu.dot((above.G - below.G) * w) + mu_w.dot((above.G - below.G) * v);
       found(Index(j), Index(k)) = quotient * slope / (4. * M_PI * omega);
     }
   }

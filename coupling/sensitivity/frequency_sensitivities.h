@@ -3,12 +3,14 @@
 #include "coupling/modes/modes.h"
 #include "coupling/sensitivity/parameter_twins.h"
 
+#include <string>
 #include <vector>
 
 namespace gestell::coupling
 {
 
-/// Where a machine is linearised: q, and the elements that are not engaged.
+/// Where a machine is linearised: q, and the elements that are not engaged.  It has not been run: modes are those of
+/// laws that follow the motion, not of branches that a run has left.
 struct LinearisedAt
 {
   const Machine                  *machine = nullptr;
@@ -23,18 +25,21 @@ struct FrequencyTwins
   double       step = 0.;
 };
 
+/// Why the frequency of mode j has no derivative; empty: it has one.
+std::string without_derivative(const std::vector<Mode> &modes, std::size_t j);
+
 /**
  * Derivatives of the natural frequencies [Hz] of a linearised machine by parameters [modes x K], from its eigenvectors
  * v,
  *
- *     8 pi^2 f df/dx = v^T (K_x - omega^2 M_x) v + 2 v^T G_x^T mu,     K v - omega^2 M v + G^T mu = 0,
+ *     8 pi^2 f df/dx = w^T (K_x - omega^2 M_x) v + w^T G_x^T mu + v^T G_x^T mu_w,     K v - omega^2 M v + G^T mu = 0,
  *
- * G of the joints in the coordinates of the machine; matrices by x are central quotients, with the configuration that
- * belongs to each value.  nan: of frequencies that are zero, or that meet others.
+ * G of the joints in the coordinates of the machine; w is v, or where K is not symmetric the left eigenvector, w^T M v =
+ * 1, with its own multipliers mu_w.  Matrices by x are central quotients, with the configuration that belongs to each
+ * value; K, M and G their means.  nan: those without_derivative().
  *
  * Source: Fox, Kapoor, AIAA Journal 6(12), 1968, 2426-2429, with constraints; docs/sensitivities.md (12).
  */
-Eigen::MatrixXd frequency_sensitivities(const LinearisedAt &at, const std::vector<Mode> &modes,
-                                        const std::vector<FrequencyTwins> &twins);
+Eigen::MatrixXd frequency_sensitivities(const std::vector<Mode> &modes, const std::vector<FrequencyTwins> &twins);
 
 } // namespace gestell::coupling

@@ -28,8 +28,8 @@ void warn_of_idle_keys(const SensitivityResult &found, std::vector<std::string> 
   }
 }
 
-void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins, const Result &result,
-                     SensitivityResult &found)
+/// Before the twins are run.
+void add_frequencies(SceneTwins &twins, const Result &result, SensitivityResult &found)
 {
   const auto at = [](const Scene &of, coupling::Machine &machine) {
     return coupling::LinearisedAt{&machine, modes_configuration(of, machine), &of.modes.open};
@@ -41,14 +41,13 @@ void add_frequencies(const Scene &scene, PreparedMachine &prepared, SceneTwins &
     sides.push_back(
         {at(*below.scene, below.prepared->machine), at(*above.scene, above.prepared->machine), twins.twins[k].step});
   }
-  const Eigen::MatrixXd slopes =
-      coupling::frequency_sensitivities(at(scene, prepared.machine), result.coupled_modes, sides);
+  const Eigen::MatrixXd slopes = coupling::frequency_sensitivities(result.coupled_modes, sides);
   for (std::size_t j = 0; j < result.coupled_modes.size(); ++j)
   {
-    const Eigen::VectorXd slope = slopes.row(Eigen::Index(j)).transpose();
-    found.outputs.push_back({"modes." + std::to_string(j + 1), "Hz",
-                             slope.hasNaN() ? "no derivative: the frequency is zero, or meets another" : "",
-                             result.coupled_modes[j].frequency_hz, slope});
+    const std::string why = coupling::without_derivative(result.coupled_modes, j);
+    found.outputs.push_back({"modes." + std::to_string(j + 1), "Hz", why.empty() ? "" : "no derivative: " + why,
+                             result.coupled_modes[j].frequency_hz, slopes.row(Eigen::Index(j)).transpose(),
+                             result.coupled_modes[j].frequency_hz == 0.});
   }
 }
 
@@ -66,9 +65,9 @@ SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepar
   SensitivityResult          frequencies;
   try
   {
+    add_frequencies(twins, result, frequencies);
     run = coupling::run_sensitivities(
         {prepared.machine, signals, scene.run.options, *result.run, trajectory, twins.twins, stop});
-    add_frequencies(scene, prepared, twins, result, frequencies);
   }
   catch (const std::exception &none) // of this motion: what was computed of it stays
   {

@@ -260,6 +260,24 @@ TEST(Sensitivities, OfTheCraneAreQuotientsOfConvergedRuns)
   }
 }
 
+// Tyres that lift off: frequencies are those of the machine that stands, whatever branches the run leaves.
+TEST(Sensitivities, OfFrequenciesAreThoseOfTheModesThatAreTold)
+{
+  const std::string crane = GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal_lift.toml";
+  const auto        found = [&](const std::string &rope)
+  {
+    return *Session(crane, {"parameters.rope=" + rope, "run.step=1 ms", "run.end=20 ms"})
+                .run("parameters.rope")
+                .sensitivities;
+  };
+  const SensitivityResult here = found("1.35"), below = found("1.3499"), above = found("1.3501");
+  for (const std::string mode : {"modes.1", "modes.2", "modes.3", "modes.4"})
+  {
+    const double slope = (output(above, mode).value - output(below, mode).value) / 2e-4;
+    EXPECT_NEAR(output(here, mode).derivative[0], slope, 1e-6 * std::abs(slope)) << mode; // (1e-4 m/1.35 m)^2
+  }
+}
+
 TEST(Sensitivities, OfThePressAreQuotientsOfConvergedRuns)
 {
   // 14 events up to the smallest force.
