@@ -12,8 +12,8 @@ namespace gestell::tests
 namespace
 {
 
-/// Angle and torque of a rotor against friction, from a speed; all rows.
-std::vector<double> motion(const std::string &type, double synchronous, double speed)
+/// A rotor against a damper, from a speed.
+SceneRun motion(const std::string &type, double synchronous, double speed)
 {
   Keys motor = {{"on", "r"}, {"breakdown_torque", "20"}, {"breakdown_slip", "0.2"}, {"ratio", "3"}};
   motor.push_back({"synchronous_speed", number(synchronous) + " 1/min"});
@@ -24,7 +24,7 @@ std::vector<double> motion(const std::string &type, double synchronous, double s
                            element("f", "spring-damper", {{"from", "r"}, {"damping", "0.05"}}) +
                            start("v = { r = " + number(speed) + " }") + steps("1 ms", "1.5 s") +
                            signals("a = 'r.angle', w = 'r.speed', T = 'm.torque', s = 'm.slip'");
-  return SceneRun(folder.write("scene.toml", text)).result.rows;
+  return SceneRun(folder.write("scene.toml", text));
 }
 
 // Motoring, braking against the field, generating, from speeds of both signs.
@@ -33,16 +33,17 @@ TEST(ReverseRunning, IsTheMirrorImageOfRunningForwards)
   for (const std::string type : {"asynchronous motor", "dynamic motor"})
     for (const double speed : {-50., 0., 20., 60.}) // synchronous: 34.9 rad/s of the shaft
     {
-      const auto forwards = motion(type, 1000., speed), backwards = motion(type, -1000., -speed);
-      ASSERT_EQ(forwards.size(), backwards.size());
-      const std::size_t columns = 5; // t, a, w, T, s
-      ASSERT_EQ(forwards.size() % columns, 0u);
-      for (std::size_t i = 0; i < forwards.size(); ++i)
-      {
-        const bool mirrored = i % columns >= 1 && i % columns <= 3;
-        ASSERT_EQ(backwards[i], mirrored ? -forwards[i] : forwards[i]) << type << ' ' << speed << " at " << i;
-      }
-      EXPECT_NEAR(backwards[backwards.size() - 3], -34.9, 1.) << type; // it reaches its speed and stays there
+      const SceneRun forwards = motion(type, 1000., speed), backwards = motion(type, -1000., -speed);
+      ASSERT_EQ(forwards.n_rows(), backwards.n_rows());
+      for (const std::string name : {"a", "w", "T", "s"})
+        for (std::size_t row = 0; row < forwards.n_rows(); ++row)
+        {
+          const double there = forwards.at(row, forwards.column(name));
+          ASSERT_EQ(backwards.at(row, backwards.column(name)), name == "s" ? there : -there)
+              << type << ' ' << speed << ": " << name << " in row " << row;
+        }
+      // It reaches its speed and stays there.
+      EXPECT_NEAR(backwards.at(backwards.n_rows() - 1, backwards.column("w")), -34.9, 1.) << type;
     }
 }
 
