@@ -56,6 +56,19 @@ void MachineForces::derivatives(const LocalState &state, Eigen::VectorXd &p, Eig
   }
 }
 
+void MachineForces::add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const
+{
+  double K[MachineParts::max_measures * MachineParts::max_measures];
+  for (const auto &part : parts_.placed)
+  {
+    if (part.implied() || !part.element->structure())
+      continue;
+    mechanism::geometric(*part.element, part.motion(state, parts_.by_history), parts_.history_of(part), K);
+    dp_du.block(part.first_measure, part.first_measure, part.n_measures, part.n_measures) -=
+        Eigen::Map<const Eigen::MatrixXd>(K, part.n_measures, part.n_measures);
+  }
+}
+
 std::vector<ForceBlock> MachineForces::blocks() const
 {
   return parts_.force_blocks;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/system/turning_forces.h"
 #include "coupling/machine/machine_parts.h"
 
 #include <memory>
@@ -33,7 +34,7 @@ private:
 };
 
 /// The nonlinear elements.
-class MachineForces final : public LocalForces
+class MachineForces final : public LocalForces, public TurningForces
 {
 public:
   explicit MachineForces(const MachineParts &parts) : parts_(parts) {}
@@ -44,6 +45,7 @@ public:
                                   Eigen::MatrixXd &dp) const override;
   void                    derivatives(const LocalState &state, Eigen::VectorXd &p, Eigen::MatrixXd &dp_du,
                                       Eigen::MatrixXd &dp_dv) const override;
+  void                    add_turning(const LocalState &state, Eigen::MatrixXd &dp_du) const override;
   std::vector<ForceBlock> blocks() const override;
   void tangent_blocks(const LocalState &state, double w_u, double w_v, double w_a, Eigen::VectorXd &p,
                       Eigen::VectorXd &blocks) const override;

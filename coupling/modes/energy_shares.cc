@@ -130,8 +130,8 @@ Eigen::RowVectorXd stiffnesses(const std::vector<Mode> &modes)
   Eigen::RowVectorXd result(Eigen::Index(modes.size()));
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
-    const double omega      = two_pi * modes[j].frequency_hz;
-    result[Eigen::Index(j)] = omega > no_motion ? omega * omega : -modes[j].growth * modes[j].growth;
+    const double omega = two_pi * modes[j].frequency_hz, fall = modes[j].growth * modes[j].growth;
+    result[Eigen::Index(j)] = omega > no_motion ? omega * omega - fall : -fall; // Re omega^2 of a flutter
   }
   return result;
 }

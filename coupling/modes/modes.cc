@@ -1,9 +1,10 @@
 #include "coupling/modes/modes.h"
 
-#include "coupling/algebra/dense_modes.h"
+#include "coupling/algebra/circulatory_modes.h"
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/configuration/local_stiffness.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>
@@ -33,14 +34,29 @@ GeneralEigenSolver solve_state(const Eigen::MatrixXd &state, const Eigen::Vector
   return GeneralEigenSolver(state);
 }
 
-/// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes:
-/// (s^2 E + s V^T B V + diag(omega^2)) y = 0; each undamped mode takes the vibrating solution in which it is largest.
-void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<Mode> &result)
+/// y'' + damping y' + stiffness y = 0 of the undamped modes: both diag(omega^2) and V^T B V, or by the dual basis.
+struct InModes
+{
+  Eigen::MatrixXd stiffness, damping;
+};
+
+/// How well a solution s, of which a mode has the share `own`, fits the mode; of a flutter and its partner, which have
+/// the same shares, the one at the nearer s.
+double fit(const Mode &mode, const std::complex<double> &s, double own)
+{
+  if (mode.growth == 0.)
+    return own;
+  const std::complex<double> undamped(mode.growth, two_pi * mode.frequency_hz);
+  return own / (1. + std::norm(s - undamped) / std::norm(undamped));
+}
+
+/// Damped frequencies and ratios, from the quadratic eigenproblem in the undamped modes; each of them takes the
+/// vibrating solution in which it is largest.
+void add_damping(const DenseModes &modes, const InModes &in_modes, std::vector<Mode> &result)
 {
   const int       p = static_cast<int>(modes.omega.size());
   Eigen::MatrixXd state(2 * p, 2 * p);
-  state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Identity(p, p),
-      Eigen::MatrixXd((-modes.omega.array().square()).matrix().asDiagonal()), -modes.V.transpose() * B * modes.V;
+  state << Eigen::MatrixXd::Zero(p, p), Eigen::MatrixXd::Identity(p, p), -in_modes.stiffness, -in_modes.damping;
   const auto             solver  = solve_state(state, modes.omega);
   const Eigen::VectorXcd s       = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
@@ -48,17 +64,18 @@ void add_damping(const DenseModes &modes, const Eigen::MatrixXd &B, std::vector<
   for (std::size_t j = 0; j < result.size(); ++j)
   {
     int    best  = -1;
-    double share = 0.;
+    double share = 0., best_fit = 0.;
     for (int k = 0; k < 2 * p && result[j].frequency_hz > 0.; ++k)
     {
       if (taken[k] || s[k].imag() <= 1e-9 * std::abs(s[k]))
         continue;
       const auto   y   = vectors.col(k).head(p);
       const double own = std::norm(y[static_cast<Eigen::Index>(j)]) / y.squaredNorm();
-      if (own > share)
+      if (const double own_fit = fit(result[j], s[k], own); own_fit > best_fit)
       {
-        share = own;
-        best  = k;
+        best_fit = own_fit;
+        share    = own;
+        best     = k;
       }
     }
     result[j].damping_ratio = std::numeric_limits<double>::quiet_NaN();
@@ -79,6 +96,8 @@ void leave_undamped(std::vector<Mode> &result)
     const bool vibrates      = mode.frequency_hz > 0.;
     mode.damped_frequency_hz = vibrates ? mode.frequency_hz : 0.;
     mode.damping_ratio       = vibrates ? 0. : std::numeric_limits<double>::quiet_NaN();
+    if (vibrates && mode.growth != 0.)
+      mode.damping_ratio = -mode.growth / std::hypot(mode.growth, two_pi * mode.frequency_hz);
   }
 }
 
@@ -87,15 +106,21 @@ struct ModalProblem
 {
   Eigen::MatrixXd    M, B, C, loads;
   bool               damped = true;
-  std::optional<int> n_rigid{}; ///< see dense_modes()
+  std::optional<int> n_rigid{};           ///< see dense_modes()
+  bool               circulatory = false; ///< C is not symmetric
 };
 
 std::vector<Mode> modes_of(const ModalProblem &problem, int n_modes)
 {
-  const auto &[M, B, C, loads, damped, n_rigid] = problem;
+  const auto &[M, B, C, loads, damped, n_rigid, circulatory] = problem;
   if (M.rows() == 0) // everything is held
     return {};
-  const DenseModes  modes = n_rigid ? dense_modes(C, M, cancelled_by_reduction, n_rigid) : dense_modes(C, M);
+  CirculatoryModes found;
+  if (circulatory)
+    found = circulatory_modes(C, M);
+  else
+    found.modes = n_rigid ? dense_modes(C, M, cancelled_by_reduction, n_rigid) : dense_modes(C, M);
+  const DenseModes &modes = found.modes;
   std::vector<Mode> result(std::min<Eigen::Index>(n_modes, modes.omega.size()));
   for (std::size_t j = 0; j < result.size(); ++j)
   {
@@ -106,8 +131,16 @@ std::vector<Mode> modes_of(const ModalProblem &problem, int n_modes)
     for (int d = 0; d < 3; ++d)
       result[j].effective_mass[d] = std::pow(v.dot(loads.col(d)), 2);
   }
-  if (damped && !result.empty())
-    B.isZero(0.) ? leave_undamped(result) : add_damping(modes, B, result);
+  if (!damped || result.empty())
+    return result;
+  if (B.isZero(0.))
+    leave_undamped(result);
+  else if (circulatory)
+    add_damping(modes, {found.left.transpose() * C * modes.V, found.left.transpose() * B * modes.V}, result);
+  else
+    add_damping(modes,
+                {Eigen::MatrixXd(modes.omega.array().square().matrix().asDiagonal()), modes.V.transpose() * B * modes.V},
+                result);
   return result;
 }
 
@@ -153,7 +186,24 @@ namespace
 struct Linear
 {
   Eigen::MatrixXd M, B, K, Z;
+  bool            circulatory = false; ///< K is not symmetric
+  LocalState      local{};             ///< of the motion at rest, with multipliers
 };
+
+/// A motion whose stiffness is what rounding leaves of the forces that balance in it has none: a linkage whose weights
+/// balance.
+void settle_free_motions(const Eigen::VectorXd &terms, std::vector<Mode> &modes)
+{
+  for (std::size_t j = 0; j < modes.size(); ++j)
+  {
+    Mode        &mode     = modes[j];
+    const double rounding = std::sqrt(cancelled_by_rounding * terms[Eigen::Index(j)]);
+    if (std::max(two_pi * mode.frequency_hz, std::abs(mode.growth)) > rounding)
+      continue;
+    mode.frequency_hz = mode.damped_frequency_hz = mode.growth = 0.;
+    mode.damping_ratio                                         = std::numeric_limits<double>::quiet_NaN();
+  }
+}
 
 /// Sums of masses and forces that overflow are no matrices.
 void require_finite(const Machine &machine, const Linear &linear)
@@ -192,9 +242,12 @@ Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linear
     if (jointed)
       local.lambda = linearisation.multipliers ? *linearisation.multipliers : multipliers_at_rest(machine, q, local);
     linear.K += geometric_stiffness(machine, local, linearisation.acting);
+    linear.circulatory =
+        is_circulatory(machine, local, acting_measures(machine, local.u, linearisation.acting));
   }
   require_finite(machine, linear);
-  linear.Z = free_motions(machine, local, linearisation.fixed);
+  linear.Z     = free_motions(machine, local, linearisation.fixed);
+  linear.local = std::move(local);
   return linear;
 }
 
@@ -203,12 +256,25 @@ Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linear
 std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation,
                                    int n_modes)
 {
-  const auto [M, B, K, Z] = linearised(machine, q, linearisation);
-  std::vector<Mode> modes = modes_of({Z.transpose() * M * Z, Z.transpose() * B * Z, Z.transpose() * K * Z,
-                                      Z.transpose() * machine.translation_loads(), linearisation.damping},
-                                     n_modes);
+  const auto [M, B, K, Z, circulatory, local] = linearised(machine, q, linearisation);
+  std::vector<Mode> modes              = modes_of({Z.transpose() * M * Z,
+                                                   Z.transpose() * B * Z,
+                                                   Z.transpose() * K * Z,
+                                                   Z.transpose() * machine.translation_loads(),
+                                                   linearisation.damping,
+                                                   {},
+                                                   circulatory},
+                                                  n_modes);
   for (Mode &mode : modes)
     mode.shape = Z * mode.shape;
+  Eigen::MatrixXd V(machine.size(), Eigen::Index(modes.size()));
+  for (std::size_t j = 0; j < modes.size(); ++j)
+    V.col(Eigen::Index(j)) = modes[j].shape;
+  const bool geometric = linearisation.geometric == GeometricStiffness::included;
+  const Eigen::MatrixXd size = V.cwiseAbs();
+  Eigen::VectorXd       terms = size.cwiseProduct(dense_stiffness(machine).cwiseAbs() * size).colwise().sum();
+  terms += stiffness_terms(machine, q, linearisation.open, geometric ? &local : nullptr, V);
+  settle_free_motions(terms, modes);
   return modes;
 }
 
@@ -336,8 +402,10 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   local.resize(machine);
   machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
   const auto      &Z = linear.Z;
-  const DenseModes modes =
-      dense_modes(Z.transpose() * linear.K * Z, Z.transpose() * linear.M * Z); // of the structure alone
+  Eigen::MatrixXd K = Z.transpose() * linear.K * Z; // of the structure alone
+  if (linear.circulatory)
+    K = 0.5 * (K + K.transpose()).eval(); // a basis; what follows the motion is in the state
+  const DenseModes modes = dense_modes(K, Z.transpose() * linear.M * Z);
   const auto [any, lags] = add_drives(machine, local, linear.K, linear.B);
   const auto m           = Eigen::Index(lags.size());
   if (!any && m == 0)

@@ -2,6 +2,7 @@
 
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/integration/system/turning_forces.h"
 
 #include <array>
 #include <cmath>
@@ -51,7 +52,8 @@ void for_contacts(const Machine &machine, const LocalState &local, const Look &l
   const auto      n_u = local.u.size();
   Eigen::VectorXd p   = Eigen::VectorXd::Zero(n_u);
   Eigen::MatrixXd dp  = Eigen::MatrixXd::Zero(n_u, n_u);
-  machine.forces().tangent(local, 1., 0., 0., p, dp);
+  Eigen::MatrixXd dp_dv = dp;
+  linearise(machine.forces(), local, p, dp, dp_dv);
   int first = 0;
   for (const ElementPlacement &placement : machine.model().elements())
   {

@@ -1,5 +1,6 @@
 #include "mechanism/elements/follower_load.h"
 
+#include "mechanism/measures/relative_measure.h"
 #include "mechanism/require.h"
 
 #include <utility>
@@ -48,13 +49,45 @@ void FollowerLoad::tangent(const LocalMotion &motion, const double *history, con
   const Seen seen = see(motion);
   const int  k    = n_measures();
   double     P, dP;
-  law_->tangent(seen.motion(motion), history, w, &P, &dP);
+  law_->tangent(seen.motion(motion), history, {0., w.v, 0.}, &P, &dP); // the law sees no displacement
   for (int j = 0; j < k; ++j)
   {
     p[j] = P * seen.G[j];
     for (int i = 0; i < k; ++i)
       dp[i + k * j] = seen.G[i] * dP * seen.G[j];
   }
+}
+
+namespace
+{
+
+/// factor e . d^2x/du_i du_j at a direction e that is held, added to the matrix.
+void add_bending(const Placement &point, const Vector3d &e, const double *u, double factor, double *matrix)
+{
+  const auto bias = [&](const double *v)
+  {
+    Placement::MovedVector x;
+    point.position(u, v, x);
+    return e.dot(x.bias);
+  };
+  add_polarised<Placement::max_measures>(point.n_measures(), bias, factor, matrix);
+}
+
+} // namespace
+
+void FollowerLoad::geometric(const LocalMotion &motion, const double *history, double *K) const
+{
+  const Seen seen = see(motion);
+  double     P;
+  law_->force(seen.motion(motion), history, &P);
+  Placement::MovedVector x, e;
+  point_.position(motion.u, nullptr, x);
+  point_.direction(e_, motion.u, nullptr, e);
+  const int k = n_measures();
+  add_bending(point_, e.value, motion.u, -P, K);
+  for (int j = 0; j < k; ++j)
+    for (int i = 0; i < k; ++i)
+      K[i + k * j] -= P * e.J.col(j).dot(x.J.col(i));
 }
 
 void FollowerLoad::guard_values(const LocalMotion &motion, const double *history, double *g) const

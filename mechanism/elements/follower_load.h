@@ -14,11 +14,16 @@ namespace gestell::mechanism
  *     p = P e . dx/du,     power P e . x'.
  *
  * P is that of a law of one measure, which sees the speed e . x' as its rate; history, events and orders are the law's.
- * Such a load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step.
+ * Such a load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step; geometric() is the
+ * rest,
+ *
+ *     K_ij = -P (de/du_j . dx/du_i + e . d^2x/du_i du_j),
+ *
+ * whose first term is not symmetric: such a load may excite a flutter.
  *
  * Source: docs/theory/joints.md (5a).
  */
-class FollowerLoad : public ForceLaw, public Branches, public Commands
+class FollowerLoad : public ForceLaw, public Branches, public Structure, public Commands
 {
 public:
   /// @param e  unit vector, as described
@@ -30,6 +35,9 @@ public:
   void tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                double *dp) const override;
   Work work() const override { return law_->work(); }
+
+  const Structure *structure() const override { return this; }
+  void             geometric(const LocalMotion &motion, const double *history, double *K) const override;
 
   /// Those of the law.
   const Branches *branches() const override { return branches_ ? this : nullptr; }

@@ -75,10 +75,10 @@ TEST(Facets, OfATransmittedElementAreThoseOfItsLawAndStructure)
   EXPECT_EQ(transmitted(profile), "BSC");
 }
 
-TEST(Facets, OfAFollowerLoadAreThoseOfItsLawWithoutStructure)
+TEST(Facets, OfAFollowerLoadAreThoseOfItsLawAndItsGeometricStiffness)
 {
-  EXPECT_EQ(facets(FollowerLoad(point, Vector3d::UnitX(), profile)), "BC");
-  EXPECT_EQ(facets(FollowerLoad(point, Vector3d::UnitX(), spring)), "");
+  EXPECT_EQ(facets(FollowerLoad(point, Vector3d::UnitX(), profile)), "BSC");
+  EXPECT_EQ(facets(FollowerLoad(point, Vector3d::UnitX(), spring)), "S");
 }
 
 TEST(Facets, TellForceLawsFromIdealJoints)

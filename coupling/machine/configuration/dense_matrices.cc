@@ -1,5 +1,6 @@
 #include "coupling/machine/configuration/dense_matrices.h"
 
+#include "coupling/machine/configuration/local_stiffness.h"
 #include "fem/values/nearest_name.h"
 
 #include <Eigen/QR>
@@ -198,54 +199,9 @@ Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u
   return acts;
 }
 
-namespace
-{
-
-/// v^T g'' w of the position function of an element, by polarisation of its quadratic form.
-double closure_curvature(const mechanism::Structure &element, const double *u, const Eigen::VectorXd &v,
-                         const Eigen::VectorXd &w)
-{
-  Eigen::VectorXd       gradient(v.size());
-  const Eigen::VectorXd sum = v + w, difference = v - w;
-  double                g, of_sum, of_difference;
-  element.closure(u, sum.data(), g, gradient.data(), of_sum);
-  element.closure(u, difference.data(), g, gradient.data(), of_difference);
-  return 0.25 * (of_sum - of_difference);
-}
-
-/// K -= P g'' for each element with a position function, p = P grad g.
-void add_turning_closures(const Machine &machine, const LocalState &state, Eigen::MatrixXd &K)
-{
-  Eigen::VectorXd p = Eigen::VectorXd::Zero(state.u.size());
-  machine.forces().force(state, p);
-  int first = 0;
-  for (const ElementPlacement &placement : machine.model().elements())
-  {
-    const int                   k    = placement.element->n_measures();
-    const Eigen::VectorXd       rest = Eigen::VectorXd::Zero(k);
-    Eigen::VectorXd             gradient(k);
-    double                      g, curvature;
-    const double               *u         = state.u.data() + first;
-    const mechanism::Structure *structure = placement.element->structure();
-    if (structure && structure->closure(u, rest.data(), g, gradient.data(), curvature))
-    {
-      const double P = p.segment(first, k).dot(gradient) / gradient.squaredNorm();
-      for (int i = 0; i < k; ++i)
-        for (int j = 0; j < k; ++j)
-          K(first + i, first + j) -=
-              P * closure_curvature(*structure, u, Eigen::VectorXd::Unit(k, i), Eigen::VectorXd::Unit(k, j));
-    }
-    first += k;
-  }
-}
-
-} // namespace
-
 Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state, Acting acting)
 {
-  Eigen::MatrixXd local;
-  machine.geometric(state, local);
-  add_turning_closures(machine, state, local);
+  Eigen::MatrixXd local = geometric_of_measures(machine, state);
   const Eigen::VectorXd acts = acting_measures(machine, state.u, acting);
   local                      = acts.asDiagonal() * local * acts.asDiagonal();
   const auto &W              = machine.forces().directions();

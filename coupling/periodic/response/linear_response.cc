@@ -2,6 +2,7 @@
 
 #include "coupling/periodic/response/growing_motions.h"
 #include "coupling/periodic/response/linearised_system.h"
+#include "coupling/integration/system/turning_forces.h"
 
 #include <Eigen/LU>
 
@@ -37,14 +38,17 @@ struct Unknowns
 using Solution = Unknowns<MatrixXcd>;
 using Residual = Unknowns<LongXcd>;
 
-/// The weighted sums that a frequency response is linear in.
-MatrixXd tangent(const SecondOrderSystem &system, const LocalState &at, double w_u, double w_v, double w_a)
+/// D(w) of the elements at a motion.
+void linearise_elements(const SecondOrderSystem &system, const LocalState &at, LinearisedSystem &own)
 {
-  const Index     n_u = system.forces().directions().cols();
+  const Index     n_u = own.n_u();
   Eigen::VectorXd p   = Eigen::VectorXd::Zero(n_u);
-  MatrixXd        dp  = MatrixXd::Zero(n_u, n_u);
-  system.forces().tangent(at, w_u, w_v, w_a, p, dp);
-  return dp;
+  for (MatrixXd *part : {&own.K_u, &own.B_u, &own.M_u})
+    part->setZero(n_u, n_u);
+  linearise(system.forces(), at, p, own.K_u, own.B_u);
+  system.forces().tangent(at, 0., 0., 1., p, own.M_u);
+  for (MatrixXd *part : {&own.K_u, &own.B_u, &own.M_u})
+    *part = -*part;
 }
 
 /// E = [G; rows of what sticks] [n_e x n_u]
@@ -273,9 +277,7 @@ LinearResponse::LinearResponse(const SecondOrderSystem &system, const OperatingP
                                 "derivative is known; leave it out, or make the joint compliant");
   own.base = entries(own.M, own.B, own.C);
   own.W    = system.forces().directions();
-  own.K_u  = -tangent(system, point.local, 1., 0., 0.);
-  own.B_u  = -tangent(system, point.local, 0., 1., 0.);
-  own.M_u  = -tangent(system, point.local, 0., 0., 1.);
+  linearise_elements(system, point.local, own);
   if (point.joint_stiffness.size() > 0)
     own.K_u += point.joint_stiffness;
   own.E   = bound_motions(system, point.local);
