@@ -76,7 +76,8 @@ const std::vector<Key> &reduction_keys()
           "vibrate. `\"condensation\"` keeps every coordinate of the full frame and condenses each step to those that "
           "forces of the mechanism act on ([integration](../theory/integration.md#condensation-to-the-measures)"
           "): exact, and slower by orders of magnitude; `\"none\"` is another name of it. So does a frame given by "
-          "matrices without `[reduction]`. Their other keys are those of the reduced frame that stands in for the full one "
+          "matrices without `[reduction]`. Their other keys are those of the reduced frame that stands in for the full "
+          "one "
           "in modes, statics of the start and pictures. A key that the method does not take is an error"),
       key::number(
           "tolerance", kind::number,

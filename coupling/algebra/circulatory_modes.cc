@@ -39,14 +39,14 @@ void normalise(const MatrixXd &M, Eigen::VectorXcd &z)
 /// One of the two columns of a pair, Re z or Im z of unit length, and its row of the dual basis.
 void set_column(const MatrixXd &M, const VectorXd &part, const VectorXd &dual, Eigen::Index j, CirculatoryModes &found)
 {
-  const double size      = std::sqrt(part.dot(M * part));
-  found.modes.V.col(j)   = part / size;
-  found.left.col(j)      = dual * size;
+  const double size    = std::sqrt(part.dot(M * part));
+  found.modes.V.col(j) = part / size;
+  found.left.col(j)    = dual * size;
 }
 
 /// lambda real.
-void set_real(const MatrixXd &C, const MatrixXd &M, double lambda, const VectorXd &z, const VectorXd &w,
-              Eigen::Index j, CirculatoryModes &found)
+void set_real(const MatrixXd &C, const MatrixXd &M, double lambda, const VectorXd &z, const VectorXd &w, Eigen::Index j,
+              CirculatoryModes &found)
 {
   const VectorXd v = z / std::sqrt(z.dot(M * z)), left = w / w.dot(M * v);
   if (left.dot(M * left) < most_sensitive * most_sensitive)
@@ -67,11 +67,11 @@ void set_pair(const MatrixXd &M, const Complex &lambda, bool flutters, Eigen::Ve
   w /= (w.transpose() * (M * z))(0);
   set_column(M, z.real(), 2. * w.real(), j, found);
   set_column(M, z.imag(), -2. * w.imag(), j + 1, found);
-  const Complex s         = flutters ? std::sqrt(-lambda) : Complex(0., std::sqrt(std::max(0., lambda.real())));
-  const double  falls     = !flutters && lambda.real() < 0. ? std::sqrt(-lambda.real()) : 0.;
-  found.modes.omega(j)    = found.modes.omega(j + 1) = std::abs(s.imag());
-  found.modes.growth(j)   = std::max(s.real(), falls);
-  found.modes.growth(j + 1) = flutters ? -s.real() : falls;
+  const Complex s      = flutters ? std::sqrt(-lambda) : Complex(0., std::sqrt(std::max(0., lambda.real())));
+  const double  falls  = !flutters && lambda.real() < 0. ? std::sqrt(-lambda.real()) : 0.;
+  found.modes.omega(j) = found.modes.omega(j + 1) = std::abs(s.imag());
+  found.modes.growth(j)                           = std::max(s.real(), falls);
+  found.modes.growth(j + 1)                       = flutters ? -s.real() : falls;
 }
 
 /// By frequency, those that are driven away first.

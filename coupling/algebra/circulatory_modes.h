@@ -18,7 +18,8 @@ struct CirculatoryModes
 };
 
 /**
- * The same as dense_modes() of a C that is not symmetric, as forces that follow the motion make it (circulatory forces):
+ * The same as dense_modes() of a C that is not symmetric, as forces that follow the motion make it (circulatory
+ * forces):
  *
  *     (C - lambda M) v = 0,     s^2 = -lambda,
  *

@@ -138,9 +138,9 @@ std::vector<Mode> modes_of(const ModalProblem &problem, int n_modes)
   else if (circulatory)
     add_damping(modes, {found.left.transpose() * C * modes.V, found.left.transpose() * B * modes.V}, result);
   else
-    add_damping(modes,
-                {Eigen::MatrixXd(modes.omega.array().square().matrix().asDiagonal()), modes.V.transpose() * B * modes.V},
-                result);
+    add_damping(
+        modes, {Eigen::MatrixXd(modes.omega.array().square().matrix().asDiagonal()), modes.V.transpose() * B * modes.V},
+        result);
   return result;
 }
 
@@ -242,8 +242,7 @@ Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linear
     if (jointed)
       local.lambda = linearisation.multipliers ? *linearisation.multipliers : multipliers_at_rest(machine, q, local);
     linear.K += geometric_stiffness(machine, local, linearisation.acting);
-    linear.circulatory =
-        is_circulatory(machine, local, acting_measures(machine, local.u, linearisation.acting));
+    linear.circulatory = is_circulatory(machine, local, acting_measures(machine, local.u, linearisation.acting));
   }
   require_finite(machine, linear);
   linear.Z     = free_motions(machine, local, linearisation.fixed);
@@ -257,22 +256,22 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
                                    int n_modes)
 {
   const auto [M, B, K, Z, circulatory, local] = linearised(machine, q, linearisation);
-  std::vector<Mode> modes              = modes_of({Z.transpose() * M * Z,
-                                                   Z.transpose() * B * Z,
-                                                   Z.transpose() * K * Z,
-                                                   Z.transpose() * machine.translation_loads(),
-                                                   linearisation.damping,
-                                                   {},
-                                                   circulatory},
-                                                  n_modes);
+  std::vector<Mode> modes                     = modes_of({Z.transpose() * M * Z,
+                                                          Z.transpose() * B * Z,
+                                                          Z.transpose() * K * Z,
+                                                          Z.transpose() * machine.translation_loads(),
+                                                          linearisation.damping,
+                                                          {},
+                                                          circulatory},
+                                                         n_modes);
   for (Mode &mode : modes)
     mode.shape = Z * mode.shape;
   Eigen::MatrixXd V(machine.size(), Eigen::Index(modes.size()));
   for (std::size_t j = 0; j < modes.size(); ++j)
     V.col(Eigen::Index(j)) = modes[j].shape;
-  const bool geometric = linearisation.geometric == GeometricStiffness::included;
-  const Eigen::MatrixXd size = V.cwiseAbs();
-  Eigen::VectorXd       terms = size.cwiseProduct(dense_stiffness(machine).cwiseAbs() * size).colwise().sum();
+  const bool            geometric = linearisation.geometric == GeometricStiffness::included;
+  const Eigen::MatrixXd size      = V.cwiseAbs();
+  Eigen::VectorXd       terms     = size.cwiseProduct(dense_stiffness(machine).cwiseAbs() * size).colwise().sum();
   terms += stiffness_terms(machine, q, linearisation.open, geometric ? &local : nullptr, V);
   settle_free_motions(terms, modes);
   return modes;
@@ -401,7 +400,7 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   LocalState local;
   local.resize(machine);
   machine.gather(t, q, v, Eigen::VectorXd::Zero(machine.size()), local);
-  const auto      &Z = linear.Z;
+  const auto     &Z = linear.Z;
   Eigen::MatrixXd K = Z.transpose() * linear.K * Z; // of the structure alone
   if (linear.circulatory)
     K = 0.5 * (K + K.transpose()).eval(); // a basis; what follows the motion is in the state

@@ -1,8 +1,8 @@
 #include "coupling/modes/operating_point.h"
 
 #include "coupling/integration/step/consistent_start.h"
-#include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/integration/system/turning_forces.h"
+#include "coupling/machine/configuration/dense_matrices.h"
 
 #include <array>
 #include <cmath>
@@ -49,9 +49,9 @@ struct Contact
 template <typename Look>
 void for_contacts(const Machine &machine, const LocalState &local, const Look &look)
 {
-  const auto      n_u = local.u.size();
-  Eigen::VectorXd p   = Eigen::VectorXd::Zero(n_u);
-  Eigen::MatrixXd dp  = Eigen::MatrixXd::Zero(n_u, n_u);
+  const auto      n_u   = local.u.size();
+  Eigen::VectorXd p     = Eigen::VectorXd::Zero(n_u);
+  Eigen::MatrixXd dp    = Eigen::MatrixXd::Zero(n_u, n_u);
   Eigen::MatrixXd dp_dv = dp;
   linearise(machine.forces(), local, p, dp, dp_dv);
   int first = 0;

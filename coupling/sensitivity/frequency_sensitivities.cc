@@ -64,8 +64,9 @@ VectorXd left_vector(const Matrices &own, const MatrixXd &Z, const VectorXd &v, 
 {
   constexpr double beside     = 1e-8; // of omega^2: nearer than any other frequency, and regular
   constexpr int    iterations = 4;    // from the right vector
-  const MatrixXd   A = Z.transpose() * (own.K.transpose() - (1. + beside) * square * own.M) * Z, M = Z.transpose() * own.M;
-  VectorXd         w = v;
+  const MatrixXd   A          = Z.transpose() * (own.K.transpose() - (1. + beside) * square * own.M) * Z,
+                 M            = Z.transpose() * own.M;
+  VectorXd w                  = v;
   for (int i = 0; i < iterations; ++i)
   {
     w = Z * lu_solution(A, MatrixXd(M * w));
@@ -77,20 +78,20 @@ VectorXd left_vector(const Matrices &own, const MatrixXd &Z, const VectorXd &v, 
 /// Modes that have derivatives; others are left empty.
 std::vector<TwoSidedMode> pairs_of(const Matrices &own, const std::vector<Mode> &modes)
 {
-  constexpr double   rounding = 1e-12;
-  const bool         follows  = (own.K - own.K.transpose()).cwiseAbs().maxCoeff() > rounding * own.K.cwiseAbs().maxCoeff();
-  const bool         jointed  = own.G.rows() > 0;
-  const LeastSquaresSolver joints  = jointed ? LeastSquaresSolver(MatrixXd(own.G.transpose())) : LeastSquaresSolver();
-  const MatrixXd           Z       = !follows  ? MatrixXd()
+  constexpr double rounding = 1e-12;
+  const bool       follows = (own.K - own.K.transpose()).cwiseAbs().maxCoeff() > rounding * own.K.cwiseAbs().maxCoeff();
+  const bool       jointed = own.G.rows() > 0;
+  const LeastSquaresSolver  joints = jointed ? LeastSquaresSolver(MatrixXd(own.G.transpose())) : LeastSquaresSolver();
+  const MatrixXd            Z      = !follows  ? MatrixXd()
                                      : jointed ? LeastSquaresSolver(own.G).null_space()
                                                : MatrixXd::Identity(own.K.rows(), own.K.rows());
-  std::vector<TwoSidedMode>    pairs(modes.size());
+  std::vector<TwoSidedMode> pairs(modes.size());
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
     if (!without_derivative(modes, j).empty())
       continue;
-    const double omega = 2. * M_PI * modes[j].frequency_hz, square = omega * omega;
-    TwoSidedMode    &pair  = pairs[j];
+    const double  omega = 2. * M_PI * modes[j].frequency_hz, square = omega * omega;
+    TwoSidedMode &pair = pairs[j];
     pair.v             = modes[j].shape;
     pair.w             = follows ? left_vector(own, Z, pair.v, square) : pair.v;
     if (!jointed)

@@ -34,8 +34,8 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j);
  *
  *     8 pi^2 f df/dx = w^T (K_x - omega^2 M_x) v + w^T G_x^T mu + v^T G_x^T mu_w,     K v - omega^2 M v + G^T mu = 0,
  *
- * G of the joints in the coordinates of the machine; w is v, or where K is not symmetric the left eigenvector, w^T M v =
- * 1, with its own multipliers mu_w.  Matrices by x are central quotients, with the configuration that belongs to each
+ * G of the joints in the coordinates of the machine; w is v, or where K is not symmetric the left eigenvector, w^T M v
+ * = 1, with its own multipliers mu_w.  Matrices by x are central quotients, with the configuration that belongs to each
  * value; K, M and G their means.  nan: those without_derivative().
  *
  * Source: Fox, Kapoor, AIAA Journal 6(12), 1968, 2426-2429, with constraints; docs/sensitivities.md (12).

@@ -27,8 +27,9 @@ namespace gestell::mechanism
  *
  *     E = (P V - P_s V_s)/(n - 1) - P_s V_s + P_a V,     dE/dV = P_a - P  while enclosed or in suction,
  *
- * so that compression and expansion dissipate nothing, and delivery n/(n-1) (P_d - P_s V_s/V) per volume delivered: over
- * a cycle the work of the compressor.  For n = 1 the first term is P V ln(P/P_s).  Below V_c/2, where only a trial motion gets, P goes on along its tangent.
+ * so that compression and expansion dissipate nothing, and delivery n/(n-1) (P_d - P_s V_s/V) per volume delivered:
+ * over a cycle the work of the compressor.  For n = 1 the first term is P V ln(P/P_s).  Below V_c/2, where only a trial
+ * motion gets, P goes on along its tangent.
  *
  * Source: Dresig, Vul'fson, Dynamik der Mechanismen, 5.5.1 (compressor forces); any textbook of reciprocating
  * compressors.

@@ -41,7 +41,7 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return work_; }
-  void exchange(StateArchive &archive) override;
+  void                   exchange(StateArchive &archive) override;
 
 protected:
   /// A point of time: motion, acceleration as the method carries it and load f_t, both [n].

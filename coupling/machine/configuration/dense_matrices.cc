@@ -201,10 +201,10 @@ Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u
 
 Eigen::MatrixXd geometric_stiffness(const Machine &machine, const LocalState &state, Acting acting)
 {
-  Eigen::MatrixXd local = geometric_of_measures(machine, state);
-  const Eigen::VectorXd acts = acting_measures(machine, state.u, acting);
-  local                      = acts.asDiagonal() * local * acts.asDiagonal();
-  const auto &W              = machine.forces().directions();
+  Eigen::MatrixXd       local = geometric_of_measures(machine, state);
+  const Eigen::VectorXd acts  = acting_measures(machine, state.u, acting);
+  local                       = acts.asDiagonal() * local * acts.asDiagonal();
+  const auto &W               = machine.forces().directions();
   return W * local * W.transpose();
 }
 

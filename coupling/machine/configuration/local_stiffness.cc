@@ -100,7 +100,7 @@ Eigen::VectorXd stiffness_terms(const Machine &machine, const Eigen::VectorXd &q
                [&](const ElementPlacement &placement, int first, int k)
                {
                  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
-                 const bool      is_open = std::find(open.begin(), open.end(), placement.name) != open.end();
+                 const bool      is_open  = std::find(open.begin(), open.end(), placement.name) != open.end();
                  const auto      matrices = is_open ? mechanism::open_branch : mechanism::engaged;
                  matrices(*placement.element, u.data() + first, K.data(), D.data());
                  K = K.cwiseAbs();

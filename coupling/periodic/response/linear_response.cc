@@ -1,8 +1,8 @@
 #include "coupling/periodic/response/linear_response.h"
 
+#include "coupling/integration/system/turning_forces.h"
 #include "coupling/periodic/response/growing_motions.h"
 #include "coupling/periodic/response/linearised_system.h"
-#include "coupling/integration/system/turning_forces.h"
 
 #include <Eigen/LU>
 

@@ -27,12 +27,9 @@ const std::string run = steps("1 ms", "1 s") + signals("a = 'b1.angle'");
 
 std::string load(const std::string &tip, double P, const std::string &body)
 {
-  return element("P", "force",
-                 {{"from", body},
-                  {"at_from", tip},
-                  {"direction", "[0, 0, -1]"},
-                  {"carried_by", body},
-                  {"constant", number(P)}});
+  return element(
+      "P", "force",
+      {{"from", body}, {"at_from", tip}, {"direction", "[0, 0, -1]"}, {"carried_by", body}, {"constant", number(P)}});
 }
 
 std::string hinge(const std::string &name, const std::string &from, const std::string &to, double z, double k, double b)
@@ -61,19 +58,16 @@ struct Column
   }
   std::vector<Mode> modes() const { return coupling::coupled_modes(machine, q, {}, 20); }
 
-  apps::Scene     scene;
-  Machine         machine;
-  Eigen::VectorXd q;
+  apps::Scene                    scene;
+  Machine                        machine;
+  Eigen::VectorXd                q;
   const std::vector<std::string> open{};
 };
 
 /// Of a x^2 - b x + 1 = 0, x = -s^2 m l^2/k, which is 2 x^2 - (7 - 2 kappa) x + 1 = 0 without J.
 struct Ziegler
 {
-  explicit Ziegler(double kappa)
-      : a((3. + J) * (1. + J) - 1.), b((2. - kappa) * (1. + J) + (3. + J) + 2. - kappa)
-  {
-  }
+  explicit Ziegler(double kappa) : a((3. + J) * (1. + J) - 1.), b((2. - kappa) * (1. + J) + (3. + J) + 2. - kappa) {}
   /// The lower root and the higher one, or a pair.
   std::pair<Complex, Complex> x() const
   {
@@ -94,7 +88,7 @@ TEST(FollowerModes, OfZieglersColumnAreThoseOfItsClosedForm)
 {
   for (const double kappa : {0.3, 1., 1.9, 2.08})
   {
-    const auto modes         = Column(ziegler(kappa)).modes();
+    const auto modes           = Column(ziegler(kappa)).modes();
     const auto [first, second] = roots(kappa);
     ASSERT_EQ(modes.size(), 2u);
     EXPECT_NEAR(modes[0].frequency_hz, std::abs(first.imag()) / two_pi, 1e-8) << kappa;
@@ -132,7 +126,7 @@ TEST(FollowerModes, AreDestabilisedByDampers)
     double least = 1.;
     for (const Mode &mode : Column(ziegler(share * 41. / 28., 0.01)).modes())
       least = std::min(least, mode.damping_ratio);
-    EXPECT_EQ(least < 0., share > 1.) << least;
+    EXPECT_EQ(least<0., share> 1.) << least;
   }
 }
 
@@ -161,7 +155,7 @@ TEST(FollowerModes, HaveTheDerivativesOfTheirClosedForm)
   const auto   found = coupling::frequency_sensitivities(modes, {{at(below), at(above), step}});
   for (int j = 0; j < 2; ++j)
   {
-    const double omega = two_pi * modes[std::size_t(j)].frequency_hz, x = omega * omega / 100.;
+    const double  omega = two_pi * modes[std::size_t(j)].frequency_hz, x = omega * omega / 100.;
     const Ziegler closed(kappa);
     const double  slope = -(2. + J) * x / (2. * closed.a * x - closed.b) * 100. / (2. * omega) / two_pi;
     EXPECT_NEAR(found(j, 0), slope, 1e-7 * std::abs(slope)) << j;

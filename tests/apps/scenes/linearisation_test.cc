@@ -118,15 +118,15 @@ void expect_exact(const apps::Scene &scene, const std::string &name, bool moves)
   if (n_u == 0)
     return;
   const coupling::LinearResponse    response(machine, {local, stiffness_of_joints(machine, local)});
-  const coupling::LinearisedSystem &own = response.parts();
-  const Vector                      p   = forces(machine, local);
+  const coupling::LinearisedSystem &own      = response.parts();
+  const Vector                      p        = forces(machine, local);
   constexpr double                  shares[] = {1., 0.1, 0.01};
   struct Part
   {
-    const char           *what;
-    const Matrix         &found;
+    const char   *what;
+    const Matrix &found;
     Vector LocalState::*x;
-    double               step;
+    double              step;
   };
   for (const Part &part : {Part{"u", own.K_u, &LocalState::u, 2e-5}, Part{"u'", own.B_u, &LocalState::v, 1e-3},
                            Part{"u''", own.M_u, &LocalState::a, 1e-2}})
@@ -145,8 +145,8 @@ void expect_exact(const apps::Scene &scene, const std::string &name, bool moves)
       const double force = p.segment(first, k).cwiseAbs().maxCoeff(), stiffness = block(own.K_u).cwiseAbs().maxCoeff();
       double       least = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < expected.size(); ++i)
-        least = std::min(least,
-                         distance(block(part.found), block(expected[i]), force, stiffness, shares[i] * part.step));
+        least =
+            std::min(least, distance(block(part.found), block(expected[i]), force, stiffness, shares[i] * part.step));
       EXPECT_LE(least, 1e-6) << name << ": force of \"" << placement.name << "\" by " << part.what << "\nfound\n"
                              << block(part.found) << "\nexpected\n"
                              << block(expected[0]);
@@ -186,10 +186,10 @@ TEST(LinearisedElement, OfEachTypeHasTheDerivativesOfItsForce)
 }
 
 /// A plate that turns, and another one, both with arms: elements between them act along directions that turn.
-const std::string plates =
-    planar_body("a", "2", "0.3", "[0.1, 0, 0.2]") + planar_body("b", "3", "0.5", "[0.9, 0, -0.3]") +
-    place("p", "a", "[0.4, 0, 0.3]") + place("r", "b", "[0.6, 0, -0.1]") + steps("1 ms", "1 s") +
-    signals("x = 'a.x'") + start("v = { 'a.angle' = 2, 'b.angle' = -3 }");
+const std::string plates = planar_body("a", "2", "0.3", "[0.1, 0, 0.2]") +
+                           planar_body("b", "3", "0.5", "[0.9, 0, -0.3]") + place("p", "a", "[0.4, 0, 0.3]") +
+                           place("r", "b", "[0.6, 0, -0.1]") + steps("1 ms", "1 s") + signals("x = 'a.x'") +
+                           start("v = { 'a.angle' = 2, 'b.angle' = -3 }");
 
 TEST(LinearisedElement, ThatTurnsWithTheMotionHasTheDerivativesOfItsForce)
 {
@@ -220,9 +220,9 @@ struct AtRest
   {
   }
 
-  Machine                        machine;
-  Vector                         q;
-  std::vector<coupling::Mode>    modes;
+  Machine                     machine;
+  Vector                      q;
+  std::vector<coupling::Mode> modes;
 };
 
 // Two weights that balance: v^T K v is the difference of the two.
@@ -230,13 +230,11 @@ TEST(LinearisedMachine, HasNoFrequencyWhereItsWeightsBalance)
 {
   for (const double height : {0.37, 0.1234567, 0.7})
   {
-    const std::string seesaw = "gravity = [0, 0, -9.81]\n" + planar_body("b", "3.3", "1.1", "[0, 0, 0]") +
-                               revolute("j", "ground", "b", "[0, 0, 0]") +
-                               point_body("c", "3.7", vector(0.1, 0., height)) +
-                               point_body("d", "3.7", vector(-0.1, 0., -height)) +
-                               revolute("k", "b", "c", vector(0.1, 0., height)) +
-                               revolute("l", "b", "d", vector(-0.1, 0., -height)) + steps("1 ms", "1 s") +
-                               signals("a = 'b.angle'");
+    const std::string seesaw =
+        "gravity = [0, 0, -9.81]\n" + planar_body("b", "3.3", "1.1", "[0, 0, 0]") +
+        revolute("j", "ground", "b", "[0, 0, 0]") + point_body("c", "3.7", vector(0.1, 0., height)) +
+        point_body("d", "3.7", vector(-0.1, 0., -height)) + revolute("k", "b", "c", vector(0.1, 0., height)) +
+        revolute("l", "b", "d", vector(-0.1, 0., -height)) + steps("1 ms", "1 s") + signals("a = 'b.angle'");
     const AtRest at(test::scene_of(seesaw));
     ASSERT_EQ(at.modes.size(), 1u);
     EXPECT_EQ(at.modes[0].frequency_hz, 0.);

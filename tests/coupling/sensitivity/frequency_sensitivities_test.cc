@@ -99,8 +99,7 @@ TEST(FrequencySensitivities, SeeWhatAParameterMakesOfAJoint)
     below[k] -= step;
     above[k] += step;
     const Machine         minus = geared(below), plus = geared(above);
-    const Eigen::MatrixXd found =
-        frequency_sensitivities(modes, {{{&minus, rest, &open}, {&plus, rest, &open}, step}});
+    const Eigen::MatrixXd found = frequency_sensitivities(modes, {{{&minus, rest, &open}, {&plus, rest, &open}, step}});
     EXPECT_NEAR(found(0, 0), slope[k], 1e-8 * std::abs(slope[k])) << k; // rounding of a quotient
   }
 }
