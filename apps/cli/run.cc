@@ -37,6 +37,8 @@ void print_answer(const coupling::RunResult &run)
   std::cout << std::left << std::setw(12) << "signal" << std::right << std::setw(16) << "min" << std::setw(14)
             << "at t [s]" << std::setw(16) << "max" << std::setw(14) << "at t [s]" << '\n';
   const Noise noise = noise_of(run.signals);
+  if (!run.rows.empty() && run.from > run.rows.front())
+    std::cout << "(from " << run.from << " s on)\n";
   for (const coupling::SignalSummary &signal : run.signals)
     std::cout << std::left << std::setw(12) << signal.name << std::right << std::setprecision(7) << std::setw(16)
               << noise.without(signal.unit, signal.min) << std::setw(14) << signal.t_min << std::setw(16)

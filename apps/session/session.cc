@@ -273,9 +273,10 @@ Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre 
   std::string                  failure;
   const coupling::InitialState initial = found_start(scene_, prepared, watch_.interruption, failure);
   progress()("modes", -1.);
-  Result result   = begin_result(scene_, "run", prepared);
-  result.settings = settings_text(scene_.run.options);
-  result.asked    = {path_, overrides_, scene_.run.options};
+  scene_.run.options.from = result_window(scene_, prepared.machine, initial);
+  Result result           = begin_result(scene_, "run", prepared);
+  result.settings         = settings_text(scene_.run.options);
+  result.asked            = {path_, overrides_, scene_.run.options};
   SceneTwins           twins;
   coupling::Trajectory trajectory;
   const std::clock_t   at_twins = std::clock();

@@ -243,8 +243,10 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   {
     const coupling::InitialState initial = prepare_start(other, prepared);
     require_free_motion(other, prepared.machine, initial);
-    const auto run = coupling::simulate(prepared.machine, initial, other.run.options,
-                                        scene_signals(other, prepared.machine), {}, stop);
+    coupling::RunOptions options = other.run.options;
+    options.from                 = result_window(other, prepared.machine, initial);
+    const auto run =
+        coupling::simulate(prepared.machine, initial, options, scene_signals(other, prepared.machine), {}, stop);
     if (run.interrupted || !run.failure.empty())
       throw coupling::ConvergenceFailure(run.interrupted ? "interrupted" : run.failure);
     take_run(run, outputs, other.run.options.end, answer);

@@ -122,6 +122,8 @@ bool Climb::takes_exact() const
     Scene        short_run = varied(scene_, {coarse, -1, finest_method(scene_)});
     short_run.run.options.end =
         short_run.run.options.begin + 1e-3 * (short_run.run.options.end - short_run.run.options.begin);
+    short_run.run.options.from = short_run.run.options.begin; // whether it runs is asked, no extreme
+    short_run.run.last_period  = false;
     answer_of(short_run, {}, outputs_, options_.stop);
     return true;
   }

@@ -168,6 +168,14 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
     output(extreme, true).note = "no derivative where one percent would move it by more than the run: the peak is flat";
 }
 
+void ExtremeDerivatives::at_window(double t, const Told &told, const VectorXd &rates, const RowVectorXd &dt)
+{
+  for (Extreme &extreme : extremes_)
+    if (extreme.t == t && !is_rounding(extreme))
+      set(extreme, told.dy.row(Index(extreme.signal)).transpose() + rates[Index(extreme.signal)] * dt.transpose(),
+          dt.transpose());
+}
+
 void ExtremeDerivatives::at_end(double t, const Told &told, const VectorXd &rates, const RowVectorXd &end)
 {
   for (std::size_t i = 0; i < sizes_.size(); ++i)

@@ -39,6 +39,8 @@ public:
   /// Where a signal turns.
   /// @param step  [s] of the variational equations
   void at_turn(double t, std::size_t signal, const Turn &turn, double step);
+  /// Extremes at t, where they begin to count, which moves by `dt`.
+  void at_window(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
   /// The end of the run, which moves by `end`.
   void at_end(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &end);
 

@@ -3,6 +3,7 @@
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct MachineTwin
 {
   Machine            *machine = nullptr;
   InitialState        initial;
-  std::vector<Signal> signals;  ///< those of the run, in the same order
-  double              end = 0.; ///< [s] of the run
+  std::vector<Signal> signals;                                         ///< those of the run, in the same order
+  double              end  = 0.;                                       ///< [s] of the run
+  double              from = -std::numeric_limits<double>::infinity(); ///< [s] see RunOptions
 };
 
 /// A parameter and the machine at x - step and x + step, of one structure: coordinates, measures, joints, elements.

@@ -47,6 +47,8 @@ private:
   void        pass_piece(std::size_t number);
   void        advance_to(double t);
   void        tell_end();
+  void        tell_window();
+  RowVectorXd shift_of(double MachineTwin::*instant) const;
   void        take_events(std::size_t number);
   void        take_transition(int guard, const MotionState &state, const MotionColumns &columns, const RowVectorXd &dt);
   void        tell_piece_begin(std::size_t number);
@@ -337,9 +339,12 @@ void Passage::pass_piece(std::size_t number)
     advance_to(stop);
     if (interrupted_)
       return;
-    for (const auto &[signal, size] : extremes_.turning_at(stop))
-      extremes_.at_turn(stop, signal, signals_.turn(signal, steps_.state(), steps_.columns(), steps_.step(), size),
-                        steps_.step());
+    if (stop == problem_.options.from)
+      tell_window();
+    else
+      for (const auto &[signal, size] : extremes_.turning_at(stop))
+        extremes_.at_turn(stop, signal, signals_.turn(signal, steps_.state(), steps_.columns(), steps_.step(), size),
+                          steps_.step());
     growth_.look(stop, steps_.columns().q);
   }
   advance_to(end);
@@ -353,17 +358,34 @@ void Passage::pass_piece(std::size_t number)
     take_events(number);
 }
 
+/// How parameters move an instant that the scene gives.
+RowVectorXd Passage::shift_of(double MachineTwin::*instant) const
+{
+  RowVectorXd shift(K_);
+  for (int k = 0; k < K_; ++k)
+  {
+    const ParameterTwins &own = problem_.twins[std::size_t(k)];
+    shift[k]                  = (own.plus.*instant - own.minus.*instant) / (2. * own.step);
+  }
+  return shift;
+}
+
+void Passage::tell_window()
+{
+  const Told told = signals_.tell(steps_.state(), steps_.columns());
+  LocalState rates;
+  VectorXd   y_rates;
+  signals_.find_rates(steps_.state(), little * steps_.step(), rates, y_rates);
+  extremes_.at_window(steps_.state().t, told, y_rates, shift_of(&MachineTwin::from));
+}
+
 void Passage::tell_end()
 {
   const Told told = signals_.tell(steps_.state(), steps_.columns());
   LocalState rates;
   VectorXd   y_rates;
   signals_.find_rates(steps_.state(), little * steps_.step(), rates, y_rates);
-  RowVectorXd end(K_);
-  for (int k = 0; k < K_; ++k)
-    end[k] = (problem_.twins[std::size_t(k)].plus.end - problem_.twins[std::size_t(k)].minus.end) /
-             (2. * problem_.twins[std::size_t(k)].step);
-  extremes_.at_end(steps_.state().t, told, y_rates, end);
+  extremes_.at_end(steps_.state().t, told, y_rates, shift_of(&MachineTwin::end));
 }
 
 /// Of a motion too coarse to have the derivatives that its equations have along it.

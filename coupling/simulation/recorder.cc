@@ -2,6 +2,7 @@
 
 #include "coupling/integration/system/state_archive.h"
 #include "coupling/simulation/run_state.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,14 +101,16 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
       keeper_(machine, integrator, options.states, options.begin, result.signals, result.states),
       around_(machine, integrator, options, result.signals, result.states), energy_(machine),
       power_rule_(power_rule(options.method, sampling)), coordinates_(coordinates_of(signals)),
-      accelerations_(accelerations_for(signals, machine)), extremes_(*this, sampling, signals, result.signals),
-      row_step_(output_step(options)), picture_step_(options.picture_step)
+      accelerations_(accelerations_for(signals, machine)),
+      extremes_(*this, sampling, signals, options.from, result.signals), row_step_(output_step(options)),
+      picture_step_(options.picture_step)
 {
   between_.q.setZero(machine.size());
   between_.v.setZero(machine.size());
   between_.local.resize(machine);
   probe_ = {0., std::vector<double>(signals.size())};
 
+  result.from    = options.from;
   result.columns = {"t"};
   result.units   = {"s"};
   for (const Signal &signal : signals)
@@ -373,12 +376,17 @@ void Recorder::finish()
   for (std::size_t i = 0; i < signals_.size(); ++i)
   {
     result_.signals[i].final = last.values[i];
+    if (!extremes_.reached())
+      extremes_.look_anew(i);
     if (extremes_.watched(i))
       continue;
     result_.warnings.push_back("signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
                                "\" on, which did not happen: its extremes are those of the end");
     extremes_.look_anew(i);
   }
+  if (!extremes_.reached())
+    result_.warnings.push_back("the run ended before output.from = " + short_text(options_.from) +
+                               " s, from which on extremes count: they are the values at the end");
   if (const std::string words = rounding_.words(machine_.linear(), guard_.exchanged(), energy_.at_begin());
       !words.empty())
     result_.warnings.push_back(words);

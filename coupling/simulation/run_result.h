@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,8 @@ struct RunOptions
   bool          force_unstable = false; ///< runs although the method is unstable with this step
   bool          energy         = true;
   bool          allow_large    = false; ///< histories and pictures above 1 GB
+  /// [s] Extremes of signals count from there on; before the begin: over the whole run.
+  double from = -std::numeric_limits<double>::infinity();
 };
 
 /// Time between rows [s]: as asked for, or the fixed step, or with a controlled one a two thousandth of the run.
@@ -91,7 +94,8 @@ struct EnergySummary
 struct RunResult
 {
   std::vector<SignalSummary> signals;
-  std::string                method;   ///< name of the method, for people
+  double                     from = -std::numeric_limits<double>::infinity(); ///< as in RunOptions
+  std::string                method;                                          ///< name of the method, for people
   std::vector<ModeAccuracy>  accuracy; ///< what it makes of each mode; empty with a controlled step
   /// Rows of history.csv: t, every signal, then energy input, stored, dissipated.
   std::vector<std::string>     columns, units;

@@ -44,8 +44,8 @@ bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
 } // namespace
 
 SignalExtremes::SignalExtremes(SampledRun &run, const Sampling &sampling, const std::vector<Signal> &signals,
-                               std::vector<SignalSummary> &summaries)
-    : run_(run), sampling_(sampling), signals_(signals), summaries_(summaries), probe_{0., {}},
+                               double from, std::vector<SignalSummary> &summaries)
+    : run_(run), sampling_(sampling), signals_(signals), from_(from), summaries_(summaries), probe_{0., {}},
       anew_(signals.size(), true)
 {
   probe_.values.resize(signals.size());
@@ -76,7 +76,20 @@ void SignalExtremes::restart(const SignalSample &at)
       look_anew(i);
       anew_[i] = false;
     }
+  open_ = open_ || at.t >= from_;
   see(at);
+}
+
+/// At t in the last step extremes begin to count.
+void SignalExtremes::open(double t)
+{
+  run_.evaluate(t, probe_);
+  open_ = true;
+  for (std::size_t i = 0; i < signals_.size(); ++i)
+  {
+    summaries_[i].min = summaries_[i].max = probe_.values[i];
+    summaries_[i].t_min = summaries_[i].t_max = t;
+  }
 }
 
 void SignalExtremes::look_anew(std::size_t signal)
@@ -99,6 +112,8 @@ double SignalExtremes::slope(std::size_t signal) const
 void SignalExtremes::step(double end)
 {
   const double begin = samples_[begin_].t, length = end - begin;
+  if (!open_ && end >= from_)
+    open(from_);
   if (sampling_.inside || begin_ == 0)
     divide(begin, end);
   append(end);
@@ -201,7 +216,7 @@ bool SignalExtremes::rough(int first) const
     for (int j = 0; j < window; ++j)
       difference += weight[j] * s[j].values[i];
     const double missing = std::abs(difference) / missed;
-    if (watched_[i] && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
+    if (counts(i) && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
       return true;
   }
   return false;
@@ -216,7 +231,7 @@ void SignalExtremes::see(const SignalSample &sample)
 void SignalExtremes::see(std::size_t signal, double t, double value)
 {
   SignalSummary &summary = summaries_[signal];
-  if (!watched_[signal])
+  if (!counts(signal) || t < from_)
     return;
   if (value < summary.min)
   {
@@ -235,7 +250,7 @@ void SignalExtremes::turn(int middle)
 {
   for (std::size_t i = 0; i < signals_.size(); ++i)
     for (const double sign : {-1., 1.})
-      if (watched_[i])
+      if (counts(i))
       {
         turn({i, sign, false}, middle);
         if (nears_zero({i, sign, true}, middle))
@@ -303,7 +318,7 @@ void SignalSample::exchange(StateArchive &archive)
 
 void SignalExtremes::exchange(StateArchive &archive)
 {
-  archive(samples_, watched_, anew_, n_, begin_);
+  archive(samples_, watched_, anew_, n_, begin_, open_);
 }
 
 } // namespace gestell::coupling

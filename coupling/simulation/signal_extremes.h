@@ -38,7 +38,7 @@ struct Sampling
 };
 
 /**
- * Smallest and largest values of all signals in a run.
+ * Smallest and largest values of all signals in a run, or from an instant on.
  *
  * Steps are sampled at their ends, or in four pieces.  Where the fourth divided difference of five neighbours says that
  * parabolas through three of them miss a peak by more than a share epsilon of what the signal ranges over,
@@ -57,7 +57,8 @@ struct Sampling
 class SignalExtremes
 {
 public:
-  SignalExtremes(SampledRun &run, const Sampling &sampling, const std::vector<Signal> &signals,
+  /// @param from  [s] instant from which on they count, see RunOptions
+  SignalExtremes(SampledRun &run, const Sampling &sampling, const std::vector<Signal> &signals, double from,
                  std::vector<SignalSummary> &summaries);
 
   /// Signals that are watched from that event on count from the next restart() on.
@@ -75,6 +76,7 @@ public:
   /// Rate [1/s] there, of the parabola through the last three samples; nan: there are fewer.
   double slope(std::size_t signal) const;
   bool   watched(std::size_t signal) const { return watched_[signal] != 0; }
+  bool   reached() const { return open_ != 0; } ///< the instant from which on extremes count
   /// Extremes of a signal count from the last sample on.
   void look_anew(std::size_t signal);
 
@@ -91,6 +93,8 @@ private:
     double of(double value) const { return sign * (square ? value * std::abs(value) : value); }
   };
 
+  void   open(double t);
+  bool   counts(std::size_t signal) const { return open_ && watched_[signal]; }
   void   append(double t);
   void   divide(double begin, double end);
   void   halve(int first);
@@ -107,6 +111,7 @@ private:
   SampledRun                 &run_;
   Sampling                    sampling_;
   const std::vector<Signal>  &signals_;
+  double                      from_; ///< [s]
   std::vector<SignalSummary> &summaries_;
   std::vector<SignalSample>   samples_; ///< the first n_ count: up to three before the last step, then its own
   SignalSample                probe_;   ///< scratch
@@ -114,6 +119,7 @@ private:
   std::vector<char>           anew_;    ///< those that count from the next restart() on
   std::vector<int>            like_;    ///< number of the first signal of the same unit
   int                         n_ = 0, begin_ = 0;
+  char                        open_ = 0; ///< from_ lies behind
 };
 
 } // namespace gestell::coupling

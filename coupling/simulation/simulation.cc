@@ -197,6 +197,9 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
   check_method(options.method);
   if (!(options.end > options.begin))
     refuse("run.end is ", options.end, " s; it must lie after the start at ", options.begin, " s");
+  if (!(options.from < options.end))
+    refuse("output.from is ", options.from,
+           " s; extremes count from there on, so that it must lie before run.end = ", options.end, " s");
   if (!controlled(options.method) && !((options.end - options.begin) / options.method.step <= most_steps))
     refuse("run.step is ", options.method.step, " s; that makes more than 1e10 steps; take a longer one");
   require_steps_for_loads(machine, options.method);

@@ -41,19 +41,15 @@ std::string quantity_text(double value, const std::string &si_unit)
   return short_text(value * unit.factor, 4) + (unit.unit.empty() ? "" : " " + unit.unit);
 }
 
-/// The largest force, moment, ... of those the scene tells, each unit once, in the order of the scene.
+/// Of the first force, the first moment, ... that the scene names, in its order.
 std::vector<Peak> main_peaks(const coupling::RunResult &run)
 {
   std::vector<Peak> peaks;
   for (const coupling::SignalSummary &signal : run.signals)
   {
-    const Peak peak = peak_of(signal);
-    const auto same =
-        std::find_if(peaks.begin(), peaks.end(), [&](const Peak &other) { return other.signal->unit == signal.unit; });
-    if (same == peaks.end())
-      peaks.push_back(peak);
-    else if (std::abs(peak.value) > std::abs(same->value))
-      *same = peak;
+    const auto same = [&](const Peak &other) { return other.signal->unit == signal.unit; };
+    if (std::none_of(peaks.begin(), peaks.end(), same))
+      peaks.push_back(peak_of(signal));
   }
   peaks.resize(std::min(peaks.size(), most_peaks));
   return peaks;
@@ -87,6 +83,11 @@ std::string what_was_run(const Result &result, const coupling::RunResult &run)
          model_text(result.model) + ".";
 }
 
+bool windowed(const coupling::RunResult &run)
+{
+  return !run.rows.empty() && run.from > run.rows.front();
+}
+
 std::string what_it_gave(const coupling::RunResult &run)
 {
   const std::vector<Peak> peaks = main_peaks(run);
@@ -96,6 +97,8 @@ std::string what_it_gave(const coupling::RunResult &run)
   for (const Peak &peak : peaks)
     text += (text.empty() ? "" : ", ") + peak.signal->name + " reaches " +
             quantity_text(peak.value, peak.signal->unit) + " at " + short_text(peak.t) + " s";
+  if (!text.empty() && windowed(run))
+    text = "From " + short_text(run.from, 6) + " s on, " + text;
   text += (text.empty() ? "There are " : "; ") + std::string(text.empty() ? "" : "there are ") +
           count_text(run.events.size(), "event");
   if (run.energy.exchanged > 0.)

@@ -120,6 +120,13 @@ std::string peaks_table(const Result &result)
   return table.html();
 }
 
+std::string window_sentence(const Result &result)
+{
+  if (!result.run || result.run->rows.empty() || !(result.run->from > result.run->rows.front()))
+    return "";
+  return "<p>Extremes count from " + short_text(result.run->from, 6) + " s on, as [output] from says.</p>\n";
+}
+
 std::string answer_section(const Result &result, Report &report)
 {
   const std::string table   = peaks_table(result),
@@ -127,7 +134,7 @@ std::string answer_section(const Result &result, Report &report)
   if (table.empty() && picture.empty())
     return "";
   return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
-                 "<div class=\"row\">" + table + picture + "</div>\n");
+                 window_sentence(result) + "<div class=\"row\">" + table + picture + "</div>\n");
 }
 
 std::string signal_figure(const SignalChart &chart)

@@ -92,6 +92,7 @@ Json request_json(const Request &asked)
                  {"step", number_or_null(asked.run->method.step)},
                  {"begin", asked.run->begin},
                  {"end", asked.run->end},
+                 {"from", std::max(asked.run->from, asked.run->begin)},
                  {"events", asked.run->events}});
   return json;
 }

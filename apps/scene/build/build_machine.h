@@ -30,7 +30,8 @@ coupling::Machine build_machine(const Scene &scene); ///< FramePath none or dens
 coupling::Machine build_machine(const Scene &scene, coupling::ReducedFrame frame);
 coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame);
 
-/// The machine as far as it is known without computing: a frame that must be made first is a stand-in with its interfaces.
+/// The machine as far as it is known without computing: a frame that must be made first is a stand-in with its
+/// interfaces.
 coupling::Machine machine_to_check(const Scene &scene);
 
 /// The signals of the scene; throws std::invalid_argument with place and nearest name for a path that does not exist.
@@ -38,6 +39,14 @@ std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::
 
 /// State at the beginning of the run by the rule of the scene.
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine);
+
+/**
+ * [s] from which on extremes count, [output] from.  The last period is the least common one of the loads with
+ * harmonics, else a revolution of the slowest rotor that turns once in the run at the speed it starts with.
+ *
+ * @throws std::invalid_argument if the scene asks for the last period of a machine that has none in its run
+ */
+double result_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial);
 
 /// q [n] of the configuration that modes are asked for.
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine);

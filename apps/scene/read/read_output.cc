@@ -19,6 +19,12 @@ const std::vector<Key> &output_keys()
       key::number("step", kind::time, "between rows of `history.csv`, taken from the dense output where no step ends")
           .above_zero()
           .by_default("the fixed step; with a tolerance a two thousandth of the run"),
+      key::number(
+          "from", kind::time,
+          "start of the window in which extremes, key numbers and spectra are taken; or `\"last period\"`, [see "
+          "there](#a-window-for-results)")
+          .also({Key::Form::text})
+          .by_default("the start of the run"),
       key::number("picture_step", kind::time, "between pictures of the motion; 0: none")
           .from_zero()
           .by_default("a hundredth of the run"),
@@ -47,6 +53,9 @@ void read_output(const SceneTable &scene, Scene &result)
   run.output_step        = table.value_or("step", 0.);
   run.picture_step       = table.value_or("picture_step", run.picture_step);
   run.allow_large        = table.truth("allow_large");
+  result.run.last_period = table.is_text("from") && table.text("from") == "last period";
+  if (!result.run.last_period)
+    run.from = table.value_or("from", run.from);
   if (table.is_array("signals"))
     for (const auto &path : table.texts("signals"))
     {

@@ -335,6 +335,7 @@ struct RunRequest
   bool                 given      = false; ///< there is a [run]
   bool                 step_given = true;  ///< else it follows from the modes of a superposition
   coupling::RunOptions options;
+  bool                 last_period = false; ///< extremes count over it: options.from follows from the machine
   std::string          place;
 };
 

@@ -2,7 +2,10 @@
 
 #include "apps/session/comparison/shared_measures.h"
 
+#include "fem/values/number_text.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace gestell::apps
 {
@@ -39,6 +42,11 @@ void require_shared_signal(Session &session, Session &other)
                                 ", the second " + names_of(b) + ": name them alike in [output.signals]");
 }
 
+std::string window_text(const coupling::RunResult &run)
+{
+  return std::isfinite(run.from) ? short_text(run.from, 6) + " s" : "the start of the run";
+}
+
 void add_warnings(const Result &of_other, Result &result)
 {
   for (const auto *warnings : {&of_other.warnings, &of_other.run->warnings})
@@ -60,6 +68,10 @@ void add_compared_run(Session &session, Result &result, Session &other)
 {
   Result of_other = other.run();
   add_warnings(of_other, result);
+  if (result.run && result.run->from != of_other.run->from)
+    result.warnings.push_back("the extremes compared are of different windows: output.from of " + result.scene +
+                              " is " + window_text(*result.run) + ", that of " + of_other.scene + " " +
+                              window_text(*of_other.run));
   result.compared_shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
   result.compared_run    = ComparedRun{of_other.scene, std::move(*of_other.run)};
 }

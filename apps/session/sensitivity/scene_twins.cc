@@ -192,6 +192,7 @@ coupling::MachineTwin told(const SceneTwin &of)
   twin.initial = prepare_start(*of.scene, *of.prepared);
   twin.signals = with_normal_forces(*of.scene, of.prepared->machine, scene_signals(*of.scene, of.prepared->machine));
   twin.end     = of.scene->run.options.end;
+  twin.from    = result_window(*of.scene, of.prepared->machine, twin.initial);
   return twin;
 }
 

@@ -123,7 +123,7 @@ std::vector<double> hann_amplitudes(std::vector<double> samples)
 
 std::optional<Spectra> spectra(const coupling::RunResult &run)
 {
-  const HistoryRows rows(run);
+  const HistoryRows rows(run, run.from);
   if (rows.size() < fewest_rows || !run.failure.empty() || !(rows.t(rows.size() - 1) > rows.t(0)))
     return std::nullopt;
   const SpectrumWindow window = window_of(rows);

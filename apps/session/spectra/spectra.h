@@ -19,8 +19,8 @@ namespace gestell::apps
 std::vector<double> hann_amplitudes(std::vector<double> samples);
 
 /**
- * Spectra over the run of the first forces, moments, accelerations and stresses, or else of the first signals: at most
- * six.  Histories of fewer than 256 rows have none.
+ * Spectra over the run, or from where extremes count, of the first forces, moments, accelerations and stresses, or else
+ * of the first signals: at most six.  Histories of fewer than 256 rows have none.
  *
  * Rows at equal distances h are transformed as they are, all of them but for the few at the end (fewer than one in a
  * hundred) that leave a number without prime factors above 97, and have lines up to 1/(2 h).  Others are sampled anew

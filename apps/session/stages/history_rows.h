@@ -3,6 +3,7 @@
 #include "coupling/simulation/run_result.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace gestell::apps
@@ -12,11 +13,17 @@ namespace gestell::apps
 class HistoryRows
 {
 public:
-  explicit HistoryRows(const coupling::RunResult &run) : run_(run), width_(run.columns.size()) {}
+  /// @param from  [s] time of the first row that counts
+  explicit HistoryRows(const coupling::RunResult &run, double from = -std::numeric_limits<double>::infinity())
+      : run_(run), width_(run.columns.size()), n_(width_ > 0 ? run.rows.size() / width_ : 0)
+  {
+    while (first_ < n_ && t(0) < from)
+      ++first_;
+  }
 
-  std::size_t size() const { return width_ > 0 ? run_.rows.size() / width_ : 0; }
-  double      t(std::size_t i) const { return run_.rows[i * width_]; }
-  double      at(std::size_t i, std::size_t column) const { return run_.rows[i * width_ + column]; }
+  std::size_t size() const { return n_ - first_; }
+  double      t(std::size_t i) const { return at(i, 0); }
+  double      at(std::size_t i, std::size_t column) const { return run_.rows[(first_ + i) * width_ + column]; }
   /// @return 0, the time, if there is none
   std::size_t column(const std::string &name) const
   {
@@ -27,7 +34,7 @@ public:
 
 private:
   const coupling::RunResult &run_;
-  std::size_t                width_;
+  std::size_t                width_, n_, first_ = 0;
 };
 
 } // namespace gestell::apps

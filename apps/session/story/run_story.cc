@@ -82,6 +82,7 @@ private:
   std::size_t next_of(std::size_t e) const; ///< the next event of its object; the number of events: none
   void        add_extremes();
   void        add_extreme(std::size_t s, bool largest);
+  std::string of_window() const;
   std::string carried_by(std::size_t s, double t, bool largest) const;
   std::string makers_of(std::size_t s, const Swing &swing, bool largest) const;
   std::string mode_of(std::size_t s, const Swing &swing, const std::vector<const coupling::KeptState *> &path,
@@ -348,6 +349,12 @@ std::string Story::mode_of(std::size_t s, const Swing &swing, const std::vector<
          (strain.empty() ? "" : " and strains the " + strain);
 }
 
+std::string Story::of_window() const
+{
+  const double from = result_.run->from;
+  return from > rows_.t(0) ? " from " + short_text(from, 6) + " s on: " : " of the run: ";
+}
+
 void Story::add_extreme(std::size_t s, bool largest)
 {
   const coupling::SignalSummary &own = result_.run->signals[s];
@@ -356,7 +363,7 @@ void Story::add_extreme(std::size_t s, bool largest)
   const double                   size   = std::max(std::abs(own.min), std::abs(own.max));
   if (inside && std::abs(x) > rounding * size)
     sentences_.push_back({t,
-                          own.name + " is " + (largest ? "largest" : "smallest") + " of the run: " + shown(x, own) +
+                          own.name + " is " + (largest ? "largest" : "smallest") + of_window() + shown(x, own) +
                               carried_by(s, t, largest),
                           true});
 }
