@@ -1,6 +1,7 @@
 #include "apps/scene/read/read_function.h"
 
 #include "apps/scene/read/checked.h"
+#include "fem/values/number_text.h"
 #include "mechanism/functions/slope_jump.h"
 
 #include <algorithm>
@@ -83,6 +84,36 @@ std::vector<Key> position_function_keys()
   return keys;
 }
 
+namespace
+{
+
+constexpr double as_written = 1e-9; ///< of the period and of the values: what few digits leave of a table that closes
+
+/// The last row has the value of the first one and `rise`; where it is left out it is added.
+void close(const SceneTable &table, const PositionFunction::Period &period,
+           std::vector<mechanism::CubicSpline::Point> &points)
+{
+  const auto   first = points.front(), last = points.back();
+  const double end = first.x + period.length, value = first.f + period.rise;
+  if (last.x > end + as_written * period.length)
+    throw table.error("table", "goes further than one period; give the rows of one, from the first on");
+  if (last.x >= end - as_written * period.length)
+  {
+    double largest = std::abs(period.rise); // a last row may be the rounding of zero, as that of sin 2 pi is
+    for (const auto &point : points)
+      largest = std::max(largest, std::abs(point.f));
+    if (std::abs(last.f - value) > as_written * largest)
+      throw table.error("table", "does not close: its last row, one period after the first, is " +
+                                   short_text(last.f) + ", but must be the value of the first row plus 'rise', " +
+                                   short_text(value) + "; correct it or leave it out");
+    points.back().f = value;
+  }
+  else
+    points.push_back({end, value});
+}
+
+} // namespace
+
 std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, const Variable &variable, const Kind &x,
                                                       const Kind &y)
 {
@@ -109,19 +140,7 @@ std::shared_ptr<const PositionFunction> read_function(const SceneTable &table, c
   for (const auto &row : table.pairs("table", x, y))
     points.push_back({row[0], row[1]});
   if (period)
-  {
-    const auto   first = points.front(), last = points.back();
-    const double end = first.x + period->length, open = 1e-9 * period->length;
-    if (last.x > end + open)
-      throw table.error("table", "goes further than one period; give the rows of one, from the first on");
-    if (last.x < end - open)
-      points.push_back({end, first.f + period->rise});
-    else if (std::abs(last.f - first.f - period->rise) >
-             1e-9 * std::max({std::abs(last.f), std::abs(first.f), std::abs(period->rise)}))
-      throw table.error("table",
-                        "does not close: its last row, one period behind the first, must have the value of the "
-                        "first plus 'rise'; correct it or leave it out");
-  }
+    close(table, *period, points);
   const auto ends = period ? CubicSpline::Ends::periodic : CubicSpline::Ends::not_a_knot;
   try
   {
