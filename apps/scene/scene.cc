@@ -101,9 +101,27 @@ ReductionRequest read_reduction(const SceneTable &scene, const FrameRequest &fra
   return request;
 }
 
+/// Names of coordinates that are no motion of a body or an interface: inner ones of the frame, the directors of a rigid
+/// body, and lags of elements.  Whether the machine has them shows when it is built.
+bool is_inner_coordinate(const std::string &name, const Names &names, const Scene &scene)
+{
+  for (const ElementRequest &element : scene.elements)
+    for (const LagRequest &lag : element.lags)
+      if (lag.name == name)
+        return true;
+  for (const std::string frame : {"frame mode ", "frame coordinate "})
+    if (name.rfind(frame, 0) == 0)
+      return true;
+  const auto dot = name.rfind('.');
+  if (dot == std::string::npos)
+    return false;
+  const BodyRequest *body = names.find_body(name.substr(0, dot));
+  return body && body->kind == coupling::BodyKind::rigid && name.size() == dot + 4 && name[dot + 1] == 'd';
+}
+
 /// Value of a table { crank = "160 deg", "frame.crown.uz" = "-0.6 mm" } whose keys are coordinates.
-std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &names, bool rates, bool rotors_only,
-                                         bool measures)
+std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &names, const Scene &scene, bool rates,
+                                         bool rotors_only, bool measures)
 {
   std::vector<NamedValue> values;
   for (const auto &name : table.keys())
@@ -130,11 +148,17 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
       for (const auto &interface : names.interfaces())
         for (const std::string motion : {"ux", "uy", "uz", "rx", "ry", "rz"})
           valid.push_back("frame." + interface + "." + motion);
-    if (!frame && std::find(valid.begin(), valid.end(), name) == valid.end())
+    const bool inner = !rotors_only && is_inner_coordinate(name, names, scene);
+    if (!frame && !inner && std::find(valid.begin(), valid.end(), name) == valid.end())
       throw table.error(name, "there is no " + std::string(rotors_only ? "rotor" : "coordinate") + " '" + name + "'" +
                                   suggestion(name, valid));
     if (frame && !names.interfaces().empty() && std::find(valid.begin(), valid.end(), name) == valid.end())
       throw table.error(name, "the frame has no coordinate '" + name + "'" + suggestion(name, valid));
+    if (inner) // in the unit of the coordinate itself
+    {
+      values.push_back({name, table.number(name, kind::number), table.place(name), false});
+      continue;
+    }
     const Kind &kind = rates ? (angle ? kind::angular_speed : kind::speed) : (angle ? kind::angle : kind::length);
     values.push_back({name, table.number(name, kind), table.place(name), measure != nullptr});
   }
@@ -142,13 +166,14 @@ std::vector<NamedValue> read_coordinates(const SceneTable &table, const Names &n
 }
 
 std::vector<NamedValue> read_optional_coordinates(const SceneTable &table, const std::string &key, const Names &names,
-                                                  bool rates, bool rotors_only, bool measures = false)
+                                                  const Scene &scene, bool rates, bool rotors_only,
+                                                  bool measures = false)
 {
   const auto inner = table.optional_table(key);
-  return inner ? read_coordinates(*inner, names, rates, rotors_only, measures) : std::vector<NamedValue>{};
+  return inner ? read_coordinates(*inner, names, scene, rates, rotors_only, measures) : std::vector<NamedValue>{};
 }
 
-StartRequest read_start(const SceneTable &scene, const Names &names)
+StartRequest read_start(const SceneTable &scene, const Names &names, const Scene &result)
 {
   StartRequest start;
   start.place = scene.place();
@@ -169,13 +194,13 @@ StartRequest read_start(const SceneTable &scene, const Names &names)
       start.drift          = table.truth("drift");
       start.inertia_relief = table.truth("inertia_relief");
     }
-    start.q = read_optional_coordinates(table, "q", names, false, false, true);
-    start.v = read_optional_coordinates(table, "v", names, true, false, true);
+    start.q = read_optional_coordinates(table, "q", names, result, false, false, true);
+    start.v = read_optional_coordinates(table, "v", names, result, true, false, true);
     return start;
   }
-  for (const auto &angle : read_optional_coordinates(table, "angles", names, false, true))
+  for (const auto &angle : read_optional_coordinates(table, "angles", names, result, false, true))
     start.steady.angles.emplace_back(angle.name, angle.value);
-  for (const auto &speed : read_optional_coordinates(table, "speeds", names, true, true))
+  for (const auto &speed : read_optional_coordinates(table, "speeds", names, result, true, true))
     start.steady.speeds.emplace_back(speed.name, speed.value);
   if (table.has("driver"))
     start.steady.driver = names.body(table, "driver", coupling::BodyKind::rotor).name;
@@ -192,7 +217,7 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
   if (!scene.has("modes"))
     return modes;
   const SceneTable table = scene.table("modes").declared(modes_keys());
-  modes.at               = read_optional_coordinates(table, "at", names, false, false, true);
+  modes.at               = read_optional_coordinates(table, "at", names, result, false, false, true);
   modes.number           = table.whole("number");
   if (modes.number < 0)
     throw table.error("number", "needs a number of modes of 1 or more, or 0 for none");
@@ -266,7 +291,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   read_joints(table, names, scene);
   read_switches(table, scene);
   scene.run   = read_run(table, scene.reduction.superposition.has_value());
-  scene.start = read_start(table, names);
+  scene.start = read_start(table, names, scene);
   scene.modes = read_modes(table, names, scene);
   read_output(table, scene);
   table.finish();

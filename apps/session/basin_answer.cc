@@ -1,5 +1,6 @@
 #include "apps/session/basin_answer.h"
 
+#include "apps/scene/build/coordinate_sign.h"
 #include "apps/session/option_value.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/periodic/trace_orbit.h"
@@ -26,6 +27,7 @@ struct PlaneSide
 {
   std::string                              name;
   int                                      index = 0; ///< in (q, q')
+  double                                   sign  = 1.; ///< in it, of what the name names
   std::optional<std::pair<double, double>> ends;
 };
 
@@ -62,7 +64,9 @@ PlaneSide side_of(const coupling::Machine &machine, const std::string &text)
   const std::string coordinate = is_rate ? side.name.substr(0, side.name.size() - 1) : side.name;
   try
   {
-    side.index = machine.model().coordinate(coordinate) + (is_rate ? machine.size() : 0);
+    const int i = machine.model().coordinate(coordinate);
+    side.index  = i + (is_rate ? machine.size() : 0);
+    side.sign   = coordinate_sign(machine, i);
   }
   catch (const std::invalid_argument &unknown)
   {
@@ -117,7 +121,8 @@ std::pair<double, double> ends_of(const PlaneSide &side, const std::pair<VectorX
 {
   if (side.ends)
     return *side.ends;
-  const double low = motion.first[side.index], high = motion.second[side.index];
+  const double one = side.sign * motion.first[side.index], other = side.sign * motion.second[side.index];
+  const double low = std::min(one, other), high = std::max(one, other);
   const double middle = 0.5 * (low + high), reach = 0.5 * excursions * (high - low);
   if (!(reach > 0.))
     throw std::invalid_argument("--basins: " + side.name + " does not move in the motions found; give its ends, \"" +
@@ -155,7 +160,7 @@ coupling::StartPlane start_plane(const coupling::Machine &machine, const couplin
   const auto [x_begin, x_end] = ends_of(x, motion);
   const auto [y_begin, y_end] = ends_of(y, motion);
   const int points            = request.basin_points > 0 ? request.basin_points : usual_points;
-  return {x.index, y.index, x_begin, x_end, y_begin, y_end, points};
+  return {x.index, y.index, x_begin, x_end, y_begin, y_end, points, x.sign, y.sign};
 }
 
 void find_basins(const coupling::Machine &machine, const coupling::PeriodicProblem &problem,

@@ -1,10 +1,12 @@
 #include "apps/session/long_run.h"
 
+#include "apps/scene/build/coordinate_sign.h"
 #include "apps/session/phase_planes.h"
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/recurrence.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/verified_orbit.h"
 
 #include <algorithm>
 #include <numeric>
@@ -90,7 +92,7 @@ std::vector<Signal> plane_signals(const coupling::Machine &machine, const Recurr
   {
     Signal coordinate;
     coordinate.name = machine.coordinate_name(widest[k]);
-    coordinate.on_q = {{widest[k], 1.}};
+    coordinate.on_q = {{widest[k], coordinate_sign(machine, widest[k])}};
     planes.push_back(coordinate);
   }
   return planes;
@@ -204,6 +206,8 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
                      const std::vector<Signal> &signals, std::vector<PeriodicSolution> &solutions,
                      PeriodicResult &found)
 {
+  if (request.along.empty())
+    verify_stable(problem, solutions);
   if (!is_wanted(problem, request, solutions, found))
   {
     if (all_unstable(solutions) && request.along.empty())
@@ -233,6 +237,7 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   }
   found.work.add(run.motion.work);
   settle_failure(problem, options, run.motion, solutions, found);
+  verify_stable(problem, solutions);
   for (const Signal &signal : signals)
     run.columns.push_back(signal.name + " [" + signal.unit + "]");
   run.rows = read_section(machine, problem.begin, run.motion.section, signals);

@@ -1,6 +1,7 @@
 #include "apps/session/session.h"
 
 #include "apps/output/text/settings_text.h"
+#include "apps/scene/build/coordinate_sign.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
@@ -362,7 +363,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   found.method = chosen.method->name();
   found.reason = chosen.reason + "; " + repeating.reason;
   for (int i = 0; i < machine.size(); ++i)
-    found.coordinates.push_back(machine.coordinate_name(i));
+    found.coordinates.push_back({machine.coordinate_name(i), coordinate_sign(machine, i)});
   std::optional<SceneFamily> family;
   if (!request.along.empty())
     family.emplace(SceneFileAt{entries(), path_, scripts_}, *machine_, request, repeating.problem);

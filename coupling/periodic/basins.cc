@@ -41,7 +41,7 @@ std::vector<VectorXd> begins_of(const PeriodicProblem &one, const PeriodicSoluti
         {
           const double periods = double(states.size());
           VectorXd     x(2 * point.q.size());
-          x << 2. * M_PI / one.period * (point.q - periods / solution.ratio * solution.turn), point.v;
+          x << 2. * M_PI / one.period * without_free(one, point.q - periods / solution.ratio * solution.turn), point.v;
           states.push_back(x);
         });
   states.pop_back(); // the first again
@@ -98,7 +98,7 @@ std::vector<Basins::Place> places_of(const std::vector<Attractor> &attractors, c
     for (const VectorXd &state : attractor.states)
     {
       const auto at = [&](int i) { return i < state.size() / 2 ? state[i] / omega : state[i]; };
-      places.push_back({attractor.number, at(plane.x), at(plane.y)});
+      places.push_back({attractor.number, plane.x_sign * at(plane.x), plane.y_sign * at(plane.y)});
     }
   return places;
 }
@@ -147,7 +147,7 @@ private:
   VectorXd state_of(const VectorXd &q, const VectorXd &v) const
   {
     VectorXd x(2 * q.size());
-    x << 2. * M_PI / one_.period * q, v;
+    x << 2. * M_PI / one_.period * without_free(one_, q), v;
     return x;
   }
   int reached(const VectorXd &x) const
@@ -208,8 +208,8 @@ Basins basins_of(const PeriodicProblem &problem, const std::vector<PeriodicSolut
     for (int j = 0; j < plane.points; ++j)
       for (int i = 0; i < plane.points; ++i)
       {
-        start[plane.x]       = plane.x_at(i);
-        start[plane.y]       = plane.y_at(j);
+        start[plane.x]       = plane.x_sign * plane.x_at(i);
+        start[plane.y]       = plane.y_sign * plane.y_at(j);
         basins.motion(i, j)  = settler.settle(start.head(n), start.tail(n));
         basins.periods(i, j) = settler.periods();
         progress((j + (i + 1.) / plane.points) / plane.points);

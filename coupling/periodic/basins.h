@@ -16,6 +16,7 @@ struct StartPlane
   int    x = 0, y = 1; ///< which; from n on rates
   double x_begin = 0., x_end = 0., y_begin = 0., y_end = 0.;
   int    points = 60;
+  double x_sign = 1., y_sign = 1.; ///< of what the plane shows, in these numbers
 
   double x_at(int i) const { return x_begin + (i + 0.5) * (x_end - x_begin) / points; }
   double y_at(int j) const { return y_begin + (j + 0.5) * (y_end - y_begin) / points; }

@@ -47,6 +47,10 @@ Json entry_json(const PeriodicResult &result, const PeriodicEntry &entry)
   Json json      = {{"period", s.period}, {"ratio", s.ratio},   {"residual", s.residual},    {"branch", entry.branch},
                     {"kind", kind_of(s)}, {"method", s.method}, {"events", s.events.size()}, {"notes", s.notes}};
   json["stable"] = s.stability_is_known() ? Json(s.stable()) : Json();
+  if (s.verification.periods > 0)
+    json["verification"] = {{"periods", s.verification.periods},
+                            {"departure", s.verification.departure},
+                            {"starts_anew", s.verification.starts_anew}};
   if (!result.parameter.empty())
     json["parameter"] = entry.parameter;
   if (!std::isnan(s.share))
@@ -59,7 +63,10 @@ Json entry_json(const PeriodicResult &result, const PeriodicEntry &entry)
     json["signals"][signal.name] = signal_json(signal);
   json["initial"] = Json::object();
   for (Eigen::Index i = 0; i < s.q.size(); ++i)
-    json["initial"][result.coordinates[std::size_t(i)]] = std::vector<double>{s.q[i], s.v[i]};
+  {
+    const auto &[name, sign] = result.coordinates[std::size_t(i)];
+    json["initial"][name]    = std::vector<double>{sign * s.q[i], sign * s.v[i]};
+  }
   return json;
 }
 

@@ -41,8 +41,8 @@ std::string section_csv(const PeriodicResult &result)
     return "";
   const LongRun &run = *result.long_run;
   std::string    csv = "period";
-  for (const std::string &name : result.coordinates)
-    csv += ',' + csv_field(name) + ',' + csv_field(name + "'");
+  for (const NamedCoordinate &coordinate : result.coordinates)
+    csv += ',' + csv_field(coordinate.name) + ',' + csv_field(coordinate.name + "'");
   for (const std::string &column : run.columns)
     csv += ',' + csv_field(column);
   csv += '\n';
@@ -53,8 +53,9 @@ std::string section_csv(const PeriodicResult &result)
     csv += std::to_string(run.motion.periods + k);
     for (Eigen::Index i = 0; i < n; ++i)
     {
-      append_exact(csv += ',', section(i, k));
-      append_exact(csv += ',', section(n + i, k));
+      const double sign = result.coordinates[std::size_t(i)].sign;
+      append_exact(csv += ',', sign * section(i, k));
+      append_exact(csv += ',', sign * section(n + i, k));
     }
     for (Eigen::Index j = 0; j < width; ++j)
       append_exact(csv += ',', run.rows[std::size_t(k * width + j)]);

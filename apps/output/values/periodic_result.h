@@ -30,6 +30,13 @@ struct PeriodicEntry
   std::vector<double>        rows; ///< of orbit_<solution>.csv: t, every signal; row major
 };
 
+/// A coordinate of the machine, by the motion that has this name: motion = sign * coordinate.
+struct NamedCoordinate
+{
+  std::string name;
+  double      sign;
+};
+
 /// A place on a branch where motions begin, end or change their stability.
 struct SpecialPoint
 {
@@ -82,7 +89,7 @@ struct PeriodicResult
 {
   std::string                method, reason;            ///< why this method
   std::string                parameter, parameter_unit; ///< that is followed; empty: none
-  std::vector<std::string>   coordinates;               ///< of the machine
+  std::vector<NamedCoordinate> coordinates;             ///< of the machine
   std::vector<PeriodicEntry> entries;
   std::vector<SpecialPoint>  special_points;
   std::vector<PeriodicCheck> checks;

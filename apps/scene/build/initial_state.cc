@@ -1,4 +1,5 @@
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/coordinate_sign.h"
 
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/assembly.h"
@@ -17,22 +18,26 @@ namespace gestell::apps
 namespace
 {
 
+std::vector<fem::Interface> interfaces_of(const coupling::Machine &machine)
+{
+  return machine.model().reduced_frame() ? machine.model().reduced_frame()->interfaces
+         : machine.model().full_frame()  ? machine.model().full_frame()->interfaces
+                                         : std::vector<fem::Interface>{};
+}
+
 /// Adds `value` for a coordinate of a body, or for a motion of an interface: q[coordinate] = sign * motion.
 int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::Machine &machine)
 {
-  for (int i = machine.model().n_frame(); i < machine.size(); ++i)
+  for (int i = 0; i < machine.size(); ++i)
     if (machine.coordinate_name(i) == value.name)
     {
-      x[i] = value.value;
+      x[i] = coordinate_sign(machine, i) * value.value;
       return i;
     }
   static const std::vector<std::string> motions{"ux", "uy", "uz", "rx", "ry", "rz"};
   const auto                            dot = value.name.rfind('.');
   const auto motion     = std::find(motions.begin(), motions.end(), value.name.substr(dot + 1)) - motions.begin();
-  const auto interfaces = machine.model().reduced_frame() ? machine.model().reduced_frame()->interfaces
-                          : machine.model().full_frame()  ? machine.model().full_frame()->interfaces
-                                                          : std::vector<fem::Interface>{};
-  for (const auto &interface : interfaces)
+  for (const auto &interface : interfaces_of(machine))
     if ("frame." + interface.name == value.name.substr(0, dot) && motion < 6)
     {
       const int i = interface.coordinate[motion];
@@ -130,6 +135,15 @@ bool has_speed(const StartRequest &start)
 }
 
 } // namespace
+
+double coordinate_sign(const coupling::Machine &machine, int i)
+{
+  for (const fem::Interface &interface : interfaces_of(machine)) // the first one, as in coordinate_name()
+    for (int motion = 0; motion < 6; ++motion)
+      if (interface.coordinate[motion] == i)
+        return interface.sign[motion];
+  return 1.;
+}
 
 std::invalid_argument against_start(const Scene &scene, const std::string &message)
 {

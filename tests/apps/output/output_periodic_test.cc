@@ -87,7 +87,7 @@ TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
 {
   PeriodicResult result;
   EXPECT_EQ(section_csv(result), "");
-  result.coordinates = {"slide"};
+  result.coordinates = {{"slide", -1.}}; // of a frame whose row is that of the opposite motion
   LongRun run;
   run.motion.kind    = "quasi-periodic";
   run.motion.periods = 64;
@@ -95,7 +95,7 @@ TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
   run.columns        = {"F [N]"};
   run.rows           = {5., 6.};
   result.long_run    = run;
-  EXPECT_EQ(section_csv(result), "period,slide,slide',F [N]\n64,1,3,5\n65,2,4,6\n");
+  EXPECT_EQ(section_csv(result), "period,slide,slide',F [N]\n64,-1,-3,5\n65,-2,-4,6\n");
   EXPECT_THAT(long_run_text(run), HasSubstr("quasi-periodic"));
   EXPECT_EQ(long_run_json(run)["kind"], "quasi-periodic");
 }
