@@ -111,7 +111,7 @@ public:
       add_point(point);
     for (const coupling::SpecialMotion &special : branch.special)
       result_.special_points.push_back(
-          {special.kind, special.parameter, special.solution.period, nearest(first, special.parameter)});
+          {special.kind, special.parameter, special.solution.period, int(first) + special.nearest + 1});
   }
 
 private:
@@ -126,15 +126,6 @@ private:
     entry.branch        = number_;
     entry.parameter     = point.parameter;
     result_.entries.push_back(std::move(entry));
-  }
-
-  int nearest(std::size_t first, double parameter) const
-  {
-    std::size_t best = first;
-    for (std::size_t i = first; i < result_.entries.size(); ++i)
-      if (std::abs(result_.entries[i].parameter - parameter) < std::abs(result_.entries[best].parameter - parameter))
-        best = i;
-    return int(best) + 1;
   }
 
   const SceneFamily &family_;

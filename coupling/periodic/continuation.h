@@ -25,6 +25,7 @@ struct SpecialMotion
   std::string      kind; ///< "fold", "period doubling", "Neimark-Sacker", "branch", "grazing"
   double           parameter = 0.;
   PeriodicSolution solution;
+  int              nearest = 0; ///< of Branch::points, along the branch
 };
 
 struct BranchPoint

@@ -192,7 +192,14 @@ TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
   std::vector<double>  folds;
   for (const apps::SpecialPoint &point : result.special_points)
     if (point.kind == "fold")
+    {
       folds.push_back(point.parameter);
+      // Where the branch turns, neighbours of the nearest point lie on the same side of the fold.
+      const auto at = [&](int i) { return result.entries.at(std::size_t(i)).parameter - point.parameter; };
+      const int  k  = point.solution - 1;
+      EXPECT_GT(at(k - 1) * at(k + 1), 0.);
+      EXPECT_GT(at(k - 2) * at(k + 2), 0.);
+    }
   ASSERT_EQ(folds.size(), 2u) << result.failure;
   EXPECT_NEAR(folds[0], 1.551342, 1e-6);
   EXPECT_NEAR(folds[1], 1.261164, 1e-6);

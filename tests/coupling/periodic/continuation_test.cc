@@ -80,6 +80,20 @@ const SpecialMotion *found(const Branch &branch, const std::string &kind)
   return special == branch.special.end() ? nullptr : &*special;
 }
 
+/// The special motion lies before or behind the point that is called the nearest one.
+void expect_beside(const Branch &branch, const SpecialMotion &special)
+{
+  ASSERT_LT(std::size_t(special.nearest), branch.points.size());
+  const auto between = [&](int a, int b)
+  {
+    const auto at = [&](int i) { return branch.points[std::size_t(i)].solution.q[0]; };
+    const double x = special.solution.q[0];
+    return std::min(at(a), at(b)) <= x && x <= std::max(at(a), at(b));
+  };
+  const int k = special.nearest;
+  EXPECT_TRUE((k > 0 && between(k - 1, k)) || (k + 1 < int(branch.points.size()) && between(k, k + 1)));
+}
+
 double nearest_multiplier(const PeriodicSolution &solution, double mu)
 {
   return (solution.multipliers.array() - mu).abs().minCoeff();
@@ -97,6 +111,7 @@ TEST(Branch, DoublesWhereAMultiplierIsMinusOne)
   ASSERT_NE(special, nullptr) << branch.ended;
   // d mu / dB is of order one, the place is known to 1e-9 of the range.
   EXPECT_LT(nearest_multiplier(special->solution, -1.), 1e-6);
+  expect_beside(branch, *special);
 
   SpecialMotion doubled = *special;
   doubled.solution.period *= 2.;
