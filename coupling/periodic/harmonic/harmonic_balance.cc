@@ -302,6 +302,19 @@ VectorXd HarmonicBalance::scales(const VectorXd &z) const
   return scale;
 }
 
+VectorXd HarmonicBalance::scales_of_rounding(const VectorXd &z) const
+{
+  VectorXd scale = scales(z);
+  if (n_u_ == 0 || problem_.turn.size() == 0)
+    return scale;
+  const VectorXd turns   = (problem_.system->forces().directions().transpose() * problem_.turn).cwiseAbs();
+  const double   largest = scale.head(n_u_).maxCoeff();
+  for (int c = 0; c <= 2 * harmonics_; ++c)
+    scale.segment(n_u_ * c, n_u_) = scale.segment(n_u_ * c, n_u_).cwiseMax(turns);
+  scale.tail(size_ - first_free()) *= scale.head(n_u_).maxCoeff() / largest;
+  return scale;
+}
+
 HarmonicBalance::LeftOut HarmonicBalance::left_out(const VectorXd &z)
 {
   if (n_u_ == 0)
@@ -321,10 +334,16 @@ HarmonicBalance::LeftOut HarmonicBalance::left_out(const VectorXd &z)
     u.col(h) = (base_.R(h) * forces_->forces().col(h) + base_.u0(h)).head(n_u_);
     sum += 4. * u.col(h).cwiseAbs2();
   }
-  const MatrixXcd errors = forces_->sampling_errors();
+  const MatrixXcd errors  = forces_->sampling_errors();
+  VectorXd        sampled = VectorXd::Zero(n_u_);
   for (int h = 0; h <= harmonics_; ++h)
-    sum += (h == 0 ? 1. : 4.) * (base_.R(h) * errors.col(h)).head(n_u_).cwiseAbs2();
-  LeftOut        left{sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff(), 0.};
+  {
+    const VectorXd square = (h == 0 ? 1. : 4.) * (base_.R(h) * errors.col(h)).head(n_u_).cwiseAbs2();
+    sum += square;
+    sampled += square;
+  }
+  LeftOut        left{sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff(), 0.,
+                      sampled.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff()};
   const VectorXd ranges = forces_->ranges(), changes = forces_->changes(here, u, 2. * M_PI / period_);
   const double   least = negligible_force * ranges.maxCoeff();
   for (int i = 0; i < n_u_; ++i)

@@ -68,12 +68,15 @@ public:
   Eigen::VectorXd period_slope(const Eigen::VectorXd &z);
   /// A size of each unknown: the amplitude of its measure, of z as a whole where that rests.
   Eigen::VectorXd scales(const Eigen::VectorXd &z) const;
+  /// The same; for measures that turn at least their turn in a period, of which rounding is a share.
+  Eigen::VectorXd scales_of_rounding(const Eigen::VectorXd &z) const;
 
   /// What H harmonics leave out.
   struct LeftOut
   {
     double motion = 0.; ///< that forces above harmonic H would add, |sum_{h>H} R_h p_h| / |u|, of what moves most of it
     double forces = 0.; ///< largest change of a force that this motion makes, of its range
+    double samples = 0.; ///< share of `motion` that comes from too few samples of the forces
   };
   LeftOut left_out(const Eigen::VectorXd &z);
   /// Whether laws remember beyond what the motion shows, and by how much of the force.

@@ -4,6 +4,7 @@
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/periodic/harmonic/hill.h"
 #include "coupling/periodic/harmonic/orbit_series.h"
+#include "coupling/periodic/shift_invariance.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 
@@ -26,6 +27,7 @@ constexpr double near_by         = 0.1;       ///< distance of two motions that 
 constexpr double poor_hill       = 1e-3;      ///< error of Hill's multipliers above which a period is integrated
 constexpr double another_motion  = 0.3;       ///< distance of two motions, of the unknowns
 constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
+constexpr int    most_samples    = 16384;     ///< of a period: kinks leave 1e-8 of their force then
 constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500, most_asked = 8000;
 
 double largest_share(const VectorXd &r, const VectorXd &scale)
@@ -54,11 +56,6 @@ bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd 
   return false;
 }
 
-std::string count_of(int n, const std::string &noun)
-{
-  return std::to_string(n) + " " + noun;
-}
-
 } // namespace
 
 HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
@@ -70,7 +67,7 @@ HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &op
   for (; newton.iterations < options.iterations && !balance.interrupted(); ++newton.iterations)
   {
     balance.linearise(z, r, J);
-    const VectorXd scale = balance.scales(z);
+    const VectorXd scale = balance.scales_of_rounding(z);
     newton.residual      = largest_share(r, scale);
     newton.converged     = newton.residual <= options.tolerance;
     if (!r.allFinite() || polished)
@@ -118,7 +115,7 @@ void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &s
   const PeriodPassage &passage = flow.pass(solution.q, solution.v, solution.period, true);
   const double         closing = closing_error(passage.q - solution.q - problem.turn, passage.v - solution.v,
                                                2. * M_PI / solution.period, passage.fastest);
-  solution.multipliers         = multipliers_of(passage.monodromy);
+  solution.multipliers         = multipliers_of(passage.monodromy, problem);
   if (closing <= closes_well)
     return;
   PeriodicOptions near;
@@ -238,7 +235,7 @@ std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
 {
   const SecondOrderSystem &system = *problem.system;
   if (const int n = system.joints().n_rows(); n > 0)
-    return "harmonic balance: " + count_of(n, "equations of ideal joints, the first of ") + system.joints().name(0) +
+    return "harmonic balance: " + std::to_string(n) + " equations of ideal joints, the first of " + system.joints().name(0) +
            ", are not balanced by it; take shooting, or compliant joints";
   if (system.linear().excitation().has_rest())
     return "harmonic balance: the load is no sum of harmonics; take shooting";
@@ -246,6 +243,9 @@ std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
   if (!system.linear().dense_matrices(M, B, C))
     return "harmonic balance: it works in the modes of the base system, and an unreduced frame has too many; reduce "
            "the frame, or take shooting";
+  if (problem.has_free_shifts())
+    return "harmonic balance: nothing depends on the angle of " + free_coordinate(problem) +
+           ", so that it may turn by any angle in a period, but a series needs that angle beforehand; take shooting";
   if (problem.period_is_unknown() && !system.linear().excitation().is_constant())
     return "harmonic balance: the load gives the period, and a phase condition asks for another; leave one of them out";
   return "";
@@ -266,6 +266,7 @@ public:
 
   void             begin(const PeriodicGuess &guess);
   void             grow();
+  void             sample_finely();
   PeriodicSolution solution();
 
 private:
@@ -378,6 +379,25 @@ void BalanceSearch::grow()
   }
 }
 
+/// Near jumps of a law few samples feed back from far above H into the harmonics that are kept.
+void BalanceSearch::sample_finely()
+{
+  while (left_out_.samples > options_.tolerance && balance_.samples() < most_samples && !problem_.interrupted())
+  {
+    const VectorXd       z      = z_;
+    const HarmonicNewton newton = newton_;
+    balance_.set_harmonics(balance_.harmonics(), 2 * balance_.samples());
+    if (!solve_from(z))
+    {
+      balance_.set_harmonics(balance_.harmonics(), balance_.samples() / 2);
+      z_      = z;
+      newton_ = newton;
+      return;
+    }
+    left_out_ = balance_.left_out(z_);
+  }
+}
+
 void BalanceSearch::check_memory()
 {
   const HarmonicForces::Memory memory = balance_.memory(z_);
@@ -415,6 +435,7 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
   BalanceSearch search(own, options);
   search.begin(guess);
   search.grow();
+  search.sample_finely();
   return {search.solution()};
 }
 
