@@ -9,6 +9,7 @@
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/section_table.h"
 #include "apps/session/session.h"
+#include "coupling/periodic/verified_orbit.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -27,7 +28,12 @@ std::string stability_text(const coupling::PeriodicSolution &solution)
 {
   if (!solution.stability_is_known())
     return "unknown";
-  return (solution.stable() ? "stable, " : "unstable, ") + short_text(solution.largest_multiplier(), 4);
+  const coupling::RunVerification &run = solution.verification;
+  return (solution.stable() ? "stable, " : run.leaves ? "left by a run, " : "unstable, ") +
+         short_text(solution.largest_multiplier(), 4) +
+         (run.periods == coupling::verified_periods && !run.leaves
+              ? " (a run of " + std::to_string(run.periods) + " periods stays within " + short_text(run.departure, 2) + ")"
+              : "");
 }
 
 void print_signals(const PeriodicEntry &entry)

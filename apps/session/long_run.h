@@ -14,6 +14,8 @@ namespace gestell::apps
 void check_long_run(const PeriodicRequest &request);
 
 /**
+ * Verifies the motions that are called stable by a run, unless they are those of a branch.
+ *
  * Follows the motion that begins at `start` for some hundred periods where nothing that lasts was found, or where the
  * request asks for it, and tells what it is.
  *

@@ -21,6 +21,7 @@ namespace
 constexpr int    few_coordinates     = 3;     ///< up to which all solutions are looked for unasked
 constexpr int    harmonics_told      = 10;    ///< of the drive
 constexpr double neutral             = 1e-9;  ///< distance of a multiplier from 1 that is none
+constexpr double steady              = 1e-9;  ///< amplitude that is what steps leave, of the mean: that is the size
 constexpr double fine_steps          = 1e-11; ///< tolerance of the steps that trace a motion
 constexpr double samples_of_harmonic = 16.;   ///< of all measures, at most
 constexpr int    least_samples       = 4096;  ///< of a period, for extremes
@@ -264,6 +265,8 @@ PeriodicCheck compared(const PeriodicEntry &first, const PeriodicEntry &second, 
       apart = std::max(apart, std::abs(first.rows[i] - second.rows[i]));
       size  = std::max(size, std::abs(first.rows[i] - first.signals[j].mean));
     }
+    if (const double mean = std::abs(first.signals[j].mean); size <= steady * mean)
+      size = mean;
     check.distances.emplace_back(first.signals[j].name, size > 0. ? apart / size : apart);
   }
   return check;

@@ -3,6 +3,7 @@
 #include "apps/session/option_value.h"
 #include "coupling/periodic/period_search.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/turn_increments.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -23,7 +24,6 @@ constexpr double equal_periods = 1e-9; ///< of loads and a period that is given
 constexpr double equal_turns   = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
 constexpr double turns_tried   = 3.;   ///< of the fastest angle
 constexpr double drifting_runs = 100.; ///< in which what turns comes round at least once
-constexpr double no_stiffness  = 1e-9; ///< of what turns, against the largest stiffness of the coordinate
 constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
 
 /// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
@@ -109,67 +109,68 @@ std::vector<std::string> told_by_time(const coupling::Machine &machine, const co
   return names;
 }
 
-/// Whole turns [rad] in the ratio of speeds [rad/s], of angles that turn without stiffness; zero: nothing does.
-struct Turns
+/// Angles that may turn, and their speeds [rad/s].
+struct TurningAngles
 {
-  VectorXd turn, speed;
+  std::vector<int> angles;
+  VectorXd         speed;                    ///< [n]
+  double           tolerance = equal_speeds; ///< of the speeds
 };
 
 /// Rotors turn with the speeds they have at the start.  Whether planar bodies turn or swing shows in some turns.
-Turns turns_of(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
-               const std::atomic<bool> *stop)
+TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
+                             const std::atomic<bool> *stop)
 {
-  Turns        turns{VectorXd::Zero(machine.size()), start.v};
-  MovingAngles moving(machine, start);
+  TurningAngles turning{{}, start.v};
+  MovingAngles  moving(machine, start);
   if (scene.run.given)
     moving.leave_out_drifting(start, scene.run.options.end - scene.run.options.begin);
-  std::vector<int> angles    = moving.rotors;
-  double           tolerance = equal_speeds;
-  if (!moving.planar.empty())
-  {
-    double fastest = 0.;
-    for (const auto *group : {&moving.rotors, &moving.planar})
-      for (const int i : *group)
-        fastest = std::max(fastest, std::abs(start.v[i]));
-    const double   time = turns_tried * 2. * M_PI / fastest;
-    const VectorXd way  = coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.},
-                                               start.t, time, stop);
-    for (const int i : moving.planar)
-      if (way[i] != 0.)
-      {
-        angles.push_back(i);
-        turns.speed[i] = way[i] / time;
-        tolerance      = equal_turns;
-      }
-  }
-  if (angles.empty())
-    return turns;
-  std::vector<double> speeds;
-  for (const int i : angles)
-    speeds.push_back(turns.speed[i]);
-  const std::vector<int> whole = coupling::whole_ratios(speeds, tolerance);
-  for (std::size_t k = 0; k < whole.size(); ++k)
-    turns.turn[angles[k]] = 2. * M_PI * whole[k];
-  VectorXd held(turns.turn.size());
-  machine.linear().stiffness_times(turns.turn, held);
-  Eigen::MatrixXd M, B, C;
-  double          largest = 0.;
-  if (machine.linear().dense_matrices(M, B, C))
-    for (const int i : angles)
-      largest = std::max(largest, C.row(i).cwiseAbs().maxCoeff());
-  if (held.cwiseAbs().maxCoeff() > no_stiffness * largest)
-    turns.turn.setZero();
-  return turns;
+  for (const coupling::Body &body : machine.model().bodies())
+    if (body.kind == BodyKind::rotor)
+      turning.angles.push_back(body.coordinate);
+  if (moving.planar.empty())
+    return turning;
+  double fastest = 0.;
+  for (const auto *group : {&moving.rotors, &moving.planar})
+    for (const int i : *group)
+      fastest = std::max(fastest, std::abs(start.v[i]));
+  const double   time = turns_tried * 2. * M_PI / fastest;
+  const VectorXd way  = coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.},
+                                             start.t, time, stop);
+  for (const int i : moving.planar)
+    if (way[i] != 0.)
+    {
+      turning.angles.push_back(i);
+      turning.speed[i]  = way[i] / time;
+      turning.tolerance = equal_turns;
+    }
+  return turning;
 }
 
-/// The turning angle that needs longest for a turn.
-int slowest_of(const VectorXd &turn)
+VectorXd of_angles(const VectorXd &x, const std::vector<int> &angles)
 {
-  int slowest = -1;
-  for (Eigen::Index i = 0; i < turn.size(); ++i)
-    if (turn[i] != 0. && (slowest < 0 || std::abs(turn[i]) < std::abs(turn[slowest])))
-      slowest = int(i);
-  return slowest;
+  return x(angles);
+}
+
+/// Why rotors that move at the start are taken for swinging ones: something depends on their angles without a period.
+std::string held_angles(const coupling::AngleInvariance &invariance, const VectorXd &speed,
+                        const coupling::Machine &machine)
+{
+  for (const coupling::AngleDependence &d : invariance.dependences())
+    for (std::size_t k = 0; k < invariance.angles().size(); ++k)
+      if (const int i = invariance.angles()[k]; d.turns == 0 && d.of[Eigen::Index(k)] != 0. && speed[i] != 0.)
+        return "; " + machine.coordinate_name(i) + " does not come round, as " + d.element +
+               " depends on it and repeats after no number of turns";
+  return "";
+}
+
+std::string names_of_moving(const coupling::Machine &machine, const Eigen::MatrixXd &free)
+{
+  std::string names;
+  for (Eigen::Index i = 0; i < free.rows(); ++i)
+    if (!free.row(i).isZero(1e-9)) // of unit columns
+      names += (names.empty() ? "" : ", ") + machine.coordinate_name(int(i));
+  return names;
 }
 
 std::string joined(const std::vector<std::string> &names)
@@ -233,10 +234,42 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
   problem.phase                           = own.phase;
   problem.phase_value                     = own.phase_value;
   problem.phase_falls                     = own.falls;
+  problem.free                            = coupling::without_coordinate(problem.free, own.phase);
   repeating.reason =
       "nothing drives the machine, which keeps swinging by itself; its period is unknown, and begins where " +
       machine.coordinate_name(own.phase) + (own.falls ? " falls" : " rises") + " through the middle of its way" +
       (own.pushed ? " (it rested at the start, and was pushed)" : "");
+}
+
+/// How far what turns goes in the period, or the period in which it comes round.
+/// @return why what moves at the start does not turn; empty: all does
+std::string turn(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
+                 RepeatingMachine &repeating)
+{
+  coupling::PeriodicProblem       &problem = repeating.problem;
+  const TurningAngles              turning = turning_angles(scene, machine, start, problem.stop);
+  const coupling::AngleInvariance  invariance(machine, turning.angles, repeating.guess, start.t);
+  const coupling::AngleIncrements  found = coupling::increments_of(invariance, turning.speed, problem.period,
+                                                                   turning.tolerance, machine.linear());
+  if (!found.refusal.empty())
+    throw std::invalid_argument(scene.file + ": " + found.refusal +
+                                (problem.period > 0. ? "; load and turning must be commensurate: give --period, or "
+                                                       "change the speed"
+                                                     : "; such a motion never repeats: look at the spectra of a run"));
+  if (const std::string element = invariance.changed_by(of_angles(found.turn, turning.angles)); !element.empty())
+    throw std::invalid_argument(scene.file + ": the force of " + element +
+                                " is another after the turns of a period; look at the spectra of a run instead");
+  problem.turn = found.turn;
+  problem.free = found.free;
+  if (!(problem.period > 0.) && found.phase >= 0)
+  {
+    problem.period      = found.period;
+    problem.phase       = found.phase;
+    problem.phase_value = start.q[found.phase];
+    repeating.reason    = "the machine comes round with " + machine.coordinate_name(found.phase) +
+                       "; the speed is that at which motor and resistance balance";
+  }
+  return problem.turn.isZero(0.) ? held_angles(invariance, turning.speed, machine) : "";
 }
 
 } // namespace
@@ -267,11 +300,8 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
   problem.ratio                      = request.ratio;
   problem.stop                       = stop;
   repeating.guess                    = {start.q, start.v, 0.};
-  const Turns turns                  = turns_of(scene, machine, start, stop);
-  problem.turn                       = turns.turn;
   problem.period                     = asked_period(request);
   const std::vector<double> omega    = load_frequencies(machine);
-  const int                 turning  = slowest_of(problem.turn);
   if (problem.period > 0.)
   {
     problem.ratio *= periods_of_loads(problem.period, omega, scene);
@@ -282,24 +312,7 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
     problem.period   = common_period_of(omega, scene);
     repeating.reason = omega.size() == 1 ? "the period is that of the load" : "the period is common to all loads";
   }
-  else if (turning >= 0)
-  {
-    problem.period      = problem.turn[turning] / turns.speed[turning];
-    problem.phase       = turning;
-    problem.phase_value = start.q[turning];
-    repeating.reason    = "the machine comes round with " + machine.coordinate_name(turning) +
-                       "; the speed is that at which motor and resistance balance";
-  }
-  if (problem.period > 0. && !problem.period_is_unknown() && turning >= 0)
-  {
-    // What turns comes round a whole number of times in the period of the loads, or not at all.
-    const double times = turns.speed[turning] * problem.period / problem.turn[turning];
-    if (std::abs(times - std::round(times)) > equal_speeds * std::abs(times) || std::round(times) == 0.)
-      throw std::invalid_argument(scene.file + ": " + machine.coordinate_name(turning) + " turns " +
-                                  short_text(times, 6) + " times in the period of " + short_text(problem.period, 8) +
-                                  " s; load and turning must be commensurate: give --period, or change the speed");
-    problem.turn *= std::round(times);
-  }
+  const std::string held = turn(scene, machine, start, repeating);
   const double span = problem.period > 0. ? problem.period : 1.;
   if (const auto names = told_by_time(machine, start, span, problem.period); !names.empty())
     throw std::invalid_argument(scene.file + ": the force of " + joined(names) + " depends on the time" +
@@ -309,6 +322,10 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
                                 ": give --period \"... s\", or a load with harmonics whose frequencies tell it");
   if (!(problem.period > 0.))
     oscillate_freely(scene, machine, repeating);
+  repeating.reason += held;
+  if (problem.has_free_shifts())
+    repeating.reason += "; nothing depends on the angle of " + names_of_moving(machine, problem.free) +
+                        ", which turns as far in a period as the motion makes it";
   problem.period *= request.ratio;
   problem.turn *= request.ratio;
   return repeating;

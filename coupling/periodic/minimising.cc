@@ -176,9 +176,10 @@ std::vector<std::pair<VectorXd, VectorXd>> phases_of(const PeriodicProblem &once
   return phases;
 }
 
-double apart(double omega, const PeriodicSolution &a, const VectorXd &q, const VectorXd &v)
+double apart(const PeriodicProblem &problem, double omega, const PeriodicSolution &a, const VectorXd &q,
+             const VectorXd &v)
 {
-  return std::sqrt(omega * omega * (a.q - q).squaredNorm() + (a.v - v).squaredNorm());
+  return std::sqrt(omega * omega * without_free(problem, a.q - q).squaredNorm() + (a.v - v).squaredNorm());
 }
 
 /// The search of motions that repeat after some periods of the problem, from one start after the other.
@@ -303,7 +304,7 @@ void MotionSearch::take(PeriodicSolution solution, double share)
     for (PeriodicSolution &other : found_)
     {
       const double size = std::sqrt(omega_ * omega_ * other.q.squaredNorm() + other.v.squaredNorm());
-      if (apart(omega_, other, phase.first, phase.second) > same_orbit * std::max(size, 1e-300))
+      if (apart(once_, omega_, other, phase.first, phase.second) > same_orbit * std::max(size, 1e-300))
         continue;
       other.share += share;
       return;

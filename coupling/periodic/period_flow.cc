@@ -43,6 +43,16 @@ double still_speed(const SecondOrderSystem &system, const VectorXd &q, const Vec
   return at_rest * (v.cwiseAbs().maxCoeff() + 2. * M_PI / period * q.cwiseAbs().maxCoeff());
 }
 
+VectorXd without_free(const PeriodicProblem &problem, const VectorXd &x)
+{
+  return problem.has_free_shifts() ? VectorXd(x - problem.free * (problem.free.transpose() * x)) : x;
+}
+
+VectorXd turned(const PeriodicProblem &problem, const PeriodPassage &passage)
+{
+  return passage.shift.size() > 0 ? VectorXd(problem.turn + passage.shift) : problem.turn;
+}
+
 PeriodFlow::PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration)
     : problem_(problem), system_(*problem.system), integration_(completed(integration, problem.period)),
       integrator_(make_integrator(system_, integration_)), tangents_(dynamic_cast<MotionTangents *>(integrator_.get()))
@@ -118,7 +128,19 @@ const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, doub
 {
   pass_part(q, v, problem_.begin, problem_.begin + period, tangents);
   passage_.period = period;
+  put_back(q);
   return passage_;
+}
+
+void PeriodFlow::put_back(const VectorXd &q)
+{
+  if (!problem_.has_free_shifts())
+    return;
+  const MatrixXd &F = problem_.free;
+  passage_.shift    = F * (F.transpose() * (passage_.q - q - problem_.turn));
+  passage_.q -= passage_.shift;
+  if (auto dq = passage_.monodromy.topRows(passage_.monodromy.rows() / 2); dq.size() > 0)
+    dq -= MatrixXd(F * (F.transpose() * dq));
 }
 
 const PeriodPassage &PeriodFlow::pass_part(const VectorXd &q, const VectorXd &v, double from, double to, bool tangents)
@@ -171,7 +193,10 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
     advance(before.steps);
   finish(before);
   if (there)
+  {
+    put_back(q);
     return passage_;
+  }
   std::ostringstream text;
   text << "the coordinate " << system_.linear().coordinate_name(phase) << " does not come round in " << longest
        << " s: it goes from " << from << " to " << integrator_->instant().q[phase] << ", a period ends at " << target;
@@ -342,9 +367,11 @@ void PeriodFlow::at_event()
   tangents_->jump_tangents(before_, dt_);
 }
 
-Eigen::VectorXcd multipliers_of(const MatrixXd &monodromy)
+/// A passage that is put back has zero for the multiplier of a free shift.
+Eigen::VectorXcd multipliers_of(const MatrixXd &monodromy, const PeriodicProblem &problem)
 {
-  return largest_first(GeneralEigenSolver(monodromy, WithVectors::no).eigenvalues());
+  const Eigen::VectorXcd all = largest_first(GeneralEigenSolver(monodromy, WithVectors::no).eigenvalues());
+  return all.head(all.size() - problem.free.cols());
 }
 
 } // namespace gestell::coupling

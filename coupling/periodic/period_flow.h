@@ -14,10 +14,11 @@ struct PeriodPassage
 {
   double          period = 0.;      ///< T [s]
   Eigen::VectorXd q_begin, v_begin; ///< [n]
-  Eigen::VectorXd q, v;             ///< at t_0 + T [n]
+  Eigen::VectorXd q, v;             ///< at t_0 + T [n]; along free shifts where it began, and `turn` on
+  Eigen::VectorXd shift{};          ///< F s, by which it was put back there [n]; empty: there are no free shifts
   double          fastest = 0.;     ///< max_t sqrt(sum_k q'_k^2)
   Eigen::MatrixXd monodromy;        ///< d(q, q')(T)/d(q, q')(0) [2n x 2n]; empty: not asked for.  Of some
-                                    ///< tangents alone: their images [2n x k]
+                                    ///< tangents alone: their images [2n x k].  Put back likewise
   std::vector<Event>       events;
   std::vector<std::string> grazing;         ///< events whose guard touches its zero rather than crosses it
   double                   chattering = 0.; ///< share of the period gone over with more events than are located
@@ -46,7 +47,7 @@ public:
   /// Tangents dq, dv [n x k] with which passages begin, when they are asked for; empty: all of the start.
   void carry(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv);
 
-  /// Over `period`.
+  /// Over `period`; at its end put back along the free shifts of the problem.
   /// @throws ConvergenceFailure, std::invalid_argument if tangents are asked for and the integrator has none
   const PeriodPassage &pass(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period, bool tangents);
   /// A part of it, from `begin` to `end` [s]; elements begin in the branches of the state.
@@ -61,6 +62,9 @@ public:
   const PeriodPassage     &passage() const { return passage_; }
   /// q'' at the end of the last passage [n].
   const Eigen::VectorXd &end_acceleration();
+
+  /// Moves the end of a last part along the free shifts to where a period began at q [n], with its tangents.
+  void put_back(const Eigen::VectorXd &q);
 
   /// Whether elements remember at the end of the last passage what a start from the state there would not give them: a
   /// measure that is held, or a history beyond its branch.  They begin anew with the next passage.
@@ -106,11 +110,16 @@ private:
   LocalState                              local_look_;
 };
 
+/// x [n] without its share along the free shifts of the problem.
+Eigen::VectorXd without_free(const PeriodicProblem &problem, const Eigen::VectorXd &x);
+/// How far coordinates go in a passage that closes [n]: turn and, along the free shifts, what the motion chose.
+Eigen::VectorXd turned(const PeriodicProblem &problem, const PeriodPassage &passage);
+
 /// Sliding speed [m/s, rad/s] that is none in a motion that starts at q, q' and repeats after `period` [s]: what a
 /// search leaves of its size.
 double still_speed(const SecondOrderSystem &system, const Eigen::VectorXd &q, const Eigen::VectorXd &v, double period);
 
-/// Floquet multipliers: eigenvalues of the monodromy matrix, largest first.
-Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd &monodromy);
+/// Floquet multipliers: eigenvalues of the monodromy matrix, largest first, without those of free shifts.
+Eigen::VectorXcd multipliers_of(const Eigen::MatrixXd &monodromy, const PeriodicProblem &problem);
 
 } // namespace gestell::coupling

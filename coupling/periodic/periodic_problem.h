@@ -16,8 +16,14 @@ namespace gestell::coupling
  *
  *     q(t_0 + T) = q(t_0) + turn,     q'(t_0 + T) = q'(t_0),
  *
- * turn [n] being whole turns [rad] of angles and zero for all else.  Where nothing depends on the time, T is unknown
- * too, and the coordinate `phase` is given at t_0 instead: q_phase(t_0) = phase_value.
+ * turn [n] being increments of angles that leave all equations as they are, and zero for all else.  Where nothing
+ * depends on the time, T is unknown too, and the coordinate `phase` is given at t_0 instead: q_phase(t_0) = phase_value.
+ *
+ * A shift along the columns F of `free` changes no equation.  The motion itself chooses how far it goes along them,
+ *
+ *     q(t_0 + T) = q(t_0) + turn + F s,     s = F^T (q(t_0 + T) - q(t_0) - turn),
+ *
+ * and keeps the F^T q(t_0) with which a search begins.  F leaves the phase alone.
  *
  * What elements remember starts anew at t_0 and in every period after it, as when a press is fed.
  */
@@ -28,6 +34,7 @@ struct PeriodicProblem
   double             period = 0.; ///< T [s]; a first guess where it is unknown
   int                ratio  = 1;  ///< T in periods of the excitation: of a subharmonic motion above 1
   Eigen::VectorXd    turn;        ///< [n] [rad]
+  Eigen::MatrixXd    free;        ///< F [n x k], orthonormal; empty: there are none
   int                phase       = -1;
   double             phase_value = 0.;    ///< [rad] or [m]
   bool               phase_falls = false; ///< of an oscillation: it passes its value downwards
@@ -38,6 +45,7 @@ struct PeriodicProblem
   bool interrupted() const { return stop && stop->load(std::memory_order_relaxed); }
 
   bool period_is_unknown() const { return phase >= 0; }
+  bool has_free_shifts() const { return free.cols() > 0; }
 
   /// The same by the period of the excitation.
   PeriodicProblem of_one_period() const

@@ -49,6 +49,16 @@ struct OrbitState
   Eigen::VectorXd q, v;
 };
 
+/// What a run from the initial values makes of a motion, see verify_by_run().
+struct RunVerification
+{
+  int         periods     = 0;     ///< that were run; 0: none
+  double      departure   = 0.;    ///< largest distance at their ends, of the fastest speed
+  bool        leaves      = false; ///< it goes away from the motion
+  bool        starts_anew = false; ///< elements remember something, which started anew with every period
+  std::string failure{};           ///< not empty: why it ended early
+};
+
 struct PeriodicSolution
 {
   double                       begin = 0., period = 0.; ///< t_0, T [s]
@@ -61,6 +71,7 @@ struct PeriodicSolution
   std::vector<Event>           events;                     ///< of one period
   std::vector<OrbitState>      states; ///< ascending from t_0, between which it is followed; empty: in one go
   double                       share = std::numeric_limits<double>::quiet_NaN(); ///< of the starts that led there
+  RunVerification              verification;             ///< by a run
   std::string                  method;                                           ///< that found it
   MethodOptions                integration{};                                    ///< that traces it
   std::vector<std::string>     notes;                                            ///< what a user should know of it
@@ -68,7 +79,7 @@ struct PeriodicSolution
 
   bool   stability_is_known() const { return multipliers.size() > 0; }
   double largest_multiplier() const; ///< in size, the trivial one left out
-  bool   stable() const { return largest_multiplier() < 1.; }
+  bool   stable() const { return largest_multiplier() < 1. && !verification.leaves; }
 };
 
 /**

@@ -102,7 +102,7 @@ PeriodicSolution told(const PeriodicProblem &problem, const Settled &settled, co
   solution.ratio       = problem.ratio;
   solution.q           = settled.at.q;
   solution.v           = settled.at.v;
-  solution.turn        = problem.turn;
+  solution.turn        = turned(problem, passage);
   solution.residual    = closing_error(passage.q - passage.q_begin - problem.turn, passage.v - passage.v_begin,
                                        2. * M_PI / period, passage.fastest);
   solution.events      = passage.events;
@@ -112,7 +112,7 @@ PeriodicSolution told(const PeriodicProblem &problem, const Settled &settled, co
   solution.work.add({0, 1, passage.work});
   solution.trivial_multiplier = problem.period_is_unknown() && flow.has_tangents();
   if (flow.has_tangents())
-    solution.multipliers = multipliers_of(passage.monodromy);
+    solution.multipliers = multipliers_of(passage.monodromy, problem);
   else
   {
     solution.multipliers = Eigen::VectorXcd::Constant(1, std::min(settled.contraction, 1. - 1e-9));

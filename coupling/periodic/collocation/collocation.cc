@@ -57,6 +57,8 @@ PeriodicCollocation::PeriodicCollocation(const PeriodicProblem &problem, SharedM
     if (may_repeat_by_itself(b))
       for (const Index row : {b, measures_.n_p + b})
         free_.push_back(row);
+  if (problem_.has_free_shifts())
+    find_shifts();
 }
 
 /// Whether a block repeats after the period; where that changes, whether it would after one near it.
@@ -182,12 +184,6 @@ void PeriodicCollocation::close(MatrixXd &X)
       closing_.row(unknown + 1) = -X.row(n_p + b);
       closing_.block<2, 2>(unknown, n + unknown) << 1. - whole_.E(b, 0), -whole_.E(b, 1), -whole_.E(b, 2),
           1. - whole_.E(b, 3);
-      for (const Index row : {unknown, unknown + 1})
-      {
-        if (!(scale_[row] > 0.))
-          scale_[row] = scale_of(closing_.row(row).head(n));
-        closing_.row(row) *= scale_[row];
-      }
       X.row(b)       = Eigen::RowVectorXd::Unit(X.cols(), n + unknown);
       X.row(n_p + b) = Eigen::RowVectorXd::Unit(X.cols(), n + unknown + 1);
       unknown += 2;
@@ -200,6 +196,25 @@ void PeriodicCollocation::close(MatrixXd &X)
       X(n_p + b, k)           = x[1];
     }
   }
+  for (Index row = 0; row < unknown; ++row)
+    if (!(scale_[row] > 0.))
+      scale_[row] = scale_of(closing_.row(row).head(n));
+  if (problem_.has_free_shifts())
+    closing_ -= MatrixXd(shifts_ * (shifts_.transpose() * closing_));
+  closing_.array().colwise() *= scale_.array();
+}
+
+/// The free shifts of the problem in the free states, which have them all, orthonormal.
+void PeriodicCollocation::find_shifts()
+{
+  const MatrixXd in_modes = modes_.from_q * problem_.free;
+  shifts_.resize(Index(free_.size()), in_modes.cols());
+  for (Index k = 0; k < shifts_.rows(); ++k)
+  {
+    const Index state = free_[std::size_t(k)];
+    shifts_.row(k)    = in_modes.row(state < measures_.n_p ? 2 * state : 2 * (state - measures_.n_p) + 1);
+  }
+  shifts_ = orthonormal_columns(shifts_, shifts_.cols());
 }
 
 /// (E - e^(Lambda T))^-1 (x_1, x_2) of a block.
@@ -225,6 +240,8 @@ void PeriodicCollocation::evaluate(const VectorXd &y, VectorXd &r, MatrixXd *J)
   {
     *J                                   = MatrixXd::Identity(y.size(), y.size());
     J->middleRows(n, n_free).leftCols(m) = closing_.leftCols(m);
+    if (problem_.has_free_shifts()) // along them the start stays where it is
+      J->block(n, n, n_free, n_free) += shifts_ * shifts_.transpose();
     if (problem_.period_is_unknown())
     {
       J->row(m).head(m) = phase_.head(m);

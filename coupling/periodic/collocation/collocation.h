@@ -25,6 +25,8 @@ namespace gestell::coupling
  * and only P is unknown, however many modes there are.  Where a motion of the base repeats by itself, as that of a mass
  * between stops, its two states at t_0 are unknown too, and its closing is an equation.  Order 2 s at the mesh points.
  *
+ * Along free shifts of the problem nothing is to close, and the start stays where it is.
+ *
  * Where nothing tells the time, T is unknown too, and q_phase(t_0) = phase_value an equation.  At given forces over
  * theta = (t - t_0)/T the motion changes with T by
  *
@@ -87,6 +89,7 @@ private:
   void            use_period(double period);
   void            condense();
   void            close(Eigen::MatrixXd &X);
+  void            find_shifts();
   bool            may_repeat_by_itself(Eigen::Index block) const;
   double          closing_determinant(Eigen::Index block) const;
   Eigen::Vector2d closed(Eigen::Index block, double x_1, double x_2) const;
@@ -121,6 +124,7 @@ private:
   std::vector<Eigen::Index> free_;    ///< states of x that are unknowns
   Eigen::MatrixXd           closing_; ///< their equations closing_ (P; x_free; 1) = 0
   Eigen::VectorXd           scale_;   ///< of these, kept while the mesh is
+  Eigen::MatrixXd           shifts_;  ///< of the free states that change no equation [states x k], orthonormal
   double                    phase_scale_ = 0.;
   Eigen::RowVectorXd        phase_; ///< q_phase(t_0) - phase_value = phase_ (P; x_free; 1), scaled
   Eigen::RowVectorXd        phase_of_x_;

@@ -137,6 +137,10 @@ PeriodicCollocation::PeriodSlope PeriodicCollocation::period_slope(const VectorX
       slope.start[b]                 = begin[0];
       slope.start[measures_.n_p + b] = begin[1];
     }
+  if (problem_.has_free_shifts())
+    slope.closing =
+        scale_.cwiseProduct(slope.closing.cwiseQuotient(scale_) -
+                                        shifts_ * (shifts_.transpose() * slope.closing.cwiseQuotient(scale_)));
   slope.u.resize(u_0_.size());
   slope.v.resize(u_0_.size());
   carry_slope(y, slope.start, &slope);

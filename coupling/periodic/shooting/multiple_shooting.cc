@@ -110,8 +110,11 @@ double SegmentEquations::share(int i) const
 const PeriodPassage &SegmentEquations::pass(const VectorXd &z, int i, double period, bool tangents)
 {
   const Index n = problem_.turn.size(), at = 2 * n * i;
-  return flow_.pass_part(z.segment(at, n) / omega_, z.segment(at + n, n), problem_.begin + period * share(i),
-                         problem_.begin + period * share(i + 1), tangents);
+  flow_.pass_part(z.segment(at, n) / omega_, z.segment(at + n, n), problem_.begin + period * share(i),
+                  problem_.begin + period * share(i + 1), tangents);
+  if (i + 1 == M_)
+    flow_.put_back(z.head(n) / omega_);
+  return flow_.passage();
 }
 
 VectorXd SegmentEquations::along_motion(const PeriodicGuess &guess)
@@ -149,10 +152,12 @@ void SegmentEquations::take(const PeriodPassage &passage, int i)
   A.topRightCorner(n, n) *= omega_;
   A.bottomLeftCorner(n, n) /= omega_;
   if (problem_.period_is_unknown())
-    by_time_.col(i) << omega_ * passage.v * part(i), flow_.end_acceleration() * part(i);
+    by_time_.col(i) << omega_ * (i + 1 == M_ ? without_free(problem_, passage.v) : passage.v) * part(i),
+        flow_.end_acceleration() * part(i);
   whole_.monodromy = i == 0 ? passage.monodromy : MatrixXd(passage.monodromy * whole_.monodromy);
   whole_.fastest   = std::max(whole_.fastest, passage.fastest);
   whole_.chattering += passage.chattering * part(i);
+  whole_.shift = passage.shift;
   whole_.events.insert(whole_.events.end(), passage.events.begin(), passage.events.end());
   whole_.grazing.insert(whole_.grazing.end(), passage.grazing.begin(), passage.grazing.end());
   work_.add({0, 0, passage.work});

@@ -73,7 +73,7 @@ const PeriodPassage &ShootingEquations::evaluate_with(const VectorXd &z, const M
 VectorXd ShootingEquations::rate_at_end()
 {
   VectorXd rate(2 * problem_.turn.size());
-  rate << flow_.passage().v, flow_.end_acceleration();
+  rate << without_free(problem_, flow_.passage().v), flow_.end_acceleration();
   return rate;
 }
 
@@ -112,13 +112,13 @@ PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions
   solution.ratio              = problem.ratio;
   solution.q                  = passage.q_begin;
   solution.v                  = passage.v_begin;
-  solution.turn               = problem.turn;
+  solution.turn               = turned(problem, passage);
   solution.residual           = closing;
   solution.events             = passage.events;
   solution.integration        = integration;
   solution.trivial_multiplier = problem.period_is_unknown();
   if (passage.monodromy.size() > 0 && passage.monodromy.rows() == passage.monodromy.cols())
-    solution.multipliers = multipliers_of(passage.monodromy);
+    solution.multipliers = multipliers_of(passage.monodromy, problem);
   for (const std::string &event : passage.grazing)
     solution.notes.push_back("grazing: " + event +
                              ": the motion touches this event rather than crosses it; stability "

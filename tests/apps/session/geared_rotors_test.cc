@@ -1,0 +1,158 @@
+// Periodic motions of geared drives are those to which a run settles; names of coordinates mean their motions.
+
+#include "tests/apps/session/periodic_scenes.h"
+#include "tests/support/refusal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+/// A motor that drives a wheel by a belt of ratio i, `more` on the wheel.
+std::string belt_drive(double i, const std::string &more = "", const std::string &run = "exact")
+{
+  return rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") + rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]") +
+         measure("belt", "sum",
+                 {{"terms", "[{ of = 'motor', factor = '40 mm' }, { of = 'wheel', factor = '" + number(-0.04 * i) +
+                                " m' }]"}}) +
+         element("belt", "spring-damper", {{"on", "belt"}, {"stiffness", "50 N/mm"}, {"damping", "200 N s/m"}}) +
+         element("drive", "asynchronous motor",
+                 {{"on", "motor"},
+                  {"to", "ground"},
+                  {"breakdown_torque", "12 N m"},
+                  {"breakdown_slip", "20 %"},
+                  {"synchronous_speed", "1500 1/min"}}) +
+         element("load", "spring-damper", {{"from", "wheel"}, {"about", "[0, 1, 0]"}, {"damping", "0.3 N m s/rad"}}) +
+         more +
+         test::quoted("[start]\nrule = 'given'\nv = { motor = '1450 1/min', wheel = '" + number(1450. / i) +
+                      " 1/min' }\n[run]\nmethod = '" + run + "'\ntolerance = 1e-9\nstep = '1 ms'\nend = '8 s'\n"
+                      "[output.signals]\nT = 'drive.torque'\nF = 'belt.force'\nw = 'wheel.speed'\n");
+}
+
+const std::string crank = slider_body("slide", "8 kg", "[0, 0, 1]") +
+                          element("rod", "connecting rod",
+                                  {{"from", "wheel"},
+                                   {"to", "slide"},
+                                   {"crank_radius", "20 mm"},
+                                   {"length", "300 mm"},
+                                   {"stiffness", "2 kN/mm"},
+                                   {"damping", "3 kN s/m"}});
+
+PeriodicResult by(const std::string &method, const std::string &text)
+{
+  PeriodicRequest request;
+  request.method = method;
+  return periodic_of(text, request);
+}
+
+double largest_of(const SceneRun &motion, const std::string &name, double from, bool least = false)
+{
+  const std::size_t column = motion.column(name);
+  double            value  = least ? 1e300 : -1e300;
+  for (std::size_t i = 0; i < motion.n_rows(); ++i)
+    if (motion.at(i, 0) >= from)
+      value = least ? std::min(value, motion.at(i, column)) : std::max(value, motion.at(i, column));
+  return value;
+}
+
+} // namespace
+
+TEST(GearedRotors, RoundOnesHaveTheTorqueToWhichARunSettles)
+{
+  for (const double i : {3.7, 2.05})
+  {
+    const test::SceneFolder folder;
+    const SceneRun          motion(folder.write("scene.toml", belt_drive(i)));
+    for (const std::string method : {"shooting", "harmonic-balance", "settling"})
+    {
+      const PeriodicResult result = by(method, belt_drive(i));
+      ASSERT_EQ(result.entries.size(), 1u) << method << result.failure;
+      const PeriodicEntry &entry = result.entries[0];
+      EXPECT_TRUE(entry.solution.stable()) << method;
+      EXPECT_EQ(entry.solution.verification.failure, "");
+      for (std::size_t k = 0; k < 3; ++k) // e^(-t/tau) of the run at its end is 1e-9, tau = 0.35 s at most
+      {
+        const double value = motion.signal(entry.signals[k].name).final;
+        EXPECT_NEAR(entry.signals[k].max, value, 1e-6 * std::abs(value)) << method << ' ' << entry.signals[k].name;
+        EXPECT_NEAR(entry.signals[k].min, value, 1e-6 * std::abs(value)) << method << ' ' << entry.signals[k].name;
+      }
+    }
+  }
+}
+
+TEST(GearedRotors, ACrankBehindABeltHasTheExtremesToWhichARunSettles)
+{
+  const std::string       text = belt_drive(3.7, crank);
+  const test::SceneFolder folder;
+  const SceneRun          motion(folder.write("scene.toml", text), {"output.step=0.2 ms"});
+  const PeriodicResult    result = by("shooting", text);
+  ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+  const PeriodicEntry &entry = result.entries[0];
+  EXPECT_TRUE(entry.solution.stable());
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const apps::SignalOrbit &signal = entry.signals[k];
+    const double             size   = signal.max - signal.min; // rows of 0.2 ms miss an extreme by a thousandth of it
+    EXPECT_NEAR(signal.max, largest_of(motion, signal.name + " [" + signal.unit + "]", 6.), 1e-3 * size) << signal.name;
+    EXPECT_NEAR(signal.min, largest_of(motion, signal.name + " [" + signal.unit + "]", 6., true), 1e-3 * size)
+        << signal.name;
+  }
+}
+
+/// An ideal gear instead of the belt: its joint tells the ratio, and settling is what can treat it.
+TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
+{
+  const std::string text =
+      rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") + rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]") +
+      joint("gear", "sum", {{"terms", "[{ of = 'motor' }, { of = 'wheel', factor = -3.7 }]"}}) +
+      element("drive", "formula force",
+              {{"from", "motor"}, {"to", "ground"}, {"about", "[0, 1, 0]"}, {"force", "40 N*m - 0.3 N*m*s/rad*v"}}) +
+      element("load", "spring-damper", {{"from", "wheel"}, {"about", "[0, 1, 0]"}, {"damping", "0.3 N m s/rad"}}) +
+      test::quoted("[start]\nrule = 'given'\nv = { motor = '130 rad/s' }\n[run]\nmethod = 'bdf'\ntolerance = 1e-8\n"
+                   "end = '1 s'\n[output.signals]\nw = 'motor.speed'\n");
+  const PeriodicResult result = by("", text);
+  ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+  const double w = 40. / (0.3 + 0.3 / (3.7 * 3.7));
+  EXPECT_NEAR(std::abs(result.entries[0].signals[0].mean), w, 1e-5 * w);
+}
+
+/// q of an interface whose row is that of -ux: the values by the names of coordinates are those of signals, and a start.
+TEST(NamesOfCoordinates, MeanTheMotionWhereAFrameHasItsOppositeSign)
+{
+  const std::string text =
+      "[frame]\nmass = [[2.0, 0.0], [0.0, 1.0]]\ndamping = [[0.06, -0.02], [-0.02, 0.04]]\n"
+      "stiffness = [[3.0, -1.0], [-1.0, 2.0]]\n" +
+      table("frame.interface.one", {{"rows", "{ ux = -1 }"}, {"position", "[0, 0, 0]"}}) +
+      element("cubic", "cubic spring",
+              {{"from", "frame.one"}, {"to", "ground"}, {"direction", "[1, 0, 0]"}, {"cubic", "0.5"}}) +
+      cosine_load("frame.one", 0.8, 1.3) + test::quoted("[output.signals]\nx = 'frame.one.ux'\n");
+  const PeriodicResult result = by("shooting", text);
+  ASSERT_EQ(result.entries.size(), 1u) << result.failure;
+  const PeriodicEntry &entry = result.entries[0];
+  std::string          q, v;
+  for (std::size_t i = 0; i < result.coordinates.size(); ++i)
+  {
+    const auto &[name, sign] = result.coordinates[i];
+    q += (i > 0 ? ", '" : "'") + name + "' = " + number(sign * entry.solution.q[Eigen::Index(i)]);
+    v += (i > 0 ? ", '" : "'") + name + "' = " + number(sign * entry.solution.v[Eigen::Index(i)]);
+    if (name == "frame.one.ux")
+    {
+      EXPECT_NEAR(sign * entry.solution.q[Eigen::Index(i)], entry.rows[1], 1e-12);
+    }
+  }
+  // All of them are a start, from which the machine stays on the motion.
+  PeriodicRequest here;
+  here.method                = "shooting";
+  here.lead_in               = 0;
+  const PeriodicResult again = periodic_of(
+      text + test::quoted("[start]\nrule = 'given'\nq = { " + q + " }\nv = { " + v + " }\n"), here);
+  ASSERT_EQ(again.entries.size(), 1u) << again.failure;
+  EXPECT_EQ(again.entries[0].solution.work.iterations, 0);
+  EXPECT_LT((again.entries[0].solution.q - entry.solution.q).norm(), 1e-12);
+}
+
+} // namespace gestell::tests
