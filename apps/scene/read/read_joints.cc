@@ -2,6 +2,7 @@
 
 #include "apps/scene/read/joint_axes.h"
 #include "apps/scene/read/joint_keys.h"
+#include "apps/scene/read/measure_order.h"
 #include "apps/scene/read/read_compliance.h"
 #include "apps/scene/read/read_function.h"
 #include "apps/scene/read/read_joint_friction.h"
@@ -390,12 +391,15 @@ void read_places(const SceneTable &scene, Names &names, Scene &result)
     names.add_place(table.name(), point);
     result.places.push_back({table.name(), point, table.place()});
   }
-  for (const auto &table : scene.tables("measure"))
+  const std::vector<SceneTable> measures = scene.tables("measure");
+  result.measures.resize(measures.size());
+  for (const std::size_t i : reading_order(measures))
   {
+    const SceneTable &table = measures[i];
     check_new_name(table, names, result);
-    result.measures.push_back(read_measure(table, names));
+    result.measures[i]                  = read_measure(table, names);
     result.element_places[table.name()] = table.place();
-    names.add_measure(result.measures.back());
+    names.add_measure(result.measures[i]);
   }
 }
 

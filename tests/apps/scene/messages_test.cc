@@ -44,6 +44,25 @@ TEST(Messages, PlainFactorsOfASumFit)
   expect_complaint(sum("[{ of = \"a\" }, { of = \"w\", factor = \"2 kg\" }]"), "all terms must be lengths");
 }
 
+// A table of TOML has no order: a measure may name one that stands below it.
+TEST(Messages, TheOrderOfMeasuresDoesNotMatter)
+{
+  const std::string way  = measure("d", "along", {{"from", "b"}, {"to", "a"}, {"direction", "[1, 0, 0]"}}),
+                    once = measure("s", "sum", {{"terms", "[{ of = \"d\", factor = 3 }]"}}),
+                    both = measure("r", "sum", {{"terms", "[{ of = \"s\" }, { of = \"a\" }]"}}),
+                    rest = start("q = { a = 3, b = 5, w = 2 }") + steps("1 ms", "2 ms") + signals("r = 'r.value'");
+  for (const std::string &measures : {way + once + both, both + once + way, once + way + both})
+    EXPECT_NEAR(run(two_slides + measures + rest).signal("r").final, 9., 1e-12) << measures;
+}
+
+TEST(Messages, ACycleOfMeasuresIsNamed)
+{
+  const std::string s = measure("s", "sum", {{"terms", "[{ of = \"t\" }]"}}),
+                    t = measure("t", "sum", {{"terms", "[{ of = \"s\" }]"}});
+  expect_complaint(two_slides + s + t, "measure.s: is defined by itself: 's' -> 't' -> 's'; define one of these");
+  expect_complaint(two_slides + measure("s", "sum", {{"terms", "[{ of = \"s\" }, { of = \"a\" }]"}}), "'s' -> 's'");
+}
+
 const std::string pendulum = planar_body("p", "1", "1", "[1, 0, 0]", "[0, 0, 1]") + steps("1 ms", "2 ms") +
                              revolute("hinge", "ground", "p", "[0, 0, 0]");
 
