@@ -15,6 +15,7 @@
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
+#include "apps/session/run_magnitudes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
 #include "apps/session/spectra/order_tracking.h"
 #include "apps/session/spectra/spectra.h"
@@ -83,11 +84,6 @@ coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared
     failure = none.what();
     return {};
   }
-}
-
-double seconds(std::clock_t ticks)
-{
-  return double(ticks) / CLOCKS_PER_SEC;
 }
 
 constexpr int orbit_rows = 512; ///< of a period
@@ -295,8 +291,8 @@ Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre 
     progress()("sensitivities", -1.);
     result.sensitivities =
         sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, watch_.interruption, result);
-    result.sensitivities->run_cpu_s = seconds(behind_run - at_run);
-    result.sensitivities->cpu_s     = seconds(at_run - at_twins + std::clock() - behind_run);
+    result.sensitivities->run_cpu_s = double(behind_run - at_run) / CLOCKS_PER_SEC;
+    result.sensitivities->cpu_s     = double(at_run - at_twins + std::clock() - behind_run) / CLOCKS_PER_SEC;
   }
   progress()("results", -1.);
   if (spectra == SpectraAre::told)
@@ -416,7 +412,8 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
   ask_for_peak(signals, run.states);
   if (swings_ && run.picture_step > 0.)
     run.states.around = swing_extremes(signals, machine_->machine.size());
-  const auto now = progress();
+  RunMagnitudes magnitudes(scene_, machine_->machine, machine_->small());
+  const auto    now = progress();
   now("integration", 0.);
   const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
   std::optional<coupling::RunCheckpoints> checkpoints;
@@ -428,8 +425,9 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
   {
     coupling::RunResult result =
         coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
-                           checkpoints ? &*checkpoints : nullptr);
-    result.warnings.insert(result.warnings.end(), not_kept.begin(), not_kept.end());
+                           checkpoints ? &*checkpoints : nullptr, &magnitudes.signals());
+    for (const auto &warnings : {not_kept, magnitudes.warnings(result)})
+      result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     return result;
   }
   catch (const std::invalid_argument &error)

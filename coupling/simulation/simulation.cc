@@ -19,6 +19,7 @@
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/resumable_run.h"
 #include "coupling/simulation/run_method.h"
+#include "coupling/simulation/watched_values.h"
 #include "fem/values/available_memory.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
@@ -230,13 +231,15 @@ public:
   /// @throws ConvergenceFailure if the machine does not start
   void begin(const InitialState &initial) { driver_.begin(options_.begin, initial.q, initial.v); }
 
-  void look_on(const InitialState &initial)
+  void look_on(const InitialState &initial, WatchedSignals *watched)
   {
     cylinders_   = std::make_unique<HydraulicLimits>(machine_, *integrator_);
     stiffness_   = std::make_unique<StiffnessCheck>(machine_, initial, method_);
     fast_forces_ = std::make_unique<FastForces>(machine_, *integrator_);
     joint_guard_ = std::make_unique<JointForceGuard>(machine_, *integrator_);
     momentary_   = std::make_unique<MomentaryModes>(machine_, options_.begin, options_.end);
+    watched_     = std::make_unique<WatchedValues>(machine_, *integrator_, watched,
+                                               watched ? coordinates_of(watched->signals) : std::vector<int>());
     driver_.on_step([this] { look_at_step(); });
     driver_.on_event(
         [this](const Event &event)
@@ -248,6 +251,7 @@ public:
     recorder_.begin();
     cylinders_->begin();
     fast_forces_->begin();
+    watched_->begin();
   }
 
   /// Keeps the motion, from the begin on.
@@ -270,7 +274,7 @@ public:
   void exchange(StateArchive &archive)
   {
     driver_.exchange(archive);
-    archive(recorder_, *cylinders_, *stiffness_, *fast_forces_, *joint_guard_, *momentary_, crawl_, steps_);
+    archive(recorder_, *cylinders_, *stiffness_, *fast_forces_, *joint_guard_, *momentary_, *watched_, crawl_, steps_);
   }
 
   std::string state()
@@ -302,6 +306,7 @@ private:
     fast_forces_->step();
     joint_guard_->step();
     momentary_->step(integrator_->local());
+    watched_->step();
   }
 
   void note_end(const Event &event)
@@ -323,6 +328,7 @@ private:
   std::unique_ptr<FastForces>      fast_forces_;
   std::unique_ptr<JointForceGuard> joint_guard_;
   std::unique_ptr<MomentaryModes>  momentary_;
+  std::unique_ptr<WatchedValues>   watched_;
   CrawlWatch                       crawl_{options_};
   long                             steps_      = 1; ///< the next one
   Trajectory                      *trajectory_ = nullptr;
@@ -377,6 +383,7 @@ void Run::finish(const InitialState &initial)
   recorder_.finish();
   result_.events    = driver_.events();
   result_.end_state = integrator_->instant().q;
+  watched_->finish();
   if (result_.failure.empty())
     result_.failure = no_number_words(integrator_->time(), result_.end_state, integrator_->instant().v);
   add(switch_warnings(machine_, options_.begin, result_.events, result_.failure.empty() && !result_.interrupted),
@@ -404,7 +411,8 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
 
 RunResult simulate(Machine &machine, const InitialState &initial, const RunOptions &options,
                    const std::vector<Signal> &signals, const std::function<void(double)> &progress,
-                   const std::atomic<bool> *stop, Trajectory *trajectory, const RunCheckpoints *checkpoints)
+                   const std::atomic<bool> *stop, Trajectory *trajectory, const RunCheckpoints *checkpoints,
+                   WatchedSignals *watched)
 {
   const NoTinyNumbers while_it_runs;
   check_run(machine, options, signals.size());
@@ -433,7 +441,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
     fail_at_start(failure, result);
     return result;
   }
-  run.look_on(initial);
+  run.look_on(initial, watched);
   if (trajectory)
     run.keep(*trajectory);
   if (checkpoints && !checkpoints->from.empty())

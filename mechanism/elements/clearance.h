@@ -90,6 +90,8 @@ public:
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
+  const Parameters &parameters() const { return parameters_; }
+
 private:
   enum Branch
   {

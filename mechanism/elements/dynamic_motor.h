@@ -34,6 +34,8 @@ public:
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
+  const KlossMotor &stationary() const { return motor_; } ///< its characteristic without the lag
+
 private:
   KlossMotor motor_;
 };

@@ -79,6 +79,8 @@ public:
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
+  const Parameters &parameters() const { return parameters_; }
+
 private:
   /// r, r' and the direction of the eccentricity; along e1 where there is none.
   struct Polar

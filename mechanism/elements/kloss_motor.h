@@ -43,6 +43,8 @@ public:
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
+  const Parameters &parameters() const { return parameters_; }
+
 private:
   Parameters parameters_;
 };

@@ -62,6 +62,8 @@ public:
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
+  const Clearance &normal() const { return normal_; }
+
 private:
   Clearance       normal_;
   SlidingFriction friction_;

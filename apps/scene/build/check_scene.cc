@@ -1,5 +1,6 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/free_bodies.h"
+#include "apps/scene/build/scene_magnitudes.h"
 #include "apps/scene/build/stand_in_frame.h"
 #include "apps/scene/build/superposed_machine.h"
 #include "coupling/frame/reduced_frame_file.h"
@@ -59,8 +60,14 @@ std::vector<std::string> check_scene(const Scene &scene)
   for (const auto &[name, angle] : scene.start.steady.angles)
     (void)angle, machine.model().body(name);
   auto warnings = idle_bodies(scene, machine.model());
-  if (const auto remote = remote_joints(scene, machine.model()); places_known(scene))
-    warnings.insert(warnings.end(), remote.begin(), remote.end());
+  if (places_known(scene))
+  {
+    const FramePath path   = frame_path(scene);
+    const bool      exists = path == FramePath::none || path == FramePath::dense || path == FramePath::from_file;
+    for (const auto &more : {remote_joints(scene, machine.model()),
+                             scene_magnitudes(scene, machine, exists ? Masses::known : Masses::of_stand_in)})
+      warnings.insert(warnings.end(), more.begin(), more.end());
+  }
   if (!scene.run.given)
     return warnings;
   try

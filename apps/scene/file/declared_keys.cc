@@ -1,3 +1,4 @@
+#include "apps/scene/file/expected_values.h"
 #include "apps/scene/file/scene_table.h"
 
 #include <sstream>
@@ -48,11 +49,13 @@ double SceneTable::value(const std::string &key, bool on_angle) const
   const Kind &kind     = on_angle && declared.angular ? *declared.angular : declared.kind;
   if (declared.fallback && !has(key))
     return *declared.fallback;
-  if (declared.range == Key::Range::any)
-    return number(key, kind);
-  if (declared.range == Key::Range::from_zero)
-    return not_negative(key, kind);
-  return declared.range == Key::Range::share ? share(key) : positive(key, kind);
+  const double value = declared.range == Key::Range::any         ? number(key, kind)
+                       : declared.range == Key::Range::from_zero ? not_negative(key, kind)
+                       : declared.range == Key::Range::share     ? share(key)
+                                                                 : positive(key, kind);
+  if (const std::string words = unexpected_words(key, kind, value); !words.empty())
+    warn(key, words);
+  return value;
 }
 
 double SceneTable::value_or(const std::string &key, double otherwise, bool on_angle) const

@@ -1,5 +1,8 @@
 #include "apps/scene/read/read_material.h"
 
+#include "fem/values/number_text.h"
+
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -85,6 +88,18 @@ void check_plausible(const SceneTable &table, const std::string &key, const Plau
 
 constexpr double lightest_common = 400., heaviest_common = 20000.; // [kg/m^3]
 
+/// Waves in solids that frames are made of run at 2500 m/s (weak concrete) to 13000 m/s (beryllium, ceramics); slower
+/// ones are plastics, lighter than 2000 kg/m^3, and heavy soft metals as lead.
+void check_speed_of_waves(const SceneTable &table, const fem::Material &material)
+{
+  constexpr double slowest = 2300., fastest = 14000., light = 2000., heavy = 10000.;
+  const double     speed = std::sqrt(material.E / material.rho);
+  if (speed > fastest || (speed < slowest && material.rho > light && material.rho < heavy))
+    table.warn("E", "gives with rho = " + short_text(material.rho) + " kg/m^3 a speed of waves sqrt(E/rho) of " +
+                        short_text(speed) + " m/s; expected: " + short_text(slowest) + " to " + short_text(fastest) +
+                        " m/s (steel, aluminium 5100); check the units of E and rho");
+}
+
 fem::Material material_from(const SceneTable &any)
 {
   const SceneTable table = any.declared(material_keys());
@@ -97,6 +112,7 @@ fem::Material material_from(const SceneTable &any)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
   check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
   check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common);
+  check_speed_of_waves(table, material);
   return material;
 }
 

@@ -1,5 +1,7 @@
 #include "apps/scene/read/frame/read_damping.h"
 
+#include "apps/scene/file/expected_values.h"
+
 #include <cmath>
 
 namespace gestell::apps
@@ -13,6 +15,8 @@ void check_ratio(const SceneTable &table, double zeta)
     throw table.error("ratio", "needs damping ratios of zero or more");
   if (zeta >= 1.)
     throw table.error("ratio", "a damping ratio of 1 or more leaves no vibration; steel frames have 0.01 to 0.03");
+  if (const std::string words = unexpected_words("ratio of damping", kind::number, zeta); !words.empty())
+    table.warn("ratio", words + ", percent are written \"0.5 %\"");
 }
 
 fem::ModalRatios read_ratios(const SceneTable &damping)

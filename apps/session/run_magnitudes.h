@@ -1,0 +1,67 @@
+#pragma once
+
+#include "apps/scene/values/requests.h"
+#include "coupling/machine/machine.h"
+#include "coupling/simulation/resumable_run.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/**
+ * Compares what a run did with what the bodies and elements of a machine can do: elastic deformation of elements,
+ * travel of springs, contacts that never acted, slip of motors, rim speeds, speeds and ways of bodies.
+ * Ranges with their reasons: docs/scene/magnitudes.md.
+ */
+class RunMagnitudes
+{
+public:
+  /// @param machine  as it runs
+  /// @param small    the same of few coordinates, whose masses and stiffness are asked for
+  RunMagnitudes(const Scene &scene, const coupling::Machine &machine, const coupling::Machine &small);
+
+  coupling::WatchedSignals &signals() { return signals_; } ///< to be followed by a run
+
+  /// After that run: one warning for each that is out of its range.
+  std::vector<std::string> warnings(const coupling::RunResult &run) const;
+
+private:
+  enum class Kind
+  {
+    deformation, ///< force; scale: stiffness
+    travel,      ///< displacement of a spring; scale: what is too far
+    contact,     ///< force
+    slip,        ///< scale: breakdown slip
+    turning,     ///< speed of a rotor; scale: radius
+    yielding,    ///< displacement of an interface
+    speed,
+    way
+  };
+  struct Watched
+  {
+    Kind        kind;
+    std::string object;
+    double      scale;
+  };
+
+  void        watch(Kind kind, const std::string &object, const std::string &path, double scale = 0.);
+  void        watch_elements(const coupling::Machine &small);
+  void        watch_springs();
+  void        watch_bodies();
+  void        watch_frame(const coupling::MachineModel &small);
+  double      size_of(const std::string &element) const;
+  std::string judged(const Watched &watched, const std::string &unit, const coupling::WatchedValue &value,
+                     const coupling::RunResult &run) const;
+  std::string slip_words(const Watched &watched, const coupling::WatchedValue &value) const;
+  bool        commanded(const std::string &element) const;
+
+  const Scene                  &scene_;
+  const coupling::MachineModel &machine_;
+  double                        size_; ///< [m] of the machine; 0: unknown
+  std::vector<Watched>          watched_;
+  coupling::WatchedSignals      signals_;
+};
+
+} // namespace gestell::apps
