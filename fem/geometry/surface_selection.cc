@@ -3,7 +3,6 @@
 #include "fem/values/vector3.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -194,8 +193,8 @@ std::string groups_of(const std::vector<Face> &faces)
   return list.empty() ? "The model names no group and no face." : "The model names " + list + ".";
 }
 
-/// Faces that share an edge hang together, as the halves of a bore: the number of such pieces.
-std::size_t number_of_pieces(const std::vector<const Face *> &faces)
+/// Faces that share an edge hang together, as the halves of a bore: the number of the piece of each.
+std::vector<std::size_t> pieces_of(const std::vector<const Face *> &faces)
 {
   std::vector<std::size_t>   piece(faces.size());
   std::map<int, std::size_t> first_at; // edge to face
@@ -206,7 +205,30 @@ std::size_t number_of_pieces(const std::vector<const Face *> &faces)
       if (const auto [other, is_new] = first_at.try_emplace(edge, i); !is_new)
         std::replace(piece.begin(), piece.end(), piece[i], piece[other->second]);
   }
-  return std::set<std::size_t>(piece.begin(), piece.end()).size();
+  return piece;
+}
+
+/// Whether there are so many faces, or so many pieces of them.
+bool are_as_many(const std::vector<const Face *> &faces, std::size_t wanted)
+{
+  const std::vector<std::size_t> piece = pieces_of(faces);
+  return faces.size() == wanted || std::set<std::size_t>(piece.begin(), piece.end()).size() == wanted;
+}
+
+/// The pieces that the point of the selector lies beside, whole.
+std::vector<const Face *> pieces_at(const std::vector<const Face *> &faces, const SurfaceSelector &selector,
+                                    double tolerance)
+{
+  const std::vector<std::size_t> piece = pieces_of(faces);
+  std::set<std::size_t>          here;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (holds(*faces[i], selector, tolerance))
+      here.insert(piece[i]);
+  std::vector<const Face *> result;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (here.count(piece[i]) > 0)
+      result.push_back(faces[i]);
+  return result;
 }
 
 /// Faces the box cuts through, though they meet all other conditions.
@@ -245,30 +267,53 @@ std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelec
       fitting.push_back(&face);
 
   const std::size_t wanted = selector.faces;
-  if (wanted > 0 && fitting.size() > wanted)
-  {
-    std::vector<const Face *> here;
-    std::copy_if(fitting.begin(), fitting.end(), std::back_inserter(here),
-                 [&](const Face *face) { return holds(*face, selector, tolerance); });
-    if (here.size() == wanted || number_of_pieces(here) == wanted)
+  if (wanted > 0 && fitting.size() > wanted && !are_as_many(fitting, wanted))
+    if (const std::vector<const Face *> here = pieces_at(fitting, selector, tolerance); are_as_many(here, wanted))
       fitting = here;
-  }
 
   if (fitting.empty())
     throw std::invalid_argument(selector.place + ": no face fits (" + wish(selector) + ") within " +
                                 text(tolerance * 1e3) + " mm." + (selector.group ? " " + groups_of(faces) : "") +
                                 cut_by_box(faces, selector, tolerance) +
                                 " Nearest faces, lengths in m:" + candidates(faces, selector));
-  if (wanted > 0 && fitting.size() != wanted && number_of_pieces(fitting) != wanted)
+  if (wanted > 0 && !are_as_many(fitting, wanted))
     throw std::invalid_argument(
         selector.place + ": " + std::to_string(fitting.size()) + " faces fit (" + wish(selector) +
-        "), but faces = " + std::to_string(wanted) + "; narrow the selection, say by a box, or set faces." +
+        "), but faces = " + std::to_string(wanted) +
+        "; let 'through' lie within the extent of those meant, narrow the selection by a box, or set faces." +
         cut_by_box(faces, selector, tolerance) + " Candidates, lengths in m:" + candidates(faces, selector));
   std::vector<int> tags;
   for (const Face *face : fitting)
     tags.push_back(face->tag);
   std::sort(tags.begin(), tags.end());
   return tags;
+}
+
+std::string coaxial_faces(const std::vector<Face> &faces, const SurfaceSelector &selector,
+                          const std::vector<int> &selected, double diagonal)
+{
+  if (!selector.cylinder)
+    return "";
+  const double              tolerance = selector.tolerance.value_or(1e-4 * diagonal);
+  SurfaceSelector::Cylinder any       = *selector.cylinder;
+  std::vector<std::string>  left;
+  for (const Face &face : faces)
+  {
+    any.radius = face.radius;
+    if (face.kind == FaceKind::cylinder && !std::binary_search(selected.begin(), selected.end(), face.tag) &&
+        violation(face, any) <= tolerance)
+      left.push_back(std::to_string(face.tag) + " (radius " + text(face.radius) + " m)");
+  }
+  if (left.empty() && selected.size() == 1)
+    return "";
+  std::string words = selected.size() == 1 ? "face" : "faces";
+  for (const int tag : selected)
+    words += (tag == selected.front() ? " " : ", ") + std::to_string(tag);
+  for (std::size_t i = 0; i < std::min(left.size(), candidates_shown); ++i)
+    words += (i == 0 ? "; coaxial faces not taken: " : ", ") + left[i];
+  if (left.size() > candidates_shown)
+    words += " and " + std::to_string(left.size() - candidates_shown) + " more";
+  return words;
 }
 
 } // namespace gestell::fem

@@ -3,6 +3,7 @@
 #include "fem/geometry/face.h"
 #include "fem/values/frame_specification.h"
 
+#include <string>
 #include <vector>
 
 namespace gestell::fem
@@ -15,13 +16,20 @@ namespace gestell::fem
  * samples lie on the wanted plane, with the wanted outward normal, or at the wanted radius from the axis; its box
  * lies in the wanted box; its group, its name or the last part of its name is the wanted one.
  *
- * `through` gives a plane or an axis.  Only if more faces fit than `selector.faces` asks for, it is also read as a
- * place: those faces count whose extent (along the axis; within the plane) holds the point, if their number is right.
+ * Faces that fit and share an edge are one piece: a bore of two halves, or of two lengths, is one face to its user, and
+ * pieces are taken whole.  `faces` is the number of pieces, or of faces.
  *
- * Faces that share an edge may count as one: a bore of two halves is one face to its user.
+ * `through` gives a plane or an axis.  Only if more pieces fit than `selector.faces` asks for, it is also read as a
+ * place: those pieces count whose extent (along the axis; within the plane) contains the point.  So the point chooses
+ * between pieces apart, or the selection fails; it never chooses a part of a piece.
  *
  * @throws std::invalid_argument with the candidates if no face fits or their number is another one than `faces`.
  */
 std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelector &selector, double diagonal);
+
+/// "face 4; coaxial faces not taken: 7 (radius 0.12 m)": the faces that a cylinder selects, where there is more to say
+/// than one of them, and the cylinders of any radius about its axis that it leaves; else empty.
+std::string coaxial_faces(const std::vector<Face> &faces, const SurfaceSelector &selector,
+                          const std::vector<int> &selected, double diagonal);
 
 } // namespace gestell::fem

@@ -55,11 +55,16 @@ struct MeshedModel
   std::string   smallest; ///< edges and faces
 };
 
-Selection select_all(const CadModel &model, const FrameSpecification &specification)
+Selection select_all(CadModel &model, const FrameSpecification &specification)
 {
   Selection selection;
   for (const auto &[name, selector] : specification.surfaces)
+  {
     selection[name] = select_faces(model.faces, selector, model.diagonal());
+    if (const std::string words = coaxial_faces(model.faces, selector, selection[name], model.diagonal());
+        !words.empty())
+      model.statements.push_back("surface \"" + name + "\": " + words);
+  }
   require_faces_of_one_owner(selection, model.faces, specification);
   return selection;
 }

@@ -105,6 +105,37 @@ TEST(Selection, OfAnAxisTakesAllCoaxialFacesOrThatAroundThePoint)
   EXPECT_THROW(select_faces(faces, cylinder(x, {0.5, 1., 2.}, 0.12, 1), 1.), std::invalid_argument);
 }
 
+/// A bore of two lengths that meet in a circle, and another one of the same axis apart from them.
+TEST(Selection, DoesNotDependOnWhereThePointLiesAlongThePiecesItTakes)
+{
+  std::vector<Face> faces = {arc(4, -1., 0., 0.1), arc(5, -1., 0.1, 0.3)};
+  faces[0].edges          = {1, 2};
+  faces[1].edges          = {2, 3};
+  const Vector3 x{1., 0., 0.};
+  for (const double at : {-3., 0., 0.05, 0.1, 0.2, 0.3, 0.7})
+    EXPECT_EQ(select_faces(faces, cylinder(x, {at, 1., 2.}, 0.12, 1), 1.), (std::vector<int>{4, 5})) << at;
+  faces.push_back(arc(7, -1., 0.9, 1.));
+  faces[2].edges = {4, 5};
+  for (const double at : {0., 0.05, 0.1, 0.2, 0.3})
+    EXPECT_EQ(select_faces(faces, cylinder(x, {at, 1., 2.}, 0.12, 1), 1.), (std::vector<int>{4, 5})) << at;
+  for (const double at : {0.9, 0.95, 1.})
+    EXPECT_EQ(select_faces(faces, cylinder(x, {at, 1., 2.}, 0.12, 1), 1.), std::vector<int>{7}) << at;
+  for (const double at : {-3., 0.7, 2.})
+    EXPECT_THROW(select_faces(faces, cylinder(x, {at, 1., 2.}, 0.12, 1), 1.), std::invalid_argument) << at;
+}
+
+TEST(Selection, NamesCoaxialFacesThatItDoesNotTake)
+{
+  const std::vector<Face> faces    = {arc(4, -1., 0., 0.1), arc(7, -1., 0.9, 1.), square(8, 0., 1.)};
+  const SurfaceSelector   one      = cylinder({1., 0., 0.}, {0.95, 1., 2.}, 0.12, 1);
+  const SurfaceSelector   all      = cylinder({1., 0., 0.}, {0.95, 1., 2.}, 0.12, 0);
+  const auto              words_of = [&](const SurfaceSelector &selector, const std::vector<Face> &of)
+  { return coaxial_faces(of, selector, select_faces(of, selector, 1.), 1.); };
+  EXPECT_EQ(words_of(one, faces), "face 7; coaxial faces not taken: 4 (radius 0.12 m)");
+  EXPECT_EQ(words_of(all, faces), "faces 4, 7");
+  EXPECT_EQ(words_of(one, {faces[1], faces[2]}), "");
+}
+
 TEST(Selection, HoldsAllConditionsAtOnce)
 {
   const std::vector<Face> faces    = {square(1, 0., 1.), square(2, 0.5, 1.)};
