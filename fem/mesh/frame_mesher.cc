@@ -18,6 +18,7 @@
 #include "fem/mesh/mesh_size.h"
 #include "fem/mesh/plates/swept_mesh.h"
 #include "fem/mesh/point_freedom.h"
+#include "fem/mesh/solid_volumes.h"
 #include "fem/mesh/watched_meshing.h"
 #include "fem/values/mesh_phase.h"
 #include "fem/values/vector3.h"
@@ -231,7 +232,10 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
   if (options.plates == Plates::swept)
     report(mesh_phase::plates);
   if (sweep(result, specification, options))
+  {
+    note_volumes(result.extracted.mesh, result.model.solids, options);
     return judge_memory(result, specification);
+  }
   if (specification.mesh.size == 0.) // chosen for what is not swept
     options.size = result.size = size_for_cells(result.model, cells_by_default);
   gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / result.model.unit);
@@ -248,37 +252,13 @@ void mesh_geometry(MeshedModel &result, const FrameSpecification &specification,
                 "the mesh has " + std::to_string(result.extracted.mesh.n_cells()) + " cells", options);
   if (refined.empty()) // who refines judges beforehand
     judge_memory(result, specification);
-  if (!result.extracted.mesh.only_tetrahedra())
-    return;
-  improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
-  if (options.curved)
-    follow_geometry(result.extracted, result.model);
-}
-
-/// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
-void measure_solids(CadModel &model, const Mesh &mesh)
-{
-  for (Solid &solid : model.solids)
+  if (result.extracted.mesh.only_tetrahedra())
   {
-    solid.min = model.max;
-    solid.max = model.min;
+    improve_quality(result.extracted.mesh, point_freedom(result.model, result.extracted.node));
+    if (options.curved)
+      follow_geometry(result.extracted, result.model);
   }
-  const std::vector<double> volumes = curved_volumes(mesh);
-  std::size_t               piece   = 0;
-  for (int cell = 0; cell < mesh.n_cells(); ++cell)
-  {
-    const CellShape &shape = cell_shape(mesh.kind(cell));
-    Solid           &solid = model.solids[mesh.cell_solid[cell]];
-    for (std::size_t k = 0; k < shape.pieces.size(); ++k)
-      solid.volume += volumes[piece++];
-    for (int k = 0; k < shape.n_corners; ++k)
-      for (int d = 0; d < 3; ++d)
-      {
-        const double x = mesh.points[mesh.corners(cell)[k]][d];
-        solid.min[d]   = std::min(solid.min[d], x);
-        solid.max[d]   = std::max(solid.max[d], x);
-      }
-  }
+  note_volumes(result.extracted.mesh, result.model.solids, options);
 }
 
 void read_mesh(MeshedModel &result, const FrameSpecification &specification)

@@ -16,8 +16,10 @@
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace
 {
@@ -78,6 +80,29 @@ TEST(CurvedSides, GiveVolumeMassAndAreaOfATubeToFourthOrder)
 
   const double straight = std::abs(curved_volume(mesh_of_tube(sizes[0], false)) / volume - 1.);
   EXPECT_GT(straight, 10. * error_of_volume[0]); // of second order
+}
+
+/// The cavity of a ball in a block, in cells as long as its radius.
+TEST(CurvedSides, MassThatStraightSidesAddOrMissIsNotedWithTheRemedy)
+{
+  const std::string  block = draw("cavity.step",
+                                  []
+                                  {
+                                   gmsh::vectorpair              hollow;
+                                   std::vector<gmsh::vectorpair> map;
+                                   gmsh::model::occ::addBox(-50., -50., -50., 100., 100., 100., 1);
+                                   gmsh::model::occ::addSphere(0., 0., 0., 40., 2);
+                                   gmsh::model::occ::cut({{3, 1}}, {{3, 2}}, hollow, map);
+                                 });
+  FrameSpecification s     = specification(block, 0.04);
+  const Mesh         rough = make_mesh(s);
+  const double       share = curved_volume(rough) / (1e-3 - 4. / 3. * pi * 0.04 * 0.04 * 0.04) - 1.;
+  EXPECT_GT(share, 0.01) << "the test needs a coarse mesh";
+  EXPECT_THAT(rough.notes, Contains(AllOf(HasSubstr(text(100. * share) + " % more mass than the geometry"),
+                                          HasSubstr("curved = true"))));
+  s.mesh.curved = true;
+  EXPECT_THAT(make_mesh(s).notes, Not(Contains(HasSubstr("mass than the geometry"))));
+  EXPECT_THAT(mesh_of_tube(0.01, false).notes, Contains(HasSubstr("less mass than the geometry")));
 }
 
 TEST(CurvedSides, KeepRigidMotionsFreeOfEnergy)
