@@ -2,6 +2,8 @@
 #include "apps/cli/json_answer.h"
 #include "apps/output/text/json.h"
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/build_measures.h"
+#include "apps/scene/build/far_places.h"
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/build/scene_in_words.h"
 #include "coupling/plugin/frame_service_loader.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -29,15 +32,19 @@ struct Geometry
 };
 
 /// Reads the frame's file and finds its surfaces and where they are, where this build can.
-Geometry try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings)
+Geometry try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings,
+                      std::map<std::string, coupling::FaceBox> *boxes = nullptr)
 {
   if (!coupling::has_frame_service())
     return {frame.cad + " is there; this build cannot read it"};
-  const auto [found, notes, statements, centroids, diagonal] = coupling::mesh_service().inspect(frame);
+  const auto [found, notes, statements, centroids, of_faces, diagonal] = coupling::mesh_service().inspect(frame);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
   for (fem::InterfaceSpecification &interface : frame.interfaces)
     if (const auto centroid = centroids.find(interface.name); centroid != centroids.end() && !interface.position)
       interface.position = centroid->second;
+  for (const auto &[interface, box] : of_faces)
+    if (boxes)
+      (*boxes)[interface] = coupling::box_between(vector(box[0]), vector(box[1]));
   std::string text = frame.cad + ": " + found + "; not meshed";
   for (const std::string &statement : statements)
     text += "\nframe: " + statement;
@@ -97,8 +104,11 @@ int check(const CommonOptions &options)
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)
   {
-    geometry = try_geometry(scene.frame.geometry, warnings).text;
-    loose    = check_scene(scene); // the places of interfaces are known now
+    std::map<std::string, coupling::FaceBox> boxes;
+    geometry       = try_geometry(scene.frame.geometry, warnings, &boxes).text;
+    loose          = check_scene(scene); // the places of interfaces are known now
+    const auto far = places_far_from_faces(scene, boxes);
+    loose.insert(loose.end(), far.begin(), far.end());
   }
   std::vector<double> diagonals;
   for (coupling::FramePart &part : scene.frame.parts.parts)

@@ -2,6 +2,7 @@
 
 #include "apps/scene/build/carried_bodies.h"
 #include "apps/scene/build/damping_text.h"
+#include "apps/scene/build/far_places.h"
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/build/scene_magnitudes.h"
 #include "apps/scene/build/superposed_machine.h"
@@ -419,7 +420,8 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
     result.modes_at = modes_configuration(scene, small);
   for (const auto &warnings :
        {carried_warnings(scene, small.model()), idle_bodies(scene, small.model()), remote_joints(scene, small.model()),
-        scene_magnitudes(scene, small, Masses::known), magnitudes_of_modes(scene, result.frame_modes)})
+        places_far_from_faces(scene, small.model()), scene_magnitudes(scene, small, Masses::known),
+        magnitudes_of_modes(scene, result.frame_modes)})
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);

@@ -3,6 +3,7 @@
 #include "coupling/frame/mesh_convergence.h"
 #include "coupling/plugin/frame_service.h"
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,8 @@ public:
     std::vector<std::string> notes, statements;
     /// [m] of the surfaces of each interface, as the CAD file tells them: without the rounding of a mesh.
     std::map<std::string, fem::Vector3> centroids;
+    /// [m] Low and high corner of the box around them.
+    std::map<std::string, std::array<fem::Vector3, 2>> boxes;
     double                              diagonal = 0.; ///< of the box around the solids [m]
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;

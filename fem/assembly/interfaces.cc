@@ -58,6 +58,14 @@ Eigen::Vector3d plane_normal(const SurfacePatch &patch, const QuadraticMesh &mes
                                                : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
+/// Where faces do not lie in one plane: the columns of `axes` are half the sides of the box around them.
+void draw_box(CoupledPatch &coupled, const QuadraticMesh &mesh)
+{
+  const Eigen::AlignedBox3d box = box_of(coupled, mesh);
+  coupled.face.centre           = box.center();
+  coupled.face.axes             = (0.5 * box.sizes()).asDiagonal();
+}
+
 /// Whether polynomials of the face's degree differ on its nodes.
 bool tells_apart(const PlaneFace &face, const Eigen::Matrix3Xd &points)
 {
@@ -138,6 +146,8 @@ std::vector<CoupledPatch> couple_patches(const Mesh &mesh, const QuadraticMesh &
       shrink_to_point(coupled, quadratic);
     require_plane(coupled, quadratic);
     coupled.face = plane_face(points_of(coupled.patch, quadratic), plane_normal(coupled.patch, quadratic));
+    if (!coupled.face.known())
+      draw_box(coupled, quadratic);
     if (interface.coupling == InterfaceCoupling::flexible)
       make_flexible(coupled, quadratic);
     result.push_back(std::move(coupled));

@@ -5,6 +5,8 @@
 #include "fem/values/frame_matrices.h"
 #include "fem/values/frame_specification.h"
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace gestell::fem
@@ -48,9 +50,13 @@ CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &m
 /// words; points of a surface not before a quarter of the width of the triangles around them.
 std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance);
 
-/// A note on every interface or attached mass that stands farther than `distance` [m] from its surface: a unit
-/// mistaken?
-std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, double distance);
+/// Box around the nodes of its faces.
+Eigen::AlignedBox3d box_of(const CoupledPatch &coupled, const QuadraticMesh &mesh);
+
+/// A note on every interface that stands farther outside of its faces than these are large, so that levers decide what
+/// they take, and on every attached mass farther than `distance` [m] from its surface: a unit mistaken?
+std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
+                                           double distance);
 
 /// Finds surfaces and positions; sets MultipointConstraints::n_interface_coordinates and their places among the new
 /// values.

@@ -141,19 +141,36 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
   return notes;
 }
 
-std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, double distance)
+Eigen::AlignedBox3d box_of(const CoupledPatch &coupled, const QuadraticMesh &mesh)
+{
+  Eigen::AlignedBox3d box;
+  for (const int node : coupled.patch.nodes)
+    box.extend(Eigen::Map<const Vector3d>(mesh.points[node].data()));
+  return box;
+}
+
+std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
+                                           double distance)
 {
   std::vector<std::string> notes;
   for (const CoupledPatch &coupled : interfaces)
   {
-    const InterfaceSpecification &own = coupled.specification;
-    const double                  off = (coupled.position - coupled.patch.centroid).norm();
-    if (off <= distance)
+    const InterfaceSpecification &own     = coupled.specification;
+    const bool                    is_mass = own.what != InterfaceSpecification().what;
+    const Eigen::AlignedBox3d     box     = box_of(coupled, mesh);
+    const double                  off =
+        is_mass ? (coupled.position - coupled.patch.centroid).norm() : box.exteriorDistance(Vector3d(coupled.position));
+    const double size = is_mass ? distance : box.sizes().maxCoeff();
+    if (off <= size)
       continue;
     std::ostringstream text;
     text << own.what << " \"" << own.name << "\" stands at " << metres(coupled.position) << ", " << off
-         << " m from the middle of its surface and farther than the frame is large: the position is in metres where it "
-            "has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres";
+         << (is_mass ? " m from the middle of its surface and farther than the frame is large"
+                     : " m outside of its faces, which are ");
+    if (!is_mass)
+      text << size << " m across, so that a rigid lever carries its forces to them";
+    text << ": the position is in metres where it has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres"
+         << (is_mass ? "" : ", or choose the faces that carry it");
     notes.push_back(text.str());
   }
   return notes;

@@ -73,7 +73,7 @@ bool unparted(const PlaneFace &a, const PlaneFace &b)
 
 bool PlaneFace::overlaps(const PlaneFace &other) const
 {
-  return unparted(*this, other) && unparted(other, *this);
+  return known() && other.known() && unparted(*this, other) && unparted(other, *this);
 }
 
 int n_fields(int degree)

@@ -18,8 +18,9 @@ namespace gestell::fem
  */
 struct PlaneFace
 {
-  Eigen::Vector3d  centre = Eigen::Vector3d::Zero(); ///< c, of the rectangle around it [m]
-  Eigen::Matrix3d  axes   = Eigen::Matrix3d::Zero(); ///< columns e_1, e_2, outward normal; zero: not plane, or unknown
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(); ///< c, of the rectangle or box around it [m]
+  /// Columns e_1, e_2, outward normal; of faces that are not plane half of the sides of the box around them [m].
+  Eigen::Matrix3d  axes   = Eigen::Matrix3d::Zero();
   Eigen::Vector2d  half   = Eigen::Vector2d::Zero(); ///< h_1, h_2: half its sides [m]
   int              degree = 0;                       ///< p; 0: rigid motion alone
   std::vector<int> coordinate;                       ///< a_k in q

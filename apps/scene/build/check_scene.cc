@@ -1,4 +1,5 @@
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/far_places.h"
 #include "apps/scene/build/free_bodies.h"
 #include "apps/scene/build/scene_magnitudes.h"
 #include "apps/scene/build/stand_in_frame.h"
@@ -68,6 +69,8 @@ std::vector<std::string> check_scene(const Scene &scene)
                              scene_magnitudes(scene, machine, exists ? Masses::known : Masses::of_stand_in)})
       warnings.insert(warnings.end(), more.begin(), more.end());
   }
+  const auto far = places_far_from_faces(scene, machine.model());
+  warnings.insert(warnings.end(), far.begin(), far.end());
   if (!scene.run.given)
     return warnings;
   try

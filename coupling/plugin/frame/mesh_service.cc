@@ -23,23 +23,49 @@ std::string counted(std::size_t n, const std::string &thing)
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-/// Of the surfaces of an interface, weighted by area; of one at a node, which may have no surface, nothing.
-std::optional<fem::Vector3> centroid_of(const fem::InterfaceSpecification &interface,
+std::vector<const fem::Face *> faces_of(const fem::InterfaceSpecification &interface,
                                         const fem::GeometryReport         &geometry)
 {
-  fem::Vector3 moment{};
-  double       area = 0.;
+  std::vector<const fem::Face *> faces;
   for (const std::string &surface : interface.surfaces)
     for (const fem::Face &face : geometry.faces)
       if (const auto &tags = geometry.surfaces.at(surface); std::count(tags.begin(), tags.end(), face.tag))
-      {
-        area += face.area;
-        for (int d = 0; d < 3; ++d)
-          moment[d] += face.area * face.centre[d];
-      }
+        faces.push_back(&face);
+  return faces;
+}
+
+/// Of faces, weighted by area; of an interface at a node, which may have no surface, nothing.
+std::optional<fem::Vector3> centroid_of(const std::vector<const fem::Face *> &faces)
+{
+  fem::Vector3 moment{};
+  double       area = 0.;
+  for (const fem::Face *face : faces)
+  {
+    area += face->area;
+    for (int d = 0; d < 3; ++d)
+      moment[d] += face->area * face->centre[d];
+  }
   if (!(area > 0.))
     return std::nullopt;
   return fem::Vector3{moment[0] / area, moment[1] / area, moment[2] / area};
+}
+
+std::array<fem::Vector3, 2> box_of(const std::vector<const fem::Face *> &faces)
+{
+  std::array<fem::Vector3, 2> box{faces.front()->min, faces.front()->max};
+  for (const fem::Face *face : faces)
+    for (int d = 0; d < 3; ++d)
+    {
+      box[0][d] = std::min(box[0][d], face->min[d]);
+      box[1][d] = std::max(box[1][d], face->max[d]);
+    }
+  return box;
+}
+
+/// Whether it takes its faces as a whole, not a place on them.
+bool takes_faces(const fem::InterfaceSpecification &interface)
+{
+  return interface.coupling != fem::InterfaceCoupling::point && interface.coupling != fem::InterfaceCoupling::node;
 }
 
 class PluginMeshService final : public MeshService
@@ -53,10 +79,16 @@ public:
                       geometry.notes,
                       geometry.statements,
                       {},
+                      {},
                       fem::norm(fem::operator-(geometry.max, geometry.min))};
     for (const fem::InterfaceSpecification &interface : frame.interfaces)
-      if (const auto centroid = centroid_of(interface, geometry))
+    {
+      const std::vector<const fem::Face *> faces = faces_of(interface, geometry);
+      if (const auto centroid = centroid_of(faces))
         result.centroids[interface.name] = *centroid;
+      if (!faces.empty() && takes_faces(interface))
+        result.boxes[interface.name] = box_of(faces);
+    }
     std::string between = "; surfaces: ";
     for (const auto &[name, faces] : geometry.surfaces)
     {

@@ -66,6 +66,31 @@ TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
 }
 
+/// The top is 0.2 m long; up to half of that beside it is taken, and more along the way of a guide.
+TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceAreWarnedOf)
+{
+  const auto pendulum = [](const std::string &type, const std::string &at, const Keys &more = {})
+  {
+    return block(support + planar_body("bob", "2 kg", "0.1 kg m^2", at) +
+                 joint("pin", type, "frame.top", "bob", at, more));
+  };
+  const std::string far = "joint \"pin\": its point on \"frame.top\" lies ";
+  for (const auto &[scene, lies] :
+       {std::pair(pendulum("revolute", "[0.1, 0.05, 2.4]"), "1.4 m outside of the faces of this interface, which are "
+                                                            "0.2 m across"),
+        std::pair(pendulum("revolute", "[0.302, 0.05, 1]"), "0.102 m outside"),
+        std::pair(pendulum("prismatic", "[0.302, 0.05, 1]", {{"axis", "[0, 0, 1]"}}), "0.102 m outside")})
+    for (const std::string command : {"check", "modes"})
+    {
+      const Answer answer = ask(command, scene);
+      EXPECT_EQ(answer.exit_code, 0) << answer.text;
+      EXPECT_EQ(count(answer.text, far + lies), 1) << command << '\n' << answer.text;
+    }
+  for (const std::string &near : {pendulum("revolute", "[0.1, 0.05, 1.09]"), pendulum("revolute", "[0.298, 0.05, 1]"),
+                                  pendulum("prismatic", "[0.1, 0.05, 2.4]", {{"axis", "[0, 0, 1]"}})})
+    EXPECT_FALSE(ask("check", near).says("outside of the faces"));
+}
+
 /// Of a text, the line that has a part.
 std::string line_with(const std::string &part, const std::string &text)
 {

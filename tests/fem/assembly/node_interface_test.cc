@@ -207,6 +207,22 @@ TEST(Interfaces, FarFromTheirSurfaceAreTold)
   EXPECT_NE(notes[0].find("interface \"tip\" stands at (10, 60, 140) m, 15"), std::string::npos) << notes[0];
 }
 
+/// The box around faces that are not plane stands for them: the top and a side of a block.
+TEST(Interfaces, KnowTheBoxAroundTheirFaces)
+{
+  auto specification        = free_steel();
+  specification.interfaces  = {interface("tip", {"z1", "x1"}, fem::InterfaceCoupling::rigid)};
+  const fem::PlaneFace face = discretise(tetrahedra(), specification).interfaces.at(0).face;
+  EXPECT_FALSE(face.known());
+  EXPECT_FALSE(face.overlaps(face));
+  for (int d = 0; d < 3; ++d)
+  {
+    EXPECT_NEAR(face.centre[d], 0.5 * size[d], 1e-14);
+    EXPECT_NEAR((face.axes - Eigen::Matrix3d(face.axes.diagonal().asDiagonal())).norm(), 0., 1e-14);
+    EXPECT_NEAR(face.axes(d, d), 0.5 * size[d], 1e-14);
+  }
+}
+
 TEST(NodeInterfaces, RefuseWhatTheyCannotBe)
 {
   const auto message = [](const fem::InterfaceSpecification &interface)
