@@ -53,8 +53,9 @@ public:
   /// "e1", "e2", ...
   std::string new_name(const std::string &letter) { return letter + std::to_string(++count_); }
 
-  RandomMachine &machine;
-  Dice          &dice;
+  RandomMachine           &machine;
+  Dice                    &dice;
+  std::vector<std::string> elements; ///< names of those that a switch may turn off
 
   /// What sticks holds two motions together (-1: the ground): false if they are held already.
   bool may_stick(int a, int b)
@@ -91,6 +92,8 @@ void write_linkage(Draft &draft);
 void write_gears(Draft &draft);
 void write_spatial(Draft &draft);
 void write_press(Draft &draft);
+void write_hinged(Draft &draft);
+void write_shafts(Draft &draft);
 
 /// What the scale says of a machine as a whole, and how long it runs.
 void set_times(Draft &draft, const Scale &scale, double fewest, double most_periods);
@@ -98,5 +101,8 @@ void set_times(Draft &draft, const Scale &scale, double fewest, double most_peri
 /// An element of a random kind on the link.
 void add_random_law(Draft &draft, const Link &link);
 void add_spring(Draft &draft, const Link &link, double stiffness, double damping_ratio);
+
+/// Switches that turn an element off where a motion passes a value, once or again and again.
+void add_switches(Draft &draft);
 
 } // namespace gestell::tests

@@ -11,6 +11,8 @@ std::string begin(Draft &draft, const std::string &entries, const std::string &l
 {
   const std::string name = draft.new_name(letter);
   draft.table("element." + name);
+  if (type != "hydraulic cylinder")
+    draft.elements.push_back(name);
   draft.text("type", type);
   draft.machine.scene += entries;
   return name;
@@ -48,6 +50,8 @@ void add_random_law(Draft &draft, const Link &link)
   static const Law sticking[] = {add_dry_friction, add_dry_friction, add_brake};
   const auto       any        = [&](const auto &laws) { laws[draft.dice.whole(int(std::size(laws)))](draft, link); };
 
+  if (draft.machine.wide && !link.turns && !link.on_measure && draft.dice.chance(0.1))
+    return add_cylinder(draft, link);
   const double kind = draft.dice.share();
   if (kind < 0.05 && !link.on_measure)
     add_lugre(draft, link);

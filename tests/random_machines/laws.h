@@ -46,5 +46,6 @@ void add_gas(Draft &draft, const Link &link);
 void add_motor(Draft &draft, const Link &link);
 void add_dynamic_motor(Draft &draft, const Link &link);
 void add_speed_drive(Draft &draft, const Link &link);
+void add_cylinder(Draft &draft, const Link &link);
 
 } // namespace gestell::tests

@@ -150,6 +150,16 @@ private:
     draft_.text("from", from);
     draft_.text("to", to);
     draft_.line("at = " + vector_text(at.x, 0., at.z));
+    if (draft_.machine.wide && dice_.chance(0.3))
+    {
+      draft_.number("stiffness", mass_ * omega_ * omega_ * dice_.log_between(100., 1e4));
+      if (dice_.chance(0.7))
+      {
+        draft_.machine.conservative = false;
+        draft_.number("damping", mass_ * omega_ * dice_.log_between(0.1, 30.));
+      }
+      return;
+    }
     PinFact fact{name, "", add_place(to, at), {'x', 'z'}, size_};
     if (from != "ground")
       fact.a = add_place(from, at);

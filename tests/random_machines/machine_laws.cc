@@ -119,4 +119,34 @@ void add_speed_drive(Draft &draft, const Link &link)
   draft.watch(name + ".wanted_speed");
 }
 
+/// Between supply and tank, with columns of 60 motions, so that oil is hardly compressed; both are a spring of c.
+void add_cylinder(Draft &draft, const Link &link)
+{
+  const std::string name = begin_element(draft, link, "cylinder", "hydraulic cylinder");
+  lossy(draft);
+  nonlinear(draft);
+  draft.machine.bdf_only = true;
+  draft.machine.passive  = false;
+  const double c = link.scale.stiffness() * draft.dice.log_between(1., 20.), L = 60. * link.scale.length,
+               end = 3. * 2. * M_PI / link.scale.omega;
+  const double A = draft.number("area_a", 0.01), B = draft.number("area_b", 0.01 * draft.dice.between(0.5, 1.));
+  draft.number("volume_a", A * L);
+  draft.number("volume_b", B * L);
+  const double K = draft.number("bulk_modulus", c * L / (2. * A)), p = draft.number("pressure_a", 0.1 * K);
+  draft.number("pressure_b", p * A / B);
+  draft.number("supply_pressure", 0.2 * K * A / B);
+  draft.number("tank_pressure", 0.02 * K);
+  draft.number("rated_flow", A * link.scale.speed() * draft.dice.log_between(0.01, 0.1));
+  draft.number("rated_drop", 0.05 * K);
+  if (draft.dice.chance(0.5))
+    draft.number("leakage", A * A / link.scale.damping() * draft.dice.log_between(0.01, 1.));
+  draft.line("valve = [{ at = " + digits(draft.dice.between(0., 0.4) * end) +
+             ", to = " + digits(draft.dice.between(-1., 1.)) +
+             (draft.dice.chance(0.7) ? ", rate = \"" + digits(10. / end) + "/s\"" : "") +
+             " }, { at = " + digits(draft.dice.between(0.7, 0.9) * end) + ", to = 0 }]");
+  draft.watch(name + ".force");
+  draft.watch(name + ".pressure_a", p);
+  draft.watch(name + ".pressure_b", p * A / B);
+}
+
 } // namespace gestell::tests

@@ -2,6 +2,8 @@
 
 #include "tests/random_machines/draft.h"
 
+#include <iterator>
+
 namespace gestell::tests
 {
 
@@ -20,15 +22,41 @@ double size_of(const RandomMachine &machine, const std::string &signal)
 }
 
 /// Machines that found something are kept by their seeds; what is new is made from later ones.
-constexpr std::uint64_t last_without_presses = 2000;
+constexpr std::uint64_t last_without_presses = 2000, last_narrow = 2200;
+
+namespace
+{
+
+/// Half of them have a twin; the others are of the kinds of earlier seeds, and some have switches.
+void write_wide(Draft &draft)
+{
+  static constexpr void (*others[])(Draft &) = {write_press,   write_train,   write_train, write_framed,
+                                                write_linkage, write_spatial, write_gears};
+  draft.machine.wide                         = true;
+  const double kind                          = draft.dice.share();
+  if (kind < 0.3)
+    return write_hinged(draft);
+  if (kind < 0.6)
+    return write_shafts(draft);
+  others[draft.dice.whole(int(std::size(others)))](draft);
+  if (draft.dice.chance(0.6))
+    add_switches(draft);
+}
+
+} // namespace
 
 RandomMachine random_machine(std::uint64_t seed)
 {
   RandomMachine machine;
   Dice          dice(seed);
   Draft         draft(machine, dice);
-  machine.seed      = seed;
-  machine.scene     = "name = \"random_" + std::to_string(seed) + "\"\n";
+  machine.seed  = seed;
+  machine.scene = "name = \"random_" + std::to_string(seed) + "\"\n";
+  if (seed > last_narrow)
+  {
+    write_wide(draft);
+    return machine;
+  }
   const double kind = dice.share();
   if (seed > last_without_presses && dice.chance(0.25))
     write_press(draft);

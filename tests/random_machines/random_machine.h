@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct PinFact
   std::array<double, 3> x{};       ///< [m]
 };
 
+class Twin;
+
 /// A scene, and what must hold of its motion.
 struct RandomMachine
 {
@@ -48,12 +51,15 @@ struct RandomMachine
   std::vector<FrictionFact>          frictions;
   std::vector<ContactFact>           contacts;
   std::vector<PinFact>               pins;
+  std::shared_ptr<const Twin>        twin; ///< its equations by another formulation, where they are known
 
   double period = 1.;                         ///< [s] of the slow motion
   double end    = 1.;                         ///< [s]
   double length = 1., speed = 1., force = 1.; ///< of the motion [m or rad, ...]
   bool   jointed      = false;
   bool   bdf_only     = false; ///< a law has a state without mass
+  bool   accelerated  = false; ///< forces depend on accelerations
+  bool   wide         = false; ///< of the wider generator, with laws and ways that earlier seeds do not have
   bool   conservative = true;  ///< nothing dissipates and nothing drives
   bool   passive      = true;  ///< what its laws take up is never negative
   bool   linear       = true;  ///< springs, dampers and loads alone

@@ -20,6 +20,11 @@ INSTANTIATE_TEST_SUITE_P(OfEachKind, RandomMachines,
                          ::testing::Values(1, 2, 3, 5, 6, 8, 9, 10, 12, 14, 15, 16, 18, 21, 22, 24, 28, 34, 39, 58, 68,
                                            72));
 
+/// Of the wider generator: cam, belt, planets, rack; prescribed motion and unbalance; journal, yielding pin, loads that
+/// turn; switches; oil.
+INSTANTIATE_TEST_SUITE_P(OfEachWiderKind, RandomMachines,
+                         ::testing::Values(2204, 2205, 2222, 2223, 2225, 2229, 2230, 2242, 2243, 2247, 2249, 2299));
+
 TEST(RandomMachine, IsTheSameOnEveryComputer)
 {
   // FNV-1a of the first scenes.  Libraries of mathematics may differ in the last digit; four are written.

@@ -125,6 +125,11 @@ private:
       draft_.line("axis_from = [0, 0, 1]");
       draft_.line("axis_to = " + vector_text(axis[0], axis[1], 0.));
     }
+    if (draft_.machine.wide && dice_.chance(0.3))
+    {
+      yields(kind);
+      return;
+    }
     if (bodies_.size() == 1)
       turns_freely_ = kind == "spherical";
     Point centre, beside;
@@ -136,6 +141,22 @@ private:
     add_fact(name, from, to, centre);
     if (kind == "revolute" || kind == "rigid")
       add_fact(name, from, to, beside);
+  }
+
+  void yields(const std::string &kind)
+  {
+    const double k    = mass_ * omega_ * omega_ * dice_.log_between(100., 1e4),
+                 b    = mass_ * omega_ * dice_.log_between(0.1, 30.);
+    const bool damped = dice_.chance(0.7), holds_rotations = kind != "spherical";
+    draft_.number("stiffness", k);
+    if (holds_rotations)
+      draft_.number("rotational_stiffness", k * size_ * size_);
+    if (!damped)
+      return;
+    draft_.machine.conservative = false;
+    draft_.number("damping", b);
+    if (holds_rotations)
+      draft_.number("rotational_damping", b * size_ * size_);
   }
 
   void add_law(const std::vector<Point> &tips)
