@@ -125,6 +125,8 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
     state->local.resize(equation.machine());
   root_mass_ = equation.mass_diagonal().cwiseSqrt();
   accuracy_.off.setZero(equation.n_parameters());
+  of_run_   = accuracy_.off;
+  beyond_q_ = beyond_v_ = size_q_;
 }
 
 /// Some of its instants.
@@ -204,7 +206,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     equation_.close_joints(at_, columns_);
     ++n_steps_;
     note_sizes();
-    if (!last && err < growth)
+    if (!last && (err < growth || 2. * step_ <= shortest_share * reader_.spacing()))
       step_ *= 2.;
   }
   return true;
@@ -242,32 +244,37 @@ double VariationalSteps::error(double length)
   { return length * (differences[0] * f[0] + differences[1] * f[1] + differences[2] * f[2] + differences[4] * f[4]); };
   e_q_ = embedded(v_);
   e_v_ = embedded(a_);
-  return relative_sizes().maxCoeff() / tolerance_;
+  return relative_sizes(e_q_, e_v_).maxCoeff() / tolerance_;
 }
 
-/// What the step left beyond its tolerance, and what steps of the run would have left, as h y''/2 of order 1 and
-/// h^2 y'''/3 of order 2 tell, over its length.
+/// What steps left beyond their tolerance, with its sign: where quotients of the machines are rounding, no step meets
+/// the tolerance, and what these leave has no direction.  And what steps of the run would have left, as h y''/2 of
+/// order 1 and h^2 y'''/3 of order 2 tell, over their length.
 void VariationalSteps::note_accuracy(double error, double length)
 {
-  Eigen::RowVectorXd off = Eigen::RowVectorXd::Constant(size_q_.cols(), error > 1. ? error * tolerance_ : 0.);
+  if (error > 1.)
+  {
+    beyond_q_ += e_q_;
+    beyond_v_ += e_v_;
+  }
   if (run_order_ > 0)
   {
     const double h = std::min(run_step_, longest_told * length);
     for (const auto &[e, f] : {std::pair(&e_q_, &v_), std::pair(&e_v_, &a_)}) // stages 0, 3, 1: a quarter step apart
       *e = run_order_ == 1 ? MatrixXd(h * ((*f)[1] - (*f)[0]))
                            : MatrixXd(16. / 3. * h * h / length * ((*f)[0] - 2. * (*f)[3] + (*f)[1]));
-    off += relative_sizes();
+    of_run_ += relative_sizes(e_q_, e_v_);
   }
-  accuracy_.off += off;
+  accuracy_.off = accuracy_.off.cwiseMax(of_run_ + relative_sizes(beyond_q_, beyond_v_));
   if (accuracy_.off.maxCoeff() > accuracy_.believed && accuracy_.behind == never)
     accuracy_.behind = state_.t;
 }
 
 /// Largest of e_q, e_v for each parameter, each coordinate by its own size.
-Eigen::RowVectorXd VariationalSteps::relative_sizes() const
+Eigen::RowVectorXd VariationalSteps::relative_sizes(const MatrixXd &e_q, const MatrixXd &e_v) const
 {
   Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(size_q_.cols());
-  for (const auto &[e, before, now] : {std::tuple(&e_q_, &size_q_, &stage_.q), std::tuple(&e_v_, &size_v_, &stage_.v)})
+  for (const auto &[e, before, now] : {std::tuple(&e_q, &size_q_, &stage_.q), std::tuple(&e_v, &size_v_, &stage_.v)})
     for (Index k = 0; k < e->cols(); ++k)
     {
       double floor = 0.;
@@ -275,7 +282,7 @@ Eigen::RowVectorXd VariationalSteps::relative_sizes() const
         floor = std::max(floor, weak * root_mass_[i] * std::max((*before)(i, k), std::abs((*now)(i, k))));
       for (Index i = 0; i < e->rows(); ++i)
       {
-        if (e == &e_v_ && root_mass_[i] == 0.) // rates of lags follow their law at once
+        if (e == &e_v && root_mass_[i] == 0.) // rates of lags follow their law at once
           continue;
         const double own   = std::max((*before)(i, k), std::abs((*now)(i, k)));
         const double scale = root_mass_[i] > 0. ? std::max(own, floor / root_mass_[i]) : own;

@@ -39,7 +39,7 @@ struct VariationalAccuracy
 {
   static constexpr double believed = 0.02; ///< errors up to it are not told
 
-  Eigen::RowVectorXd off; ///< of each parameter: sum of the errors of steps
+  Eigen::RowVectorXd off; ///< of each parameter: largest sum of the errors of steps so far
   double             behind = std::numeric_limits<double>::infinity(); ///< [s] from where one of them is not believed
 };
 
@@ -86,7 +86,7 @@ private:
   bool               try_step(double to);
   void               look_along(const SmoothPiece &piece);
   double             error(double length);
-  Eigen::RowVectorXd relative_sizes() const;
+  Eigen::RowVectorXd relative_sizes(const Eigen::MatrixXd &e_q, const Eigen::MatrixXd &e_v) const;
   void               note_accuracy(double error, double length);
   void               note_sizes();
 
@@ -99,9 +99,11 @@ private:
   MotionState                           state_, stage_state_;
   Linearised                            at_, stage_at_;
   MotionColumns                         columns_, stage_;
-  std::array<Eigen::MatrixXd, n_stages> v_, a_;           ///< s', s'' of the stages
-  Eigen::MatrixXd                       size_q_, size_v_; ///< largest |s|, |s'| so far
-  Eigen::MatrixXd                       e_q_, e_v_;       ///< errors of a step
+  std::array<Eigen::MatrixXd, n_stages> v_, a_;               ///< s', s'' of the stages
+  Eigen::MatrixXd                       size_q_, size_v_;     ///< largest |s|, |s'| so far
+  Eigen::MatrixXd                       e_q_, e_v_;           ///< errors of a step
+  Eigen::MatrixXd                       beyond_q_, beyond_v_; ///< sum of those beyond the tolerance
+  Eigen::RowVectorXd                    of_run_;              ///< sum of what steps of the run would have left
   VariationalAccuracy                   accuracy_;
   Eigen::VectorXd                       root_mass_;
 };

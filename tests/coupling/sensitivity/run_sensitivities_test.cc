@@ -21,6 +21,7 @@ RunOptions fine(double end)
   RunOptions options;
   options.method.tolerance = 1e-10;
   options.end              = end;
+  options.output_step      = end / 100.;
   return options;
 }
 
