@@ -355,6 +355,7 @@ private:
       give(v, bar.name + ".ux", x.d);
       give(v, bar.name + ".uz", z.d);
     }
+    draft_.machine.closed_start = has_journal_;
     draft_.table("start");
     draft_.line("q = { " + q + " }");
     draft_.line("v = { " + v + " }");

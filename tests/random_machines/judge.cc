@@ -253,7 +253,8 @@ private:
     double largest = 0.;
     for (std::uint64_t draw = 1; draw <= 2; ++draw)
     {
-      const Told other = trial_.perturbed(10. * way.method.tolerance, machine_.seed + draw).run(way.method, dense_rows);
+      const Told other = trial_.perturbed(10. * way.method.tolerance, machine_.seed + draw, !machine_.closed_start)
+                             .run(way.method, dense_rows);
       verdict_.cpu_s += other.cpu_s;
       if (other.complete())
         largest = std::max(largest, distance(machine_, told, other).value);

@@ -59,6 +59,7 @@ struct RandomMachine
   bool   jointed      = false;
   bool   bdf_only     = false; ///< a law has a state without mass
   bool   accelerated  = false; ///< forces depend on accelerations
+  bool   closed_start = false; ///< its start values depend on each other, as joints close with them alone
   bool   wide         = false; ///< of the wider generator, with laws and ways that earlier seeds do not have
   bool   conservative = true;  ///< nothing dissipates and nothing drives
   bool   passive      = true;  ///< what its laws take up is never negative

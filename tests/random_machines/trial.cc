@@ -75,7 +75,7 @@ void Trial::find_start()
   fastest_                = fastest_mode(model, initial_, scene_.run.options.end);
 }
 
-Trial Trial::perturbed(double change, std::uint64_t seed) const
+Trial Trial::perturbed(double change, std::uint64_t seed, bool start_too) const
 {
   Trial      other = *this;
   Dice       dice(seed);
@@ -89,7 +89,7 @@ Trial Trial::perturbed(double change, std::uint64_t seed) const
   }
   for (auto *values : {&other.scene_.start.q, &other.scene_.start.v})
     for (apps::NamedValue &value : *values)
-      value.value *= factor();
+      value.value *= start_too ? factor() : 1.;
   other.find_start();
   return other;
 }

@@ -45,8 +45,9 @@ public:
 
   /// A run with so many rows, to the machine's end or another.
   Told run(const coupling::MethodOptions &method, int rows, double end = 0.) const;
-  /// The same machine with masses and starting values that differ by a relative change of this size, at random.
-  Trial perturbed(double change, std::uint64_t seed) const;
+  /// The same machine with masses and, if they may, starting values that differ by a relative change of this size, at
+  /// random.
+  Trial perturbed(double change, std::uint64_t seed, bool start_too) const;
 
   /// So many fixed steps, whatever the guard says.
   Told forced(const coupling::MethodOptions &method, double steps) const;
