@@ -15,6 +15,7 @@
 #include "coupling/simulation/checks/stiffness_check.h"
 #include "coupling/simulation/checks/unseen_forces.h"
 #include "coupling/simulation/crawl_watch.h"
+#include "coupling/simulation/kept_size.h"
 #include "coupling/simulation/no_tiny_numbers.h"
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/resumable_run.h"
@@ -36,7 +37,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double most_bytes        = 1e9;
 constexpr double seldom            = 1e-4; ///< share of a run whose events need not be located
 constexpr double often             = 0.1;  ///< share of controlled steps that go over events
 constexpr double samples_of_period = 32.;
@@ -47,41 +47,6 @@ template <typename... Parts>
   std::ostringstream message;
   (message << ... << parts);
   throw std::invalid_argument(message.str());
-}
-
-/// Of what a run keeps.
-struct KeptBytes
-{
-  double history, pictures, states;
-};
-
-KeptBytes kept_bytes(const Machine &machine, const RunOptions &options, std::size_t n_signals)
-{
-  const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.),
-               picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
-               state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.;
-  return {8. * columns * (length / output_step(options) + 1.), 32. * machine.size() * (length * picture_rate + 1.),
-          8. * machine.size() * (length * state_rate + 1.)};
-}
-
-void check_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
-{
-  constexpr double most_pictures = 2e4;
-  const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
-  if (!options.allow_large && count > most_pictures)
-    refuse("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
-           options.picture_step, " s, or say output.allow_large = true if that is what you want");
-  const auto [history, pictures, states] = kept_bytes(machine, options, n_signals);
-  if (!options.allow_large && states > most_bytes)
-    refuse("the run would keep ", states / 1e9,
-           " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",
-           options.states.step, " s, or say output.allow_large = true");
-  if (options.allow_large || history + pictures <= most_bytes)
-    return;
-  refuse("the run would keep ", history / 1e9, " GB of history and ", pictures / 1e9,
-         " GB of states for pictures; give output.step", history > pictures ? "" : " or output.picture_step",
-         " a larger value than ", history > pictures ? output_step(options) : options.picture_step,
-         " s, or say output.allow_large = true if that is what you want");
 }
 
 /// Fixed steps of implicit methods are short against what they show; controlled ones are as long as their order allows.
@@ -204,7 +169,7 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
   if (!controlled(options.method) && !((options.end - options.begin) / options.method.step <= most_steps))
     refuse("run.step is ", options.method.step, " s; that makes more than 1e10 steps; take a longer one");
   require_steps_for_loads(machine, options.method);
-  check_size(machine, options, n_signals);
+  require_size(machine, options, n_signals);
 }
 
 void try_start(Machine &machine, const InitialState &initial, const RunOptions &options)
