@@ -160,26 +160,13 @@ TEST_P(OfShippedScenes, AreQuotientsOfConvergedRuns)
   EXPECT_LT(found.off.front().first, 1e-4) << found.off.front().second;
 }
 
-// The second list is not compared yet: minutes to hours of CPU time each, and chaotic motions; by name, with
-// --gtest_also_run_disabled_tests.
+// Other scenes take minutes to hours of CPU time each, or move chaotically.
 const std::vector<std::string> converged = {"run.tolerance=1e-11"};
 INSTANTIATE_TEST_SUITE_P(LongSensitivities, OfShippedScenes,
                          ::testing::Values(Shipped{"crane_minimal.toml", converged, 1e-4},
                                            Shipped{"press_minimal_light.toml", converged, 1e-4},
                                            Shipped{"crank_press_joints.toml", converged, 1e-4},
                                            Shipped{"double_four_bar.toml", converged, 1e-4}),
-                         [](const auto &info) { return info.param.scene.substr(0, info.param.scene.find('.')); });
-INSTANTIATE_TEST_SUITE_P(DISABLED_LongSensitivities, OfShippedScenes,
-                         ::testing::Values(Shipped{"crane_minimal_lift.toml", converged, 1e-4},
-                                           Shipped{"crane_minimal_elastic.toml", converged, 1e-4},
-                                           Shipped{"press_minimal.toml", converged, 1e-4},
-                                           Shipped{"press_emergency_stop.toml", converged, 1e-4},
-                                           Shipped{"press_strokes.toml", converged, 1e-4},
-                                           Shipped{"run_up.toml", converged, 1e-4},
-                                           Shipped{"cam_follower.toml", converged, 1e-4},
-                                           Shipped{"geneva_drive.toml", converged, 1e-4},
-                                           Shipped{"offset_four_bar.toml", converged, 1e-4},
-                                           Shipped{"spatial_crank_rocker.toml", converged, 1e-4}),
                          [](const auto &info) { return info.param.scene.substr(0, info.param.scene.find('.')); });
 
 } // namespace
