@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace gestell::apps
 {
@@ -29,16 +30,25 @@ std::string event_text(const coupling::Event &event)
   return event.name + " " + event.kind;
 }
 
-/// The first event by which `b` differs from `a` up to the time t of a.
+/// The first event by which `b` differs from `a` up to the time t of a, each element by itself: where those of two
+/// elements change places, the motion changes by as little as their times.
 Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
 {
-  for (std::size_t k = 0; k < a.events.size() && a.events[k].t <= t; ++k)
+  std::map<std::string, std::vector<coupling::Event>> others;
+  std::map<std::string, std::size_t>                  seen;
+  for (const coupling::Event &event : b.events)
+    others[event.name].push_back(event);
+  for (const coupling::Event &event : a.events)
   {
-    if (k >= b.events.size())
-      return event_text(a.events[k]) + " at " + short_text(a.events[k].t) + " s is missing";
-    if (a.events[k].name != b.events[k].name || a.events[k].kind != b.events[k].kind)
-      return event_text(a.events[k]) + " at " + short_text(a.events[k].t) + " s becomes " + event_text(b.events[k]) +
-             " at " + short_text(b.events[k].t) + " s";
+    if (event.t > t)
+      break;
+    const std::vector<coupling::Event> &other = others[event.name];
+    const std::size_t                   k     = seen[event.name]++;
+    if (k >= other.size())
+      return event_text(event) + " at " + short_text(event.t) + " s is missing";
+    if (event.kind != other[k].kind)
+      return event_text(event) + " at " + short_text(event.t) + " s becomes " + event_text(other[k]) + " at " +
+             short_text(other[k].t) + " s";
   }
   return {};
 }
@@ -56,39 +66,61 @@ struct SecondModel
 class BudgetMaker
 {
 public:
-  BudgetMaker(const Scene &scene, const std::vector<OutputName> &outputs, const ModelAnswer &run,
-              const std::atomic<bool> *stop)
-      : scene_(scene), outputs_(outputs), run_(run), stop_(stop)
+  BudgetMaker(ModelAnswers &models, const ModelVariant &model, const BudgetParts &parts)
+      : models_(models), model_(model), parts_(parts), scene_(varied(models.scene(), model)),
+        outputs_(models.outputs()), run_(models.of(model)), stop_(models.stop())
   {
   }
 
   ErrorBudget make();
 
 private:
-  ModelAnswer answer(const ModelVariant &variant) const
+  /// This model by the method of the models that differ in mesh and modes.
+  ModelVariant model() const
   {
-    ModelAnswer answer = answer_of(scene_, variant, outputs_, stop_);
-    if (stop_ && *stop_)
-      throw coupling::ConvergenceFailure("interrupted");
-    return answer;
+    ModelVariant variant = model_;
+    if (method_)
+      variant.method = method_;
+    return variant;
   }
+  ModelVariant with_modes(int modes, double size = 1.) const
+  {
+    ModelVariant variant = model();
+    variant.mesh *= size;
+    if (modes >= 0)
+      variant.modes = modes;
+    return variant;
+  }
+  ModelAnswer answer(const ModelVariant &variant) const { return models_.of(variant); }
   /// Of the scene's frame with another integration; what fails is a reason.
   SecondModel finer_in_time();
   SecondModel finer_in_modes();
-  SecondModel other_in_mesh();
-  SecondModel raised_in_mesh();
+  SecondModel curved_in_mesh();
+  SecondModel other_in_mesh(bool curved);
+  SecondModel raised_in_mesh(bool curved);
   SecondModel coarser_in_mesh();
   template <typename Make>
   SecondModel tried(const Make &make) const;
   BudgetPart part_of(std::size_t output, const ModelAnswer &first, const SecondModel &second, BudgetEntry &entry) const;
 
-  const Scene                           &scene_;
+  ModelAnswers                          &models_;
+  const ModelVariant                     model_;
+  const BudgetParts                      parts_;
+  const Scene                            scene_; ///< of the model
   const std::vector<OutputName>         &outputs_;
-  const ModelAnswer                     &run_;
+  const ModelAnswer                      run_;
   const std::atomic<bool>               *stop_;
   std::optional<coupling::MethodOptions> method_;    ///< of the models that differ in mesh and modes
   ModelAnswer                            reference_; ///< the scene's model by that method
+  std::optional<ModelAnswer>             curved_;    ///< and with sides that follow the geometry, where it has not
 };
+
+SecondModel unasked()
+{
+  SecondModel none;
+  none.reason = "not asked for";
+  return none;
+}
 
 template <typename Make>
 SecondModel BudgetMaker::tried(const Make &make) const
@@ -114,7 +146,7 @@ SecondModel BudgetMaker::finer_in_time()
   {
     SecondModel second;
     method_       = finest_method(scene_);
-    second.answer = answer({1., -1, method_});
+    second.answer = answer(model());
     second.reason = "against " + second.answer->method;
     reference_    = *second.answer;
     return second;
@@ -125,15 +157,19 @@ SecondModel BudgetMaker::finer_in_time()
       throw;
     method_.reset();
   }
+  if (!parts_.time)
+    return unasked();
   return tried(
       [&]
       {
         const coupling::MethodOptions &given = scene_.run.options.method;
         SecondModel                    second;
-        second.answer      = answer({1., -1, finer_method(given)});
-        const double power = controlled(given) ? 16. : std::pow(2., std::max(1, given.order));
-        second.factor      = power / (power - 1.);
-        second.reason      = controlled(given) ? "against a sixteenth of the tolerance" : "against half the step";
+        ModelVariant                   finer = model_;
+        finer.method                         = finer_method(given);
+        second.answer                        = answer(finer);
+        const double power                   = controlled(given) ? 16. : std::pow(2., std::max(1, given.order));
+        second.factor                        = power / (power - 1.);
+        second.reason = controlled(given) ? "against a sixteenth of the tolerance" : "against half the step";
         return second;
       });
 }
@@ -162,8 +198,8 @@ SecondModel BudgetMaker::finer_in_modes()
   return tried(
       [&]
       {
-        const int    m = more_modes(scene_, run_);
-        ModelVariant more{1., m, method_};
+        const int    m    = more_modes(scene_, run_);
+        ModelVariant more = with_modes(m);
         if (!modes_are_chosen(scene_)) // of statics alone
           more.reduction = "craig-bampton";
         second.answer = answer(more);
@@ -190,7 +226,7 @@ SecondModel BudgetMaker::coarser_in_mesh()
       [&]
       {
         const bool   parts = scene_.frame.source == FrameSource::parts; // their second reduction stays as it is
-        ModelAnswer  other = answer({coarser, parts ? -1 : modes_asked(scene_, run_), method_});
+        ModelAnswer  other = answer(with_modes(parts ? -1 : modes_asked(scene_, run_), coarser));
         const double ratio = std::cbrt(double(run_.n_frame) / other.n_frame);
         second.reason      = "against cells of 1.5 times the size";
         if (ratio < hardly)
@@ -204,20 +240,47 @@ SecondModel BudgetMaker::coarser_in_mesh()
       });
 }
 
-/// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one.
-SecondModel BudgetMaker::raised_in_mesh()
+/// What straight sides cut off curved faces: the same cells with sides that follow these.  It falls with no finer mesh
+/// while no circle has fewer sides than a mesh gives each, so it is no part of what two sizes of cells tell.
+SecondModel BudgetMaker::curved_in_mesh()
 {
-  ModelAnswer first = reference_;
+  SecondModel second;
+  second.exact = true;
+  if (!sides_can_curve(scene_))
+    return second;
+  try
+  {
+    ModelVariant variant = with_modes(scene_.frame.source == FrameSource::parts ? -1 : modes_asked(scene_, run_));
+    variant.curved       = true;
+    second.answer        = answer(variant);
+    second.exact         = false;
+    second.reason        = "against sides that follow the geometry";
+    return second;
+  }
+  catch (const std::exception &) // such as cells of a script that are no tetrahedra
+  {
+    if (stop_ && *stop_)
+      throw;
+    return second;
+  }
+}
+
+/// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one; both with
+/// sides that follow the geometry where the model with such sides is at hand.
+SecondModel BudgetMaker::raised_in_mesh(bool curved)
+{
+  ModelAnswer first = curved ? *curved_ : reference_;
   double      size  = 1.;
   for (int k = 0; k <= coarsest_raised; ++k, size *= coarser)
   {
     if (k > 0 && !mesh_can_change(scene_))
       break;
+    ModelVariant variant = with_modes(run_.modes, size);
+    variant.curved |= curved;
     if (k > 0)
-      first = answer({size, run_.modes, method_});
+      first = answer(variant);
     if (first.n_frame > most_raised)
       continue;
-    ModelVariant variant{size, run_.modes, method_};
     variant.raised = true;
     SecondModel second;
     second.answer = answer(variant);
@@ -230,12 +293,12 @@ SecondModel BudgetMaker::raised_in_mesh()
   return {};
 }
 
-SecondModel BudgetMaker::other_in_mesh()
+SecondModel BudgetMaker::other_in_mesh(bool curved)
 {
   if (scene_.frame.source == FrameSource::geometry && !run_.whole && !scene_.reduction.superposition)
     try
     {
-      if (SecondModel second = raised_in_mesh(); second.answer)
+      if (SecondModel second = raised_in_mesh(curved); second.answer)
         return second;
     }
     catch (const std::exception &) // such as an output that degree three does not tell
@@ -263,14 +326,27 @@ BudgetPart BudgetMaker::part_of(std::size_t output, const ModelAnswer &given, co
   return {second.factor * std::abs(v - w), second.reason};
 }
 
+/// Of two causes; nothing is known where it is not of one of them.
+BudgetPart sum(const BudgetPart &a, const BudgetPart &b)
+{
+  if (!a.error || !b.error)
+    return a.error ? b : a;
+  const std::string between = a.reason.empty() || b.reason.empty() ? "" : ", and ";
+  return {*a.error + *b.error, a.reason + between + b.reason};
+}
+
 ErrorBudget BudgetMaker::make()
 {
   ErrorBudget       budget;
-  const SecondModel time = finer_in_time(), modes = finer_in_modes(), mesh = other_in_mesh();
-  budget.run_cpu_s = run_.cpu();
+  const SecondModel time = finer_in_time(), modes = parts_.reduction ? finer_in_modes() : unasked();
+  const SecondModel sides = parts_.mesh ? curved_in_mesh() : unasked();
+  curved_                 = sides.answer;
+  const SecondModel mesh  = parts_.mesh ? other_in_mesh(curved_.has_value()) : unasked();
+  budget.run_cpu_s        = run_.cpu();
   for (const auto &[model, cpu] : {std::pair(&time, &budget.time_cpu_s), std::pair(&modes, &budget.reduction_cpu_s),
                                    std::pair(&mesh, &budget.mesh_cpu_s)})
     *cpu = model->answer ? model->answer->cpu() : 0.;
+  budget.mesh_cpu_s += curved_ ? curved_->cpu() : 0.;
   for (std::size_t i = 0; i < outputs_.size(); ++i)
   {
     BudgetEntry entry;
@@ -280,7 +356,7 @@ ErrorBudget BudgetMaker::make()
     entry.bracket   = {entry.value, entry.value};
     entry.time      = outputs_[i].of_signal() ? part_of(i, run_, time, entry) : BudgetPart{no_part, "not integrated"};
     entry.reduction = part_of(i, reference_, modes, entry);
-    entry.mesh      = part_of(i, reference_, mesh, entry);
+    entry.mesh      = sum(part_of(i, reference_, sides, entry), part_of(i, reference_, mesh, entry));
     if (entry.time.error && entry.reduction.error && entry.mesh.error)
       entry.total = *entry.time.error + *entry.reduction.error + *entry.mesh.error;
     budget.entries.push_back(entry);
@@ -301,7 +377,14 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
 ErrorBudget error_budget(const Scene &scene, const std::vector<OutputName> &outputs, const ModelAnswer &run,
                          const std::atomic<bool> *stop)
 {
-  return BudgetMaker(scene, outputs, run, stop).make();
+  ModelAnswers models(scene, outputs, stop);
+  models.know({}, run);
+  return BudgetMaker(models, {}, {}).make();
+}
+
+ErrorBudget error_budget(ModelAnswers &models, const ModelVariant &model, const BudgetParts &parts)
+{
+  return BudgetMaker(models, model, parts).make();
 }
 
 } // namespace gestell::apps

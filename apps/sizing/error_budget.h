@@ -16,10 +16,11 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
  *     time       |v - v_f|, f integrated by `exact` of order 8 to 1e-10; where that does not treat the machine, with
  *                half the step (a sixteenth of the tolerance), times 2^p/(2^p - 1) (16/15)
  *     reduction  |v_f(m) - v_f(2 m)|, m modes, eight more at least
- *     mesh       1.25 |v_f - v_3|, v_3 in elements of degree three on the same mesh; of a frame with more than 60 000
- *                coordinates that of the finest with cells of 3/2, 9/4, 27/8 of the size that has no more, over
- * r^(3/2), r^3 the ratio of the numbers of coordinates: order 3/2 in h is between 1 of a sharp corner and 4 of smooth
- * fields.  Where degree three does not tell an output, |v_f(h) - v_f(3/2 h)|/(r^(3/2) - 1)
+ *     mesh       |v_f - v_c| + 1.25 |v_c - v_3|, v_c on the same cells with sides that follow the geometry, v_3 on
+ * these in elements of degree three; of a frame with more than 60 000 coordinates v_c - v_3 of the finest with cells of
+ * 3/2, 9/4, 27/8 of the size that has no more, over r^(3/2), r^3 the ratio of the numbers of coordinates: order 3/2 in
+ * h is between 1 of a sharp corner and 4 of smooth fields.  Where degree three does not tell an output, |v_f - v_c| +
+ * |v_f(h) - v_f(3/2 h)|/(r^(3/2) - 1).  v_c = v_f where sides follow the geometry already, or cannot
  *
  * Where two models differ in the order of their events up to the instant that decides an output, their difference says
  * nothing of its error: no number is given then, but the range of the values of all models.
@@ -31,5 +32,14 @@ std::vector<OutputName> budget_outputs(const Scene &scene, const std::string &li
  */
 ErrorBudget error_budget(const Scene &scene, const std::vector<OutputName> &outputs, const ModelAnswer &run,
                          const std::atomic<bool> *stop = nullptr);
+
+/// Parts of a budget to be found.
+struct BudgetParts
+{
+  bool mesh = true, reduction = true, time = true;
+};
+
+/// The same of one of the models of a scene, as far as it is asked for; the rest is not known.
+ErrorBudget error_budget(ModelAnswers &models, const ModelVariant &model, const BudgetParts &parts);
 
 } // namespace gestell::apps

@@ -2,16 +2,20 @@
 
 #include "apps/session/prepared_machine.h"
 #include "coupling/frame/frame_cache.h"
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/modes/modes.h"
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/reduction/reductions.h"
 #include "coupling/simulation/simulation.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <map>
 #include <mutex>
+#include <stdexcept>
+#include <variant>
 
 namespace gestell::apps
 {
@@ -128,6 +132,16 @@ bool is_meshed(const std::string &cad)
   return kind != ".msh" && kind != ".inp" && kind != ".stl";
 }
 
+bool may_curve(const fem::MeshOptions &mesh)
+{
+  return mesh.plates == fem::Plates::tetrahedra;
+}
+
+bool is_straight(const fem::MeshOptions &mesh)
+{
+  return may_curve(mesh) && !mesh.curved;
+}
+
 } // namespace
 
 Scene varied(const Scene &scene, const ModelVariant &variant)
@@ -137,7 +151,11 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
   if (variant.swept)
     other.frame.geometry.mesh.plates = fem::Plates::swept;
   for (coupling::FramePart &part : other.frame.parts.parts)
+  {
     scale(part.geometry.mesh, variant.mesh);
+    part.geometry.mesh.curved |= variant.curved && may_curve(part.geometry.mesh);
+  }
+  other.frame.geometry.mesh.curved |= variant.curved && may_curve(other.frame.geometry.mesh);
   other.frame.parts.all_modes |= variant.modes >= 0; // each part has as many as are asked for
   for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
     if (entry.name == variant.reduction)
@@ -255,11 +273,70 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   return answer;
 }
 
+namespace
+{
+
+std::string key_of(const coupling::MethodOptions &method)
+{
+  std::string key = method.method + '|' + std::to_string(method.order) + '|' + exact_text(method.step) + '|' +
+                    exact_text(method.tolerance) + '|' + std::to_string(method.max_halvings) + '|' +
+                    exact_text(method.newton.tolerance) + '|' + exact_text(method.newton.share_of_error);
+  for (const auto &[name, value] : method.own)
+    key += '|' + name + '=' +
+           (std::holds_alternative<double>(value) ? exact_text(std::get<double>(value)) : std::get<std::string>(value));
+  return key;
+}
+
+std::string key_of(const ModelVariant &model)
+{
+  return exact_text(model.mesh) + '|' + std::to_string(model.modes) + '|' + model.reduction + '|' +
+         std::to_string(model.swept) + std::to_string(model.raised) + std::to_string(model.curved) + '|' +
+         (model.method ? key_of(*model.method) : "");
+}
+
+} // namespace
+
+const ModelAnswer &ModelAnswers::of(const ModelVariant &model)
+{
+  const std::string key = key_of(model);
+  if (const auto found = known_.find(key); found != known_.end())
+    return found->second;
+  if (const auto found = failed_.find(key); found != failed_.end())
+    throw std::invalid_argument(found->second);
+  const double begin = cpu_now();
+  try
+  {
+    const ModelAnswer answer = answer_of(scene_, model, outputs_, stop_);
+    cpu_s_ += cpu_now() - begin;
+    if (stop_ && *stop_)
+      throw coupling::ConvergenceFailure("interrupted");
+    return known_[key] = answer;
+  }
+  catch (const std::exception &failure)
+  {
+    if (!stop_ || !*stop_)
+      failed_[key] = failure.what();
+    throw;
+  }
+}
+
+void ModelAnswers::know(const ModelVariant &model, const ModelAnswer &answer)
+{
+  known_[key_of(model)] = answer;
+}
+
 coupling::MethodOptions finest_method(const Scene &scene)
 {
   const coupling::RunOptions &run    = scene.run.options;
-  coupling::MethodOptions     finest = coupling::options_of("exact", 8).with("force", std::string("collocation"));
-  finest.tolerance                   = 1e-10;
+  coupling::MethodOptions     finest = coupling::options_of("exact", 8);
+  finest.max_halvings                = run.method.max_halvings;
+  if (run.method.newton.share_of_error == 0.) // the scene gives newton_tolerance
+    finest.newton = {std::min(run.method.newton.tolerance, finest.newton.tolerance), finest.newton.max_iterations,
+                     finest.newton.joints, 0.};
+  if (run.method.method == finest.method)
+    finest.own = run.method.own;
+  finest.set("force", std::string("collocation"));
+  finest.tolerance = 1e-10;
   // A fixed step says nothing of the longest one; no load goes by between two steps.
   finest.step = controlled(run.method) ? run.method.step : (run.end - run.begin) / least_steps;
   for (const LoadRequest &load : scene.loads)
@@ -295,6 +372,16 @@ bool meshes_of_parts_are_made(const Scene &scene)
 bool mesh_can_change(const Scene &scene)
 {
   return mesh_is_made(scene) || meshes_of_parts_are_made(scene);
+}
+
+bool sides_can_curve(const Scene &scene)
+{
+  const auto &parts = scene.frame.parts.parts;
+  return mesh_is_made(scene)
+             ? is_straight(scene.frame.geometry.mesh)
+             : meshes_of_parts_are_made(scene) &&
+                   std::any_of(parts.begin(), parts.end(),
+                               [](const coupling::FramePart &part) { return is_straight(part.geometry.mesh); });
 }
 
 bool modes_are_chosen(const Scene &scene)

@@ -5,6 +5,7 @@
 #include "apps/sizing/output_name.h"
 
 #include <atomic>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct ModelVariant
   std::string                            reduction{};    ///< a name of coupling::Reductions; empty: that of the scene
   bool                                   swept  = false; ///< plates are, whatever the scene says
   bool                                   raised = false; ///< the elements of its mesh have degree three
+  bool                                   curved = false; ///< sides of tetrahedra are, whatever the scene says
 };
 
 /// What a model answers, and what it costs.
@@ -61,6 +63,35 @@ Scene varied(const Scene &scene, const ModelVariant &variant);
 ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std::vector<OutputName> &outputs,
                       const std::atomic<bool> *stop = nullptr);
 
+/// The answers of models of one scene, each computed once.
+class ModelAnswers
+{
+public:
+  ModelAnswers(const Scene &scene, const std::vector<OutputName> &outputs, const std::atomic<bool> *stop)
+      : scene_(scene), outputs_(outputs), stop_(stop)
+  {
+  }
+
+  /// @throws as answer_of(), again for a model that failed before; coupling::ConvergenceFailure if it is interrupted
+  const ModelAnswer &of(const ModelVariant &model);
+  /// One that is known already.
+  void know(const ModelVariant &model, const ModelAnswer &answer);
+
+  const Scene                   &scene() const { return scene_; }
+  const std::vector<OutputName> &outputs() const { return outputs_; }
+  const std::atomic<bool>       *stop() const { return stop_; }
+  /// [s] of the processor that all that were computed took.
+  double cpu_s() const { return cpu_s_; }
+
+private:
+  const Scene                       &scene_;
+  const std::vector<OutputName>     &outputs_;
+  const std::atomic<bool>           *stop_;
+  std::map<std::string, ModelAnswer> known_;
+  std::map<std::string, std::string> failed_; ///< with what was said
+  double                             cpu_s_ = 0.;
+};
+
 /// Integrates as exactly as the program can where `exact` treats the machine: order 8, tolerance 1e-10.
 coupling::MethodOptions finest_method(const Scene &scene);
 /// A finer one of the same kind: half the step, a sixteenth of the tolerance.
@@ -72,6 +103,8 @@ bool mesh_is_made(const Scene &scene);
 bool meshes_of_parts_are_made(const Scene &scene);
 /// Either of them.
 bool mesh_can_change(const Scene &scene);
+/// Whether the sides of its cells, tetrahedra, are straight and could follow the geometry.
+bool sides_can_curve(const Scene &scene);
 /// Whether the frame of the scene is reduced, so that its number of modes can be chosen.
 bool modes_are_chosen(const Scene &scene);
 

@@ -1,6 +1,7 @@
 #include "apps/sizing/sized_scene.h"
 
 #include "apps/scene/file/written_text.h"
+#include "coupling/integration/integration_methods.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -27,17 +28,42 @@ std::string toml_value(const std::string &value)
   return literal ? value : written_text(value);
 }
 
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+/// All that an integration depends on, whatever the scene has of it.
+void add_method(const coupling::MethodOptions &options, Entries &entries)
+{
+  const coupling::IntegrationMethod &method = coupling::method_of(options);
+  entries.emplace_back("run.method", written_text(options.method));
+  if (options.step > 0.) // of a controlled method the longest; none: as long as may be
+    entries.emplace_back("run.step", number(options.step));
+  if (controlled(options))
+    entries.emplace_back("run.tolerance", number(options.tolerance));
+  if (method.takes_order() && method.default_order(options) > 0)
+    entries.emplace_back("run.order", std::to_string(options.order));
+  for (const coupling::MethodParameter &parameter : method.parameters())
+    if (const auto own = options.own.find(parameter.name); own != options.own.end())
+      entries.emplace_back("run." + parameter.name, std::holds_alternative<double>(own->second)
+                                                        ? number(std::get<double>(own->second))
+                                                        : written_text(std::get<std::string>(own->second)));
+  entries.emplace_back("run.max_halvings", std::to_string(options.max_halvings));
+  if (options.newton.share_of_error == 0.) // given, see read_method_options()
+    entries.emplace_back("run.newton_tolerance", number(options.newton.tolerance));
+}
+
 } // namespace
 
 std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scene, const ModelVariant &model)
 {
-  std::vector<std::pair<std::string, std::string>> sizes;
-  const Scene                                      sized = varied(scene, model);
+  Entries     sizes;
+  const Scene sized = varied(scene, model);
   if (mesh_is_made(scene))
   {
     sizes.emplace_back("frame.mesh.size", number(sized.frame.geometry.mesh.size));
     if (model.swept)
       sizes.emplace_back("frame.mesh.plates", written_text("swept"));
+    if (model.curved && sized.frame.geometry.mesh.curved)
+      sizes.emplace_back("frame.mesh.curved", "true");
     for (const auto &[surface, size] : sized.frame.geometry.mesh.surface_size)
       sizes.emplace_back("frame.mesh." + written_text(surface), number(size));
   }
@@ -49,6 +75,8 @@ std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scen
       const std::string key = "frame.part." + written_text(part.name) + ".mesh.";
       written.push_back(part.geometry.place);
       sizes.emplace_back(key + "size", number(part.geometry.mesh.size));
+      if (model.curved && part.geometry.mesh.curved)
+        sizes.emplace_back(key + "curved", "true");
       for (const auto &[surface, size] : part.geometry.mesh.surface_size)
         sizes.emplace_back(key + written_text(surface), number(size));
     }
@@ -58,14 +86,7 @@ std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scen
     sizes.emplace_back("reduction.method", written_text(model.reduction));
   if (model.modes >= 0)
     sizes.emplace_back("reduction.modes", std::to_string(model.modes));
-  const coupling::MethodOptions &method = sized.run.options.method;
-  sizes.emplace_back("run.method", written_text(method.method));
-  if (method.step > 0.) // of a controlled method the longest; none: as long as may be
-    sizes.emplace_back("run.step", number(method.step));
-  if (controlled(method))
-    sizes.emplace_back("run.tolerance", number(method.tolerance));
-  if (method.method == "exact" && scene.run.options.method.method != "exact")
-    sizes.emplace_back("run.order", std::to_string(method.order));
+  add_method(sized.run.options.method, sizes);
   return sizes;
 }
 

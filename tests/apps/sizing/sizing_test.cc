@@ -331,18 +331,30 @@ TEST(Size, NamesWhatMayBeLeftOut)
   EXPECT_THAT(told, testing::Not(testing::HasSubstr("element \"link\"")));
 }
 
-/// A scene that leaves the longest step to the method: so does the sized one, which can be read.
-TEST(Size, WritesNoStepWhereNoneIsGiven)
+/// Whatever the scene gives of its method: the scene that is written answers with the numbers that were judged, to the
+/// last bit.  Without a step it leaves the longest one to the method.
+TEST(Size, WritesASceneThatGivesTheJudgedNumbersToTheLastBit)
 {
-  const std::string run = "method = 'exact'\norder = 6\ntolerance = 1e-6\nend = 0.06\n";
-  const Read        scene(rod("tolerance = 0.01", run));
-  SizeOptions       options;
-  options.tolerance           = 0.1;
-  const SizedModel  model     = size_search(scene.scene, of_scene(scene.scene, "x.max"), options);
-  const std::string sized     = scene.folder.write("sized.toml", "");
-  const auto        directory = std::filesystem::path(sized).parent_path();
-  const std::string text      = sized_scene(scene.scene, {}, model.chosen, directory);
-  EXPECT_NO_THROW(read_scene(scene.folder.write("sized.toml", text)));
+  for (const std::string &run :
+       {by_steps, std::string("method = 'exact'\norder = 6\ntolerance = 1e-6\nend = 0.06\n"),
+        std::string("method = 'exact'\nforce = 'average'\nstep = 2e-5\nend = 0.06\n"),
+        std::string("method = 'exact'\norder = 4\nstep = 1e-4\nnewton_tolerance = 1e-7\nmax_halvings = 3\n"
+                    "end = 0.06\n"),
+        std::string("method = 'generalised-alpha'\nrho_inf = 0.7\nstep = 2e-5\nend = 0.06\n"),
+        std::string("method = 'newmark'\nbeta = 0.3\ngamma = 0.55\nstep = 2e-5\nend = 0.06\n")})
+  {
+    const Read  scene(rod("tolerance = 0.01", run));
+    const auto  outputs = of_scene(scene.scene, "x.max,x.min,F.max,modes.2");
+    SizeOptions options;
+    options.tolerance           = 0.1;
+    const SizedModel  model     = size_search(scene.scene, outputs, options);
+    const auto        directory = std::filesystem::path(scene.folder.write("sized.toml", "")).parent_path();
+    const std::string text      = sized_scene(scene.scene, {}, model.chosen, directory);
+    const ModelAnswer sized     = answer_of(read_scene(scene.folder.write("sized.toml", text)), {}, outputs);
+    const SizeRung   &judged    = model.result.ladder.at(model.result.chosen);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+      EXPECT_EQ(sized.values.at(i), judged.entries.at(i).value) << run << outputs[i].text << '\n' << text;
+  }
 }
 
 /// With all its modes every reduction is the full rod; errors fall with their number, and statics alone err most.

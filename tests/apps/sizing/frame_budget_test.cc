@@ -1,0 +1,63 @@
+// Error budgets of frames from CAD against a mesh that is far finer.
+
+#include "apps/sizing/error_budget.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace apps;
+
+/// A bar with an eye, 50 mm thick and 50 mm wide around a hole of 200 mm, which carries a mass on a spring: of a hole
+/// with few sides the eye is too thick where it bends.
+Scene eye_bar(test::SceneFolder &folder, const std::string &mesh)
+{
+  folder.write("eye.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.3, 0.05, 0.3};\n"
+                          "Cylinder(2) = {0.15, -1, 0.15, 0, 2, 0, 0.1};\n"
+                          "BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };\n");
+  const std::string text =
+      "name = 'eye'\n[frame]\ncad = 'eye.geo'\nunit = '1 m'\nmesh = { " + mesh + " }\ndamping = { ratio = 0.02 }\n" +
+      plane_surface("foot", "[0, 0, -1]", "[0, 0, 0]") + plane_surface("top", "[0, 0, 1]", "[0, 0, 0.3]") +
+      table("frame.support.foot", {{"surface", "foot"}, {"clamped", "true"}}) +
+      table("frame.interface.top", {{"surface", "top"}, {"coupling", "average"}}) +
+      table("reduction", {{"modes", "12"}}) + slider_body("load", "5 kg", "[0, 0, 1]", {{"guide", "frame.top"}}) +
+      element("spring", "spring-damper",
+              {{"from", "load"}, {"to", "frame.top"}, {"stiffness", "60 kN/mm"}, {"damping", "50 N s/m"}}) +
+      element("blow", "force",
+              {{"from", "frame.top"},
+               {"to", "ground"},
+               {"direction", "[1, 0, 0]"},
+               {"harmonics", "[{ amplitude = '1 kN', frequency = '400 Hz' }]"}}) +
+      "[modes]\nnumber = 4\n[run]\nmethod = 'exact'\ntolerance = 1e-6\nend = '10 ms'\n" + signals("x = 'frame.top.ux'");
+  return read_scene(folder.write("scene.toml", test::quoted(text)));
+}
+
+/// The polygon of the hole is most of the error: elements of degree three alone see a third of it.
+TEST(FrameBudget, OfCoarseCellsAroundAHoleIsAtLeastHalfOfTheTrueError)
+{
+  test::SceneFolder rough_folder, fine_folder;
+  const Scene       rough   = eye_bar(rough_folder, "size = '60 mm'");
+  const Scene       fine    = eye_bar(fine_folder, "size = '20 mm', curved = true");
+  const auto        outputs = budget_outputs(rough, "x.max,modes.1,modes.2,modes.3");
+  const ErrorBudget budget  = error_budget(rough, outputs, answer_of(rough, {}, outputs));
+  const ModelAnswer truth   = answer_of(fine, {}, outputs);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+  {
+    const BudgetEntry &entry = budget.entries[i];
+    ASSERT_TRUE(entry.total) << entry.output;
+    const double error = std::abs(entry.value - truth.values[i]);
+    EXPECT_GT(error, 3e-4 * std::abs(entry.value)) << entry.output << ": the test needs a coarse mesh";
+    EXPECT_GE(*entry.total, 0.5 * error) << entry.output << ", " << entry.mesh.reason;
+    EXPECT_LE(*entry.total, 4. * error) << entry.output;
+  }
+}
+
+} // namespace
+} // namespace gestell::tests
