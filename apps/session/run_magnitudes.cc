@@ -105,7 +105,7 @@ void RunMagnitudes::watch_elements(const coupling::Machine &small)
     const std::string force = force_of(placement);
     const auto        scale = std::find_if(scales.begin(), scales.end(),
                                            [&](const coupling::ElementScale &one) { return one.name == placement.name; });
-    if (const double slip = breakdown_slip(placement); slip > 0.)
+    if (const double slip = breakdown_slip(placement); slip > 0. && !commanded(placement.name))
       watch(Kind::slip, placement.name, "slip", slip);
     else if (is_spring(placement))
       watch(Kind::travel, placement.name, "displacement", most_turns);
@@ -176,18 +176,18 @@ bool RunMagnitudes::commanded(const std::string &element) const
 std::string RunMagnitudes::slip_words(const Watched &watched, const coupling::WatchedValue &value) const
 {
   const double most = watched.scale;
-  const auto   text = [&](const char *when, double slip)
+  const auto   text = [&](const char *when, double slip, const char *expected)
   {
     return key_place(scene_, watched.object, "slip") + when + " of the run is " + short_text(slip) +
-           "; expected: 1 at standstill, or within the breakdown slip of " + short_text(most) +
+           "; expected: " + expected + "within the breakdown slip of " + short_text(most) +
            "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start";
   };
   const bool turns = std::abs(1. - value.first) > standstill;
   if (turns && std::abs(value.first) > most)
-    return text("at the start", value.first);
+    return text("at the start", value.first, "1 at standstill, or ");
   // A start-up that is under way is no mistake.
   const bool starting_up = value.last < value.first - standstill && value.last > -most;
-  return std::abs(value.last) > most && !starting_up ? text("at the end", value.last) : "";
+  return std::abs(value.last) > most && !starting_up ? text("at the end", value.last, "") : "";
 }
 
 std::string RunMagnitudes::judged(const Watched &watched, const std::string &unit, const coupling::WatchedValue &value,

@@ -252,7 +252,7 @@ SceneNode Session::entries() const
 void Session::add_spectra(Result &result) const
 {
   result.orders  = order_tracking(scene_, *result.run);
-  result.spectra = spectra(*result.run);
+  result.spectra = spectra(*result.run, scene_.run.last_period ? scene_.run.options.begin : result.run->from);
 }
 
 Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre spectra)

@@ -257,10 +257,11 @@ SecondModel BudgetMaker::curved_in_mesh()
     second.reason        = "against sides that follow the geometry";
     return second;
   }
-  catch (const std::exception &) // such as cells of a script that are no tetrahedra
+  catch (const std::exception &failed) // such as cells that sides along the geometry turn inside out
   {
     if (stop_ && *stop_)
       throw;
+    second.reason = std::string("straight sides at curved faces are not judged: ") + failed.what();
     return second;
   }
 }

@@ -69,7 +69,6 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
       verification.periods   = k;
       verification.departure = departure > 0. ? departure / fastest : 0.;
     }
-    verification.leaves = !(verification.departure <= (solution.series ? off_a_series : goes_away));
   }
   catch (const SearchInterrupted &)
   {
@@ -79,11 +78,13 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
   {
     verification.failure = none.what();
   }
+  verification.leaves = !(verification.departure <= (solution.series ? off_a_series : goes_away));
   std::ostringstream note;
   note.precision(2);
   if (verification.leaves)
     note << "not called stable, although its multipliers are below 1: a run of " << verified_periods
-         << " periods from its initial values goes away from it by " << verification.departure << " of its speed";
+         << " periods from its initial values deviates from it by " << verification.departure
+         << " of its largest speed";
   else if (!verification.failure.empty())
     note << "not verified by a run of " << verified_periods << " periods, which ended after " << verification.periods
          << ": " << verification.failure;
@@ -94,7 +95,7 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions)
 {
   for (PeriodicSolution &solution : solutions)
-    if (solution.stable() && solution.verification.periods == 0)
+    if (solution.stable() && solution.verification.periods == 0 && solution.verification.failure.empty())
       verify_by_run(problem, solution);
 }
 

@@ -119,6 +119,7 @@ void check_start(const Scene &scene)
   {
     const coupling::InitialState initial = initial_state(scene, machine);
     require_free_motion(scene, machine, initial);
+    result_window(scene, machine, initial);
     if (known)
       try_start(scene, machine, initial);
   }

@@ -185,7 +185,7 @@ coupling::InitialState initial_state(const Scene &scene, coupling::Machine &mach
     coupling::InitialState state = found();
     state.t                      = scene.run.options.begin;
     state.settled                = start.rule != StartRule::given;
-    if (start.rule != StartRule::rest && !start.periodic) // of these the speeds follow from loads, or from the orbit
+    if (start.rule == StartRule::given && !start.periodic) // other speeds follow from loads, or from the orbit
       for (std::string &warning : coupling::closing_warnings(machine, known.v_given, state.q, state.v))
         state.notes.push_back(std::move(warning));
     if (start.rule == StartRule::rest && has_speed(start))

@@ -30,9 +30,9 @@ double slowest_revolution(const coupling::Machine &machine, const coupling::Init
   if (initial.v.size() != machine.size() || machine.superposed_frequencies().size() > 0) // modes have no angles
     return period;
   for (const coupling::Body &body : machine.model().bodies())
-    if (const double speed = std::abs(initial.v[body.coordinate]);
-        body.kind == coupling::BodyKind::rotor && speed * longest >= two_pi)
-      period = std::max(period, two_pi / speed);
+    if (body.kind == coupling::BodyKind::rotor)
+      if (const double speed = std::abs(initial.v[body.coordinate]); speed * longest >= two_pi)
+        period = std::max(period, two_pi / speed);
   return period;
 }
 

@@ -121,9 +121,9 @@ std::vector<double> hann_amplitudes(std::vector<double> samples)
   return amplitudes;
 }
 
-std::optional<Spectra> spectra(const coupling::RunResult &run)
+std::optional<Spectra> spectra(const coupling::RunResult &run, double from)
 {
-  const HistoryRows rows(run, run.from);
+  const HistoryRows rows(run, from);
   if (rows.size() < fewest_rows || !run.failure.empty() || !(rows.t(rows.size() - 1) > rows.t(0)))
     return std::nullopt;
   const SpectrumWindow window = window_of(rows);

@@ -27,6 +27,8 @@ std::vector<double> hann_amplitudes(std::vector<double> samples);
  * on their straight lines and have lines up to 1/(4 h), h being the mean distance.  Above 8192 lines the highest are
  * left out: they do not fold, since no row was.  Motion faster than 1/(2 h) folds, as rows are instants.
  */
-std::optional<Spectra> spectra(const coupling::RunResult &run);
+/// @param from  [s] rows from there on; a window of one period alone has no line beside its harmonics that Hann keeps
+/// apart
+std::optional<Spectra> spectra(const coupling::RunResult &run, double from);
 
 } // namespace gestell::apps

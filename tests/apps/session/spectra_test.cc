@@ -47,7 +47,7 @@ TEST(Spectra, FindAFrequencyInAHistoryWithEvents)
       const double t = 2. * (i + (i % 2 == 0 ? 0. : 0.2)) / 4000.;
       run.rows.insert(run.rows.end(), {t, 0., 100. * std::sin(2. * M_PI * 50. * t)});
     }
-  const auto found = spectra(run);
+  const auto found = spectra(run, run.from);
   ASSERT_TRUE(found.has_value());
   ASSERT_EQ(found->signals.size(), 1u); // a force rather than a displacement
   EXPECT_NEAR(found->resolution_hz, 0.5, 1e-12);
@@ -80,7 +80,7 @@ std::size_t highest_line(const std::vector<double> &amplitudes)
 /// Rows at equal distances are not sampled anew: up to their half rate a sine has its line and its amplitude.
 TEST(Spectra, OfEvenRowsReachToHalfTheirRate)
 {
-  const auto found = spectra(sine(400., 1e-3, 1001));
+  const auto found = spectra(sine(400., 1e-3, 1001), 0.);
   ASSERT_TRUE(found.has_value());
   const std::vector<double> &a    = found->signals[0].amplitudes;
   const std::size_t          line = highest_line(a);
@@ -95,7 +95,7 @@ TEST(Spectra, OfEvenRowsReachToHalfTheirRate)
 /// between two lines, where the window leaves 85 % at least.
 TEST(Spectra, OfAPrimeNumberOfRowsFindTheFrequency)
 {
-  const auto found = spectra(sine(400., 1e-3, 2004));
+  const auto found = spectra(sine(400., 1e-3, 2004), 0.);
   ASSERT_TRUE(found.has_value());
   EXPECT_GT(found->samples, 1983);
   const std::vector<double> &a = found->signals[0].amplitudes;
@@ -106,7 +106,7 @@ TEST(Spectra, OfAPrimeNumberOfRowsFindTheFrequency)
 /// 8192 lines of 10 s end at 819 Hz; what swings above is left out, not folded.
 TEST(Spectra, LeaveOutWhatStandsAboveTheLastLine)
 {
-  const auto found = spectra(sine(1300., 1. / 4000., 40001));
+  const auto found = spectra(sine(1300., 1. / 4000., 40001), 0.);
   ASSERT_TRUE(found.has_value());
   const std::vector<double> &a = found->signals[0].amplitudes;
   EXPECT_EQ(a.size(), 8193u);
@@ -120,7 +120,7 @@ TEST(Spectra, OfUnevenRowsEndAtAQuarterOfTheirRate)
   coupling::RunResult run = sine(100., 1e-3, 1001);
   for (std::size_t i = 2; i + 2 < run.rows.size(); i += 4)
     run.rows[i] += 1e-4;
-  const auto found = spectra(run);
+  const auto found = spectra(run, run.from);
   ASSERT_TRUE(found.has_value());
   EXPECT_NEAR(found->carried_hz, 250., 1e-6);
   EXPECT_NEAR(double(found->signals[0].amplitudes.size() - 1) * found->resolution_hz, 250., found->resolution_hz);
@@ -133,6 +133,6 @@ TEST(Spectra, OfAShortHistoryAreNone)
   run.units   = {"s", "N"};
   run.signals = {{"F", "N"}};
   run.rows    = {0., 1., 1., 2.};
-  EXPECT_FALSE(spectra(run).has_value());
+  EXPECT_FALSE(spectra(run, run.from).has_value());
   EXPECT_FALSE(spectra(coupling::RunResult()).has_value());
 }
