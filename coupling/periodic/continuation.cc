@@ -163,7 +163,7 @@ bool Tracker::look(const std::string &kind, const Point &a, const Point &b, cons
   Point found;
   if (locate(follower_, a, b, test, detail, options_.located * std::abs(range_), found))
   {
-    const int  last = int(branch_.points.size()) - 1; // a is the last point so far, b the next one
+    const int  last = std::max(0, int(branch_.points.size()) - 1); // a is the last point so far, b the next one
     const bool past = follower_.arclength(a, found) > 0.5 * follower_.arclength(a, b);
     branch_.special.push_back({kind, found.lambda, found.solution, past ? last + 1 : last});
   }

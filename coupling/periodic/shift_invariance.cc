@@ -10,6 +10,7 @@
 #include <cmath>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 
 namespace gestell::coupling
 {
@@ -21,13 +22,13 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr int    n_samples    = 48;    ///< states; a law with a gap acts in about half of them
-constexpr double turns_about  = 8.;    ///< that angles are shifted by, so that gaps of any size close
-constexpr int    most_turns   = 64;    ///< after which a law of an angle repeats, or a machine
+constexpr int    n_samples        = 48;    ///< states; a law with a gap acts in about half of them
+constexpr double turns_about      = 8.;    ///< that angles are shifted by, so that gaps of any size close
+constexpr int    most_turns       = 64;    ///< after which a law of an angle repeats, or a machine
 constexpr double rounding_of_sums = 1e-11; ///< of a sum of products, of the sum of their sizes
-constexpr double same_row     = 1e-9;  ///< of unit rows: what rounding leaves of dependent ones
-constexpr double same_force   = 1e-8;  ///< of forces after up to 64 turns, whose angles are rounded to 1e-13
-constexpr double no_force     = 1e-12; ///< of the largest of all samples
+constexpr double same_row         = 1e-9;  ///< of unit rows: what rounding leaves of dependent ones
+constexpr double same_force       = 1e-8;  ///< of forces after up to 64 turns, whose angles are rounded to 1e-13
+constexpr double no_force         = 1e-12; ///< of the largest of all samples
 
 /// Numbers in (-1, 1), the same ones in every run.
 class Numbers
@@ -125,7 +126,8 @@ void AngleInvariance::gather_laws()
   const auto acts = [&](int first, int n) { return !to_measures_.middleRows(first, n).isZero(0.); };
   for (const ForceBlock &block : system_.forces().blocks())
     if (acts(block.first_measure, block.n_measures))
-      laws_.push_back({block.first_measure, block.n_measures, system_.forces().element_of(block.first_measure), {}, false});
+      laws_.push_back(
+          {block.first_measure, block.n_measures, system_.forces().element_of(block.first_measure), {}, false});
   for (const ConstraintBlock &block : system_.joints().blocks())
     if (acts(block.first_measure, block.n_measures))
       laws_.push_back({n_u_ + block.first_row, block.n_rows, system_.joints().name(block.first_row), {}, false});
@@ -183,7 +185,7 @@ void AngleInvariance::find_driven()
 VectorXd AngleInvariance::laws_at(LocalState state) const
 {
   const IdealJoints &joints = system_.joints();
-  VectorXd           p      = VectorXd::Zero(n_u_), g = VectorXd::Zero(joints.n_rows()), all(n_u_ + g.size());
+  VectorXd           p = VectorXd::Zero(n_u_), g = VectorXd::Zero(joints.n_rows()), all(n_u_ + g.size());
   system_.events().start(state);
   system_.forces().force(state, p);
   if (g.size() > 0)
@@ -275,8 +277,15 @@ bool AngleInvariance::changes(const Law &law, const VectorXd &shift) const
   {
     LocalState state = samples_[k];
     state.u += to_measures_ * shift;
-    if (changes(law, at_samples_[k], laws_at(state)))
+    try
+    {
+      if (changes(law, at_samples_[k], laws_at(state)))
+        return true;
+    }
+    catch (const std::invalid_argument &) // the law is not defined there, such as gas without volume
+    {
       return true;
+    }
   }
   return false;
 }
@@ -299,8 +308,8 @@ MatrixXd AngleInvariance::free() const
   MatrixXd rows(Index(dependences_.size()), Index(angles_.size()));
   for (std::size_t k = 0; k < dependences_.size(); ++k)
     rows.row(Index(k)) = dependences_[k].of.normalized();
-  const MatrixXd null = null_space(rows);
-  MatrixXd       all  = MatrixXd::Zero(n_, null.cols());
+  const MatrixXd null      = null_space(rows);
+  MatrixXd       all       = MatrixXd::Zero(n_, null.cols());
   all(angles_, Eigen::all) = null;
   return all;
 }
@@ -320,7 +329,7 @@ VectorXd AngleInvariance::nearest(const VectorXd &x, const VectorXd &values, boo
     }
   if (rows.rows() == 0)
     return x;
-  const VectorXd weight = mass_.cwiseSqrt().cwiseInverse();
+  const VectorXd                                   weight = mass_.cwiseSqrt().cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
   solver.setThreshold(same_row);
   solver.compute(rows * weight.asDiagonal());

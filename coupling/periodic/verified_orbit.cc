@@ -74,7 +74,7 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
   {
     verification.failure = "interrupted";
   }
-  catch (const std::runtime_error &none)
+  catch (const std::exception &none)
   {
     verification.failure = none.what();
   }

@@ -111,12 +111,13 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j)
     return "the motion grows without a frequency";
   if (f == 0.)
     return "the motion is free, its frequency is zero";
+  if (modes[j].growth != 0.) // its partner may be no longer among them
+    return "the mode flutters";
   if (f <= rest * modes.back().frequency_hz)
     return "the frequency is zero beside the highest one";
   for (const std::size_t other : {j - 1, j + 1})
     if (other < modes.size() && std::abs(modes[other].frequency_hz - f) <= meet * f)
-      return modes[j].growth != 0. ? "the mode flutters together with mode " + std::to_string(other + 1)
-                                   : "mode " + std::to_string(other + 1) + " has the same frequency";
+      return "mode " + std::to_string(other + 1) + " has the same frequency";
   return "";
 }
 

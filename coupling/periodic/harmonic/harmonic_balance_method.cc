@@ -4,12 +4,13 @@
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/periodic/harmonic/hill.h"
 #include "coupling/periodic/harmonic/orbit_series.h"
-#include "coupling/periodic/shift_invariance.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shift_invariance.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 namespace gestell::coupling
 {
@@ -235,8 +236,8 @@ std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
 {
   const SecondOrderSystem &system = *problem.system;
   if (const int n = system.joints().n_rows(); n > 0)
-    return "harmonic balance: " + std::to_string(n) + " equations of ideal joints, the first of " + system.joints().name(0) +
-           ", are not balanced by it; take shooting, or compliant joints";
+    return "harmonic balance: " + std::to_string(n) + " equations of ideal joints, the first of " +
+           system.joints().name(0) + ", are not balanced by it; take shooting, or compliant joints";
   if (system.linear().excitation().has_rest())
     return "harmonic balance: the load is no sum of harmonics; take shooting";
   MatrixXd M, B, C;
@@ -379,19 +380,18 @@ void BalanceSearch::grow()
   }
 }
 
-/// Near jumps of a law few samples feed back from far above H into the harmonics that are kept.
+/// Few samples of a near jump feed back into the harmonics kept; a tenth of what these leave out is little enough.
 void BalanceSearch::sample_finely()
 {
-  while (left_out_.samples > options_.tolerance && balance_.samples() < most_samples && !problem_.interrupted())
+  while (left_out_.samples > std::max(options_.tolerance, 0.1 * left_out_.motion) &&
+         balance_.samples() < most_samples && !problem_.interrupted())
   {
-    const VectorXd       z      = z_;
-    const HarmonicNewton newton = newton_;
+    const auto before = std::pair(z_, newton_);
     balance_.set_harmonics(balance_.harmonics(), 2 * balance_.samples());
-    if (!solve_from(z))
+    if (!solve_from(before.first))
     {
       balance_.set_harmonics(balance_.harmonics(), balance_.samples() / 2);
-      z_      = z;
-      newton_ = newton;
+      std::tie(z_, newton_) = before;
       return;
     }
     left_out_ = balance_.left_out(z_);

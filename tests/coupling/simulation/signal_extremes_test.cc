@@ -38,7 +38,7 @@ SignalSummary extremes_of(Passing &run, double step)
 {
   const std::vector<Signal>  signals(1);
   std::vector<SignalSummary> summaries(1);
-  SignalExtremes             extremes(run, {}, signals, summaries);
+  SignalExtremes             extremes(run, {}, signals, 0., summaries);
   SignalSample               start{0., {0.}};
   run.evaluate(0., start);
   extremes.restart(start);
