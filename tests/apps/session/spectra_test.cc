@@ -134,5 +134,5 @@ TEST(Spectra, OfAShortHistoryAreNone)
   run.signals = {{"F", "N"}};
   run.rows    = {0., 1., 1., 2.};
   EXPECT_FALSE(spectra(run, run.from).has_value());
-  EXPECT_FALSE(spectra(coupling::RunResult()).has_value());
+  EXPECT_FALSE(spectra(coupling::RunResult(), 0.).has_value());
 }
