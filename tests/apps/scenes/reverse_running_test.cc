@@ -22,7 +22,7 @@ SceneRun motion(const std::string &type, double synchronous, double speed)
   const test::SceneFolder folder;
   const std::string       text = rotor_body("r", "0.4", "[0, 1, 0]") + element("m", type, motor) +
                            element("f", "spring-damper", {{"from", "r"}, {"damping", "0.05"}}) +
-                           start("v = { r = " + number(speed) + " }") + steps("1 ms", "1.5 s") +
+                           start("v = { r = " + number(speed) + " }") + steps("1 ms", "4 s") +
                            signals("a = 'r.angle', w = 'r.speed', T = 'm.torque', s = 'm.slip'");
   return SceneRun(folder.write("scene.toml", text));
 }
