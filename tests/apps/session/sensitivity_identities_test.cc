@@ -85,11 +85,12 @@ TEST_P(Identities, OfLengthMassAndTimeHold)
 }
 
 // Errors are those of runs with these tolerances, across events larger than without; forces of stiff contacts enlarge
-// them by the stiffness.  What is missing or wrong in a derivative is a share of its output.
+// them by the stiffness, and the instants of flat peaks are those of a small rate over a small curvature.  What is missing or
+// wrong in a derivative is a share of its output.
 INSTANTIATE_TEST_SUITE_P(
     OfShippedScenes, Identities,
     ::testing::Values(
-        Shipped{"crane_minimal.toml", {"run.tolerance=1e-10", "run.end=(5 s)*scale_of_time"}, 2e-6, 1e-5},
+        Shipped{"crane_minimal.toml", {"run.tolerance=1e-10", "run.end=(5 s)*scale_of_time"}, 2e-6, 1e-4},
         Shipped{"press_minimal.toml", {"run.tolerance=1e-10", "parameters.t_end=(0.25 s)*scale_of_time"}, 1e-4, 1e-3},
         Shipped{"crank_press_joints.toml", {"run.tolerance=1e-10", "run.end=(0.4 s)*scale_of_time"}, 1e-4, 1e-4},
         Shipped{"double_four_bar.toml", {"run.tolerance=1e-9", "run.end=(1 s)*scale_of_time"}, 1e-6, 1e-4},
