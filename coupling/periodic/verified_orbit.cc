@@ -95,7 +95,8 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions)
 {
   for (PeriodicSolution &solution : solutions)
-    if (solution.stable() && solution.verification.periods == 0 && solution.verification.failure.empty())
+    if (solution.stable() && std::isfinite(solution.residual) && solution.verification.periods == 0 &&
+        solution.verification.failure.empty())
       verify_by_run(problem, solution);
 }
 

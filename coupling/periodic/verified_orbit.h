@@ -23,7 +23,8 @@ constexpr int verified_periods = 20; ///< of a run that verifies a motion
  */
 void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution);
 
-/// Those that are stable by their multipliers, unless they are verified already.
+/// Those that are stable by their multipliers, unless they are verified already.  Methods that state no residual, such as
+/// averaging, give no motion that closes.
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions);
 
 } // namespace gestell::coupling

@@ -17,8 +17,8 @@ std::string belt_drive(double i, const std::string &more = "", const std::string
 {
   return rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") + rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]") +
          measure("belt", "sum",
-                 {{"terms", "[{ of = 'motor', factor = '40 mm' }, { of = 'wheel', factor = '" + number(-0.04 * i) +
-                                " m' }]"}}) +
+                 {{"terms",
+                   "[{ of = 'motor', factor = '40 mm' }, { of = 'wheel', factor = '" + number(-0.04 * i) + " m' }]"}}) +
          element("belt", "spring-damper", {{"on", "belt"}, {"stiffness", "50 N/mm"}, {"damping", "200 N s/m"}}) +
          element("drive", "asynchronous motor",
                  {{"on", "motor"},
@@ -29,18 +29,18 @@ std::string belt_drive(double i, const std::string &more = "", const std::string
          element("load", "spring-damper", {{"from", "wheel"}, {"about", "[0, 1, 0]"}, {"damping", "0.3 N m s/rad"}}) +
          more +
          test::quoted("[start]\nrule = 'given'\nv = { motor = '1450 1/min', wheel = '" + number(1450. / i) +
-                      " 1/min' }\n[run]\nmethod = '" + run + "'\ntolerance = 1e-9\nstep = '1 ms'\nend = '8 s'\n"
+                      " 1/min' }\n[run]\nmethod = '" + run +
+                      "'\ntolerance = 1e-9\nstep = '1 ms'\nend = '8 s'\n"
                       "[output.signals]\nT = 'drive.torque'\nF = 'belt.force'\nw = 'wheel.speed'\n");
 }
 
-const std::string crank = slider_body("slide", "8 kg", "[0, 0, 1]") +
-                          element("rod", "connecting rod",
-                                  {{"from", "wheel"},
-                                   {"to", "slide"},
-                                   {"crank_radius", "20 mm"},
-                                   {"length", "300 mm"},
-                                   {"stiffness", "2 kN/mm"},
-                                   {"damping", "3 kN s/m"}});
+const std::string crank = slider_body("slide", "8 kg", "[0, 0, 1]") + element("rod", "connecting rod",
+                                                                              {{"from", "wheel"},
+                                                                               {"to", "slide"},
+                                                                               {"crank_radius", "20 mm"},
+                                                                               {"length", "300 mm"},
+                                                                               {"stiffness", "2 kN/mm"},
+                                                                               {"damping", "3 kN s/m"}});
 
 PeriodicResult by(const std::string &method, const std::string &text)
 {
@@ -97,9 +97,8 @@ TEST(GearedRotors, ACrankBehindABeltHasTheExtremesToWhichARunSettles)
   {
     const apps::SignalOrbit &signal = entry.signals[k];
     const double             size   = signal.max - signal.min; // rows of 0.2 ms miss an extreme by a thousandth of it
-    EXPECT_NEAR(signal.max, largest_of(motion, signal.name + " [" + signal.unit + "]", 6.), 1e-3 * size) << signal.name;
-    EXPECT_NEAR(signal.min, largest_of(motion, signal.name + " [" + signal.unit + "]", 6., true), 1e-3 * size)
-        << signal.name;
+    EXPECT_NEAR(signal.max, largest_of(motion, signal.name, 6.), 1e-3 * size) << signal.name;
+    EXPECT_NEAR(signal.min, largest_of(motion, signal.name, 6., true), 1e-3 * size) << signal.name;
   }
 }
 
@@ -108,7 +107,7 @@ TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
 {
   const std::string text =
       rotor_body("motor", "0.02 kg m^2", "[0, 1, 0]") + rotor_body("wheel", "0.4 kg m^2", "[0, 1, 0]") +
-      joint("gear", "sum", {{"terms", "[{ of = 'motor' }, { of = 'wheel', factor = -3.7 }]"}}) +
+      joint("gear", "gear", {{"from", "motor"}, {"to", "wheel"}, {"ratio", "1/3.7"}}) +
       element("drive", "formula force",
               {{"from", "motor"}, {"to", "ground"}, {"about", "[0, 1, 0]"}, {"force", "40 N*m - 0.3 N*m*s/rad*v"}}) +
       element("load", "spring-damper", {{"from", "wheel"}, {"about", "[0, 1, 0]"}, {"damping", "0.3 N m s/rad"}}) +
@@ -120,13 +119,14 @@ TEST(GearedRotors, AnIdealGearOfAnyRatioIsFoundInItsJoint)
   EXPECT_NEAR(std::abs(result.entries[0].signals[0].mean), w, 1e-5 * w);
 }
 
-/// q of an interface whose row is that of -ux: the values by the names of coordinates are those of signals, and a start.
+/// q of an interface whose row is that of -ux: the values by the names of coordinates are those of signals, and a
+/// start.
 TEST(NamesOfCoordinates, MeanTheMotionWhereAFrameHasItsOppositeSign)
 {
   const std::string text =
       "[frame]\nmass = [[2.0, 0.0], [0.0, 1.0]]\ndamping = [[0.06, -0.02], [-0.02, 0.04]]\n"
       "stiffness = [[3.0, -1.0], [-1.0, 2.0]]\n" +
-      table("frame.interface.one", {{"rows", "{ ux = -1 }"}, {"position", "[0, 0, 0]"}}) +
+      table("frame.interface.one", {{"rows", "{ '-ux' = 1 }"}, {"position", "[0, 0, 0]"}}) +
       element("cubic", "cubic spring",
               {{"from", "frame.one"}, {"to", "ground"}, {"direction", "[1, 0, 0]"}, {"cubic", "0.5"}}) +
       cosine_load("frame.one", 0.8, 1.3) + test::quoted("[output.signals]\nx = 'frame.one.ux'\n");
@@ -146,10 +146,10 @@ TEST(NamesOfCoordinates, MeanTheMotionWhereAFrameHasItsOppositeSign)
   }
   // All of them are a start, from which the machine stays on the motion.
   PeriodicRequest here;
-  here.method                = "shooting";
-  here.lead_in               = 0;
-  const PeriodicResult again = periodic_of(
-      text + test::quoted("[start]\nrule = 'given'\nq = { " + q + " }\nv = { " + v + " }\n"), here);
+  here.method  = "shooting";
+  here.lead_in = 0;
+  const PeriodicResult again =
+      periodic_of(text + test::quoted("[start]\nrule = 'given'\nq = { " + q + " }\nv = { " + v + " }\n"), here);
   ASSERT_EQ(again.entries.size(), 1u) << again.failure;
   EXPECT_EQ(again.entries[0].solution.work.iterations, 0);
   EXPECT_LT((again.entries[0].solution.q - entry.solution.q).norm(), 1e-12);
