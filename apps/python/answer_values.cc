@@ -29,10 +29,13 @@ py::array_t<double> table(const std::vector<double> &values, std::size_t columns
   return py::array_t<double>({py::ssize_t(rows), py::ssize_t(columns)}, values.data());
 }
 
-py::dict motion_values(const apps::PeriodicEntry &entry)
+/// @param signs  of coordinates, against their names
+py::dict motion_values(const apps::PeriodicEntry &entry, const Eigen::VectorXd &signs)
 {
-  const coupling::PeriodicSolution &s = entry.solution;
-  py::dict                          signals;
+  const coupling::PeriodicSolution &s     = entry.solution;
+  const auto                        named = [&](const Eigen::VectorXd &x)
+  { return x.size() == signs.size() ? Eigen::VectorXd(signs.cwiseProduct(x)) : x; };
+  py::dict signals;
   for (const apps::SignalOrbit &signal : entry.signals)
     signals[py::str(signal.name)] =
         py::dict("unit"_a = signal.unit, "max"_a = signal.max, "min"_a = signal.min, "mean"_a = signal.mean,
@@ -45,8 +48,8 @@ py::dict motion_values(const apps::PeriodicEntry &entry)
   for (const apps::SignalOrbit &signal : entry.signals)
     names.append(signal.name);
   return py::dict("period"_a = s.period, "begin"_a = s.begin, "ratio"_a = s.ratio, "kind"_a = apps::kind_of(s),
-                  "residual"_a = s.residual, "stable"_a = stable, "multipliers"_a = s.multipliers, "q"_a = s.q,
-                  "v"_a = s.v, "method"_a = s.method, "notes"_a = s.notes, "branch"_a = entry.branch,
+                  "residual"_a = s.residual, "stable"_a = stable, "multipliers"_a = s.multipliers, "q"_a = named(s.q),
+                  "v"_a = named(s.v), "method"_a = s.method, "notes"_a = s.notes, "branch"_a = entry.branch,
                   "parameter"_a = entry.parameter, "signals"_a = signals, "columns"_a = names,
                   "orbit"_a = table(entry.rows, entry.signals.size() + 1));
 }
@@ -79,11 +82,17 @@ py::dict rung_values(const apps::SizeRung &rung)
 
 py::dict periodic_values(const apps::PeriodicResult &found)
 {
-  py::list motions, points, backbone;
+  py::list        motions, points, backbone, coordinates;
+  Eigen::VectorXd signs(Eigen::Index(found.coordinates.size()));
+  for (std::size_t i = 0; i < found.coordinates.size(); ++i)
+  {
+    coordinates.append(found.coordinates[i].name);
+    signs[Eigen::Index(i)] = found.coordinates[i].sign;
+  }
   for (const apps::PeriodicEntry &entry : found.entries)
-    motions.append(motion_values(entry));
+    motions.append(motion_values(entry, signs));
   for (const apps::PeriodicEntry &entry : found.backbone)
-    backbone.append(motion_values(entry));
+    backbone.append(motion_values(entry, signs));
   for (const apps::SpecialPoint &point : found.special_points)
     points.append(py::dict("kind"_a = point.kind, "parameter"_a = point.parameter, "period"_a = point.period,
                            "motion"_a = point.solution - 1));
@@ -92,7 +101,7 @@ py::dict periodic_values(const apps::PeriodicResult &found)
     checks[py::str(check.method)] =
         py::dict("distances"_a = py::dict(py::cast(check.distances)), "failure"_a = check.failure);
   return py::dict("method"_a = found.method, "reason"_a = found.reason, "parameter"_a = found.parameter,
-                  "unit"_a = found.parameter_unit, "coordinates"_a = found.coordinates, "motions"_a = motions,
+                  "unit"_a = found.parameter_unit, "coordinates"_a = coordinates, "motions"_a = motions,
                   "special_points"_a = points, "backbone"_a = backbone, "checks"_a = checks, "notes"_a = found.notes);
 }
 

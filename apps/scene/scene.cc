@@ -207,7 +207,7 @@ StartRequest read_start(const SceneTable &scene, const Names &names, const Scene
   if (start.steady.angles.size() != (start.steady.driver.empty() ? 0u : 1u))
     throw table.error("gives " + std::to_string(start.steady.angles.size()) + " angles and " +
                       (start.steady.driver.empty() ? "no driver" : "a driver") +
-                      "; a given angle replaces the balance of the driver, so give one of both, or none");
+                      "; a given angle replaces the balance of the driver, so give one of each, or neither");
   return start;
 }
 

@@ -36,7 +36,7 @@ void check_driver(const SteadyStart &start, const Kinematics &kinematics)
   if (n_given != (kinematics.driver >= 0 ? 1 : 0))
     throw std::invalid_argument("start: " + std::to_string(n_given) + " angles are given and " +
                                 (start.driver.empty() ? "no driver" : "one driver") +
-                                "; each given angle replaces the balance of one driver, so give one of both, or none");
+                                "; each given angle replaces the balance of one driver, so give one of each, or neither");
 }
 
 Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
@@ -198,6 +198,8 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
         "speed of what drives as q and v instead, and the joints make the rest");
   const Kinematics  kinematics = kinematics_of(machine, start);
   InitialState      state      = kinematics.state;
+  if (std::count(kinematics.given.begin(), kinematics.given.end(), false) == 0)
+    return state;
   DrivenEquilibrium equilibrium(machine, kinematics);
 
   Eigen::VectorXd balance = equilibrium.residual(state.q);

@@ -115,6 +115,9 @@ namespace
 /// Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge of h
 /// of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
 constexpr double facets_off = 0.25;
+/// A place in millimetres without a unit is off by a thousand; brackets carry loads over some times the size of their
+/// faces.
+constexpr double lever = 10.;
 
 } // namespace
 
@@ -161,7 +164,7 @@ std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &inte
     const double                  off =
         is_mass ? (coupled.position - coupled.patch.centroid).norm() : box.exteriorDistance(Vector3d(coupled.position));
     const double size = is_mass ? distance : box.sizes().maxCoeff();
-    if (off <= size)
+    if (off <= (is_mass ? 1. : lever) * size)
       continue;
     std::ostringstream text;
     text << own.what << " \"" << own.name << "\" stands at " << metres(coupled.position) << ", " << off

@@ -180,7 +180,8 @@ const KlossMotor *motor_of(const ElementRequest &element)
   return dynamic ? &dynamic->stationary() : law_of<KlossMotor>(element);
 }
 
-/// From rest to the synchronous speed with the breakdown torque: J Omega / (i^2 M_K).
+/// From rest to the synchronous speed with the breakdown torque: J Omega / (i^2 M_K).  Behind joints more turns than
+/// the shaft itself, so that no time is too short there.
 void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings &warnings)
 {
   for (const coupling::ElementPlacement &placement : machine.model().elements())
@@ -190,7 +191,7 @@ void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings
         const auto  &own  = motor->parameters();
         const double J    = coupling::mass_on(machine, placement.measures.front());
         const double time = J * std::abs(own.synchronous_speed) / (own.ratio * own.ratio * own.breakdown_torque);
-        if (J > 0. && (time < quickest || time > slowest))
+        if (J > 0. && ((time < quickest && !coupling::has_joints(machine)) || time > slowest))
           warnings.push_back(key_place(scene, element.name, "breakdown_torque") + "with ratio " +
                              short_text(own.ratio) + " accelerates the " + short_text(J) +
                              " kg m^2 of its shaft to the synchronous speed within " + short_text(time) +
