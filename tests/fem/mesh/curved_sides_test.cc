@@ -102,7 +102,7 @@ TEST(CurvedSides, MassThatStraightSidesAddOrMissIsNotedWithTheRemedy)
                                           HasSubstr("curved = true"))));
   s.mesh.curved = true;
   EXPECT_THAT(make_mesh(s).notes, Not(Contains(HasSubstr("mass than the geometry"))));
-  EXPECT_THAT(mesh_of_tube(0.01, false).notes, Contains(HasSubstr("less mass than the geometry")));
+  EXPECT_THAT(mesh_of_tube(0.02, false).notes, Contains(HasSubstr("less mass than the geometry")));
 }
 
 TEST(CurvedSides, KeepRigidMotionsFreeOfEnergy)
