@@ -20,6 +20,7 @@ namespace gestell::apps
 namespace
 {
 
+constexpr double softest     = 0.05; ///< [m] tyres and rubber mounts of any machine yield by centimetres
 constexpr double most_strain = 0.02; ///< of rod or machine: metal yields below 0.005, tyres and rubber take some 0.01
 constexpr double most_twist  = 0.5;  ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
 constexpr double most_turns  = 4. * M_PI; ///< [rad] of a torsion spring on the ground
@@ -198,14 +199,15 @@ std::string RunMagnitudes::judged(const Watched &watched, const std::string &uni
   {
   case Kind::deformation:
   {
-    const bool   turns = unit == "N m";
-    const double most = turns ? most_twist : most_strain * size_of(watched.object), e = value.largest() / watched.scale;
+    const bool   turns       = unit == "N m";
+    const double most        = turns ? most_twist : std::max(softest, most_strain * size_of(watched.object)),
+                 e           = value.largest() / watched.scale;
     const std::string result = turns ? "rad" : "m";
-    if (most > 0. && e > most)
+    if ((turns || size_of(watched.object) > 0.) && e > most)
       return place("stiffness") + "yields by " + amount(e, result) + " under its largest force of " +
              amount(value.largest(), unit) + at(value.t_largest()) + "; expected: at most " + amount(most, result) +
              (turns ? ", as highly elastic couplings do"
-                    : ", " + short_text(most_strain) + " of the length of the rod or the size of the machine") +
+                    : ", or " + short_text(most_strain) + " of the length of the rod or the size of the machine") +
              "; check the units of its stiffness and of masses and loads";
     return "";
   }

@@ -45,6 +45,9 @@ double result_window(const Scene &scene, const coupling::Machine &machine, const
     return run.from;
   const double length = run.end - run.begin;
   double       period = period_of_loads(machine);
+  if (period == 0. && !machine.linear().excitation().harmonics().empty())
+    throw std::invalid_argument(scene.run.place + ": output.from = \"last period\", but the loads have no common "
+                                                  "period; give the time instead, as in output.from = \"1 s\"");
   if (period == 0.)
     period = slowest_revolution(machine, initial, length);
   if (period == 0.)
