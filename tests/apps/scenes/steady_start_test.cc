@@ -94,6 +94,15 @@ stiffness = )" + std::to_string(k) +
   }
 }
 
+TEST(SteadyStart, OfARotorAtAGivenAngleLeavesNothingToSolve)
+{
+  const auto motion = run(rotor_body("fan", "0.5", "[0, 0, 1]") +
+                          start("rule = 'steady'\ndriver = 'fan'\nangles = { fan = 0.5 }\nspeeds = { fan = 3.0 }") +
+                          steps("1 ms", "1 ms") + signals("a = 'fan.angle', w = 'fan.speed'"));
+  EXPECT_EQ(first(motion, 1), 0.5);
+  EXPECT_EQ(first(motion, 2), 3.);
+}
+
 TEST(SteadyStart, RefusesSpeedsThatJointsMakeDependOnEachOther)
 {
   const auto starts = [](const std::string &state)
