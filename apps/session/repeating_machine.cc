@@ -159,8 +159,8 @@ std::string held_angles(const coupling::AngleInvariance &invariance, const Vecto
   for (const coupling::AngleDependence &d : invariance.dependences())
     for (std::size_t k = 0; k < invariance.angles().size(); ++k)
       if (const int i = invariance.angles()[k]; d.turns == 0 && d.of[Eigen::Index(k)] != 0. && speed[i] != 0.)
-        return "; " + machine.coordinate_name(i) + " does not come round, as " + d.element +
-               " depends on it and repeats after no number of turns";
+        return "; " + machine.coordinate_name(i) + " is treated as oscillating: the force of " + d.element +
+               " depends on it and is not periodic in it";
   return "";
 }
 
@@ -258,7 +258,8 @@ std::string turn(const Scene &scene, coupling::Machine &machine, const coupling:
                                                      : "; such a motion never repeats: look at the spectra of a run"));
   if (const std::string element = invariance.changed_by(of_angles(found.turn, turning.angles)); !element.empty())
     throw std::invalid_argument(scene.file + ": the force of " + element +
-                                " is another after the turns of a period; look at the spectra of a run instead");
+                                " does not repeat after one period, so there is no periodic solution; run the scene "
+                                "and examine its spectra");
   problem.turn = found.turn;
   problem.free = found.free;
   if (!(problem.period > 0.) && found.phase >= 0)
@@ -324,8 +325,8 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
     oscillate_freely(scene, machine, repeating);
   repeating.reason += held;
   if (problem.has_free_shifts())
-    repeating.reason += "; nothing depends on the angle of " + names_of_moving(machine, problem.free) +
-                        ", which turns as far in a period as the motion makes it";
+    repeating.reason += "; the angle of " + names_of_moving(machine, problem.free) +
+                        " is free (no force depends on it): its increment per period is part of the solution";
   problem.period *= request.ratio;
   problem.turn *= request.ratio;
   return repeating;
