@@ -106,8 +106,20 @@ void CompliantJoint::geometric(const LocalMotion &motion, const double *, double
 {
   Seen seen;
   see(motion.u, motion.v, seen);
-  for (int i = 0; i < n_equations(); ++i)
-    PlacedMeasure{first_, second_, equations_[i].demand.measure}.add_curvature(motion.u, -seen.lambda[i], K);
+  const int k = n_measures();
+  for (int e = 0; e < n_equations(); ++e)
+  {
+    double S[PlacedMeasure::max_measures * PlacedMeasure::max_measures] = {}; // s''
+    PlacedMeasure{first_, second_, equations_[e].demand.measure}.add_curvature(motion.u, 1., S);
+    for (int j = 0; j < k; ++j)
+    {
+      double turned = 0.; // of s' by u_j
+      for (int i = 0; i < k; ++i)
+        turned += S[i + k * j] * motion.v[i];
+      for (int i = 0; i < k; ++i)
+        K[i + k * j] += equations_[e].damping * seen.G[i + k * e] * turned - seen.lambda[e] * S[i + k * j];
+    }
+  }
 }
 
 double CompliantJoint::stored_energy(const LocalMotion &motion, const double *) const
@@ -144,12 +156,21 @@ double CompliantJoint::quantity(int i, const LocalMotion &motion, const double *
   Seen seen;
   see(motion.u, motion.v, seen);
   if (i < n_equations())
-    return seen.lambda[i];
+    return equations_[i].told_as_described ? along_as_described(i, motion.u, seen) : seen.lambda[i];
   double sum = 0.;
   for (int j = 0; j < n_equations(); ++j)
     if (equations_[j].demand.unit == "N")
       sum += seen.lambda[j] * seen.lambda[j];
   return std::sqrt(sum);
+}
+
+double CompliantJoint::along_as_described(int i, const double *u, const Seen &seen) const
+{
+  double force = 0.;
+  for (int j = 0; j < n_equations(); ++j)
+    if (equations_[j].told_as_described)
+      force += seen.lambda[j] * equations_[i].demand.measure.a.dot(first_.direction(equations_[j].demand.measure.a, u));
+  return force;
 }
 
 RelativeMeasure::Value CompliantJoint::opening(int i, const double *u, const double *v, double *gradient) const

@@ -19,6 +19,10 @@ namespace gestell::mechanism
  * of all its relative measures s_i.  lambda_i has the meaning of an ideal joint's multiplier, the force [N] (torque
  * [N m]) that drives s_i up, and tends to it as k grows.  1/2 k s^2 is stored, d s'^2 dissipated.
  *
+ * With an s along an axis that body 1 carries, lambda depends on the motion of body 2 as body 1 sees it alone, and G
+ * holds the moment that the force has about body 1: bodies that turn together are not braked.  Along an axis fixed in
+ * space damping brakes their turning by d s^2 omega.
+ *
  * The tangent holds G, as that of a TransmittedElement does; geometric() is the rest of it.
  *
  * Source: docs/theory/joints.md (11).
@@ -32,6 +36,9 @@ public:
     IdealJoint::Equation demand;
     double               stiffness = 0.; ///< k [N/m, N m/rad], >= 0
     double               damping   = 0.; ///< d [N s/m, N m s/rad], >= 0
+    /// Of `along` an axis that body 1 carries: the signal is the force along the axis as described, to which all such
+    /// equations add.
+    bool told_as_described = false;
   };
 
   static constexpr int max_equations = 6;
@@ -54,7 +61,7 @@ public:
   double stored_energy(const LocalMotion &motion, const double *history) const override;
   double stored_power(const LocalMotion &motion, const double *history) const override;
 
-  /// Signals as those of the ideal joint: every lambda by the name of its equation, then "resultant".
+  /// Signals as those of the ideal joint: every force by the name of its equation, then "resultant".
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
@@ -70,6 +77,7 @@ private:
     double G[max_equations * PlacedMeasure::max_measures];
   };
   void see(const double *u, const double *v, Seen &seen) const;
+  double along_as_described(int i, const double *u, const Seen &seen) const;
   /// p = G^T lambda
   void spread(const Seen &seen, double *p) const;
   /// matrix = sum_i c_i G_i^T G_i, c_i = w_k k_i + w_d d_i

@@ -119,6 +119,65 @@ TEST(CompliantJoint, TangentAndGeometricStiffnessAreTheDerivativeOfTheForce)
       });
 }
 
+// In motion a rate turns with the axis it is taken along, too.
+TEST(CompliantJoint, InMotionBothAreTheDerivativeOfTheForce)
+{
+  constexpr double h = 1e-5;
+  for_all_pairs(
+      [&](const CompliantJoint &joint, const Motion &motion)
+      {
+        const int n = joint.n_measures();
+        VectorXd  p(n);
+        MatrixXd  dp_du(n, n), dp_dv(n, n), geometric(n, n);
+        joint.derivatives(motion.local(), nullptr, p.data(), dp_du.data(), dp_dv.data());
+        mechanism::geometric(joint, motion.local(), nullptr, geometric.data());
+        const MatrixXd whole = dp_du - geometric;
+        for (int j = 0; j < n; ++j)
+        {
+          const VectorXd step   = h * VectorXd::Unit(n, j);
+          const VectorXd change = force(joint, motion.u + step, motion.v) - force(joint, motion.u - step, motion.v);
+          EXPECT_LT((whole.col(j) - change / (2. * h)).cwiseAbs().maxCoeff(), 1e-8 * whole.cwiseAbs().maxCoeff()) << j;
+        }
+      });
+}
+
+/// Rates of a body with its centre of mass c that turns with w about y about the origin.
+VectorXd turning(const Vector3d &c, const VectorXd &u, double w)
+{
+  return Vector3d(w * (c.z() + u[1]), -w * (c.x() + u[0]), w);
+}
+
+// Forces that depend on what the first body sees of the second, and balance each other: turning both alike changes no
+// force, and no such motion has any power.
+TEST(CompliantJoint, OnAxesOfTheFirstBodyBrakesNothingThatTurnsAsAWhole)
+{
+  using Carrier                                       = RelativeMeasure::Carrier;
+  const std::vector<Placement::LinearMeasure> plane   = {{Vector3d::UnitX(), Vector3d::Zero()},
+                                                         {Vector3d::UnitZ(), Vector3d::Zero()}};
+  const Vector3d                              c_1     = Vector3d(0.1, 0., -0.2), c_2(0.9, 0., 0.3);
+  const auto                                  between = [&](Carrier carrier)
+  {
+    std::vector<CompliantJoint::Equation> equations(2);
+    for (const int i : {0, 1})
+    {
+      equations[i]                        = {{}, 3e4, 50.};
+      equations[i].demand.measure.a       = i == 0 ? Vector3d::UnitX() : Vector3d::UnitZ();
+      equations[i].demand.measure.carrier = carrier;
+    }
+    return CompliantJoint({point, c_1, plane, Vector3d::UnitY()}, {point, c_2, plane, Vector3d::UnitY()}, equations);
+  };
+  const Motion motion(6);
+  VectorXd     whole(6);
+  whole << turning(c_1, motion.u.head(3), 7.), turning(c_2, motion.u.tail(3), 7.);
+  const CompliantJoint carried = between(Carrier::first), fixed = between(Carrier::space);
+  const VectorXd       p = force(carried, motion.u, motion.v);
+  EXPECT_LT((force(carried, motion.u, motion.v + whole) - p).norm(), 1e-13 * p.norm());
+  EXPECT_LT(std::abs(p.dot(whole)), 1e-13 * p.norm() * whole.norm());
+  EXPECT_GT((force(fixed, motion.u, motion.v + whole) - p).norm(), 1e-3 * p.norm()); // those of axes fixed in space do
+  for (const int x : {0, 1})
+    EXPECT_NEAR(p[x] + p[3 + x], 0., 1e-13 * p.norm());
+}
+
 // p depends on v linearly: the quotient is exact but for rounding.
 TEST(CompliantJoint, DampingIsTheDerivativeByTheRates)
 {

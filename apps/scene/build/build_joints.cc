@@ -18,16 +18,41 @@ namespace
 using mechanism::CompliantJoint;
 using mechanism::IdealJoint;
 using mechanism::RelativeMeasure;
+using Carrier = RelativeMeasure::Carrier;
+
+/// What carries the directions of a point that yields.  One stiffness is the same along any axes; a damper must not
+/// brake what turns with the body it is on.
+Carrier carrier_of(const JointRequest &joint, const Pair &pair)
+{
+  using coupling::BodyKind;
+  if (!joint.compliance || joint.compliance->directed)
+    return joint.compliance ? Carrier::first : Carrier::space;
+  const coupling::Body *first = pair.on_first;
+  const bool            turns =
+      first && (first->kind == BodyKind::rotor || first->kind == BodyKind::planar || first->kind == BodyKind::rigid);
+  const bool damped = joint.compliance->damping != Vector3{};
+  return turns && damped ? Carrier::first : Carrier::space;
+}
+
+/// Whether it holds two places together: its forces are told along axes fixed in space.
+bool holds_point(JointType type)
+{
+  return type == JointType::revolute || type == JointType::spherical || type == JointType::universal ||
+         type == JointType::rigid;
+}
 
 /// The equations of a joint, each with what keeps it closed.
-std::vector<CompliantJoint::Equation> yielding(const ComplianceRequest                 &compliance,
+std::vector<CompliantJoint::Equation> yielding(const JointRequest                      &joint,
                                                const std::vector<IdealJoint::Equation> &equations)
 {
+  const ComplianceRequest              &compliance = *joint.compliance;
   std::vector<CompliantJoint::Equation> all;
   bool                                  turns = false;
   for (const IdealJoint::Equation &demand : equations)
   {
     CompliantJoint::Equation equation{demand, 0., 0.};
+    equation.told_as_described =
+        demand.unit == "N" && demand.measure.carrier == Carrier::first && holds_point(joint.type);
     if (demand.unit == "N")
       for (int d = 0; d < 3; ++d)
       {
@@ -190,18 +215,16 @@ void add_joint(coupling::MachineModel &machine, const JointRequest &joint)
   }
   const Pair     pair(machine, joint.from, joint.to);
   const bool     directed = joint.compliance && joint.compliance->directed;
-  JointEquations equations(pair, directed);
+  JointEquations equations(pair, directed, carrier_of(joint, pair));
   demand(joint, pair, equations);
   if (equations.list.empty())
     throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
-  if (directed)
-    equations.turn_with_first();
   Pair felt = pair;
   equations.leave_out_idle(felt);
   if (joint.compliance)
   {
     equations.join_translations(felt);
-    auto held = yielding(*joint.compliance, equations.list);
+    auto held = yielding(joint, equations.list);
     take_as_measures(felt, held);
     machine.attach(joint.name, std::make_shared<CompliantJoint>(felt.first, felt.second, std::move(held)),
                    felt.measures);

@@ -143,7 +143,7 @@ void JointEquations::coincide()
 {
   int number = 0;
   for (const Vector3d &a : directions())
-    along(a, Carrier::space, "f" + axis_name(a, ++number), 0.);
+    along(a, held_by_, "f" + axis_name(a, ++number), 0.);
 }
 
 void JointEquations::on_line(const Vector3d &axis, std::optional<double> distance)
@@ -288,13 +288,6 @@ void JointEquations::gear(double factor)
   if (equation.unit == "N")
     equation.name = "force";
   list.push_back(equation);
-}
-
-void JointEquations::turn_with_first()
-{
-  for (IdealJoint::Equation &equation : list)
-    if (equation.measure.form == Form::along && equation.measure.carrier == Carrier::space)
-      equation.measure.carrier = Carrier::first;
 }
 
 void JointEquations::leave_out_idle(Pair &pair)

@@ -28,7 +28,10 @@ class JointEquations
 {
 public:
   /// @param on_global_axes  directions are these as far as the bodies let: what yields has a stiffness along each
-  explicit JointEquations(const Pair &pair, bool on_global_axes = false) : pair_(pair), on_global_axes_(on_global_axes)
+  /// @param held_by         what carries the directions along which two places stay together
+  explicit JointEquations(const Pair &pair, bool on_global_axes = false,
+                          mechanism::RelativeMeasure::Carrier held_by = mechanism::RelativeMeasure::Carrier::space)
+      : pair_(pair), on_global_axes_(on_global_axes), held_by_(held_by)
   {
   }
 
@@ -50,9 +53,6 @@ public:
   void distance(const JointRequest &joint);
   /// The coordinate of body 2 is `factor` times that of body 1: angle of a rotor, displacement of a slider ...
   void gear(double factor);
-
-  /// Directions fixed in space turn with the first body instead.
-  void turn_with_first();
 
   /// Leaves out the measures that none of the equations feels in any position, such as those across the plane of a
   /// mechanism: the fewer there are, the cheaper is a step.
@@ -78,6 +78,7 @@ private:
 
   const Pair &pair_;
   bool        on_global_axes_;
+  Carrier     held_by_;
 };
 
 } // namespace gestell::apps
