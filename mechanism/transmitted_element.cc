@@ -169,13 +169,28 @@ void TransmittedElement::open_branch(const double *u, double *K, double *D) cons
 void TransmittedElement::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
   const Seen seen = see(motion, history);
-  double     P[max_of_law], own[CombinedMeasure::max_measures * CombinedMeasure::max_measures] = {};
-  law_->force(seen.motion(motion), history, P);
-  const int k = n_motions(), n = n_measures();
-  for (int i = 0; i < n_seen(); ++i)
-    measures_[i].add_curvature(motion.u, -P[i], own, of_function(motion, history));
-  for (int j = 0; j < k; ++j)
-    std::copy_n(own + k * j, k, K + n * j);
+  const int  k = n_motions(), n = n_measures(), n_law = law_->n_measures();
+  double     P[max_of_law], of_s[max_of_law * max_of_law], of_rate[max_of_law * max_of_law];
+  law_->derivatives(seen.motion(motion), history, P, of_s, of_rate);
+  for (int b = 0; b < n_seen(); ++b)
+  {
+    double S[CombinedMeasure::max_measures * CombinedMeasure::max_measures] = {}; // s_b''
+    measures_[b].add_curvature(motion.u, 1., S, of_function(motion, history));
+    for (int j = 0; j < k; ++j)
+    {
+      double turned = 0., column[CombinedMeasure::max_measures + max_virtual]; // of s_b' by u_j
+      for (int i = 0; i < k; ++i)
+      {
+        K[i + n * j] -= P[b] * S[i + k * j];
+        turned += S[i + k * j] * motion.v[i];
+      }
+      if (turned == 0.)
+        continue;
+      spread(seen, of_rate + n_law * b, column);
+      for (int i = 0; i < n; ++i)
+        K[i + n * j] -= column[i] * turned;
+    }
+  }
 }
 
 void TransmittedElement::accept(const LocalMotion &motion, double *history) const

@@ -17,7 +17,8 @@ namespace gestell::mechanism
  *
  * Measures of the law behind these are virtual coordinates, taken over as they are.  Everything else (history,
  * events, energy, quantities) is the law's, and the kinks of a position function in s are events too.  The tangent
- * holds G: how it turns within a Newton step is of the order of h^2 P/(m |d|) against 1.
+ * holds G: how it turns within a Newton step is of the order of h^2 P/(m |d|) against 1.  geometric() is the rest,
+ * -dp/du of the G in p and in s' alone.
  *
  * The law must not hold its measure (true sticking): a held measure has a constant direction.
  *

@@ -1,6 +1,7 @@
 #include "coupling/periodic/shift_invariance.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/integration/system/turning_forces.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -207,7 +208,7 @@ void AngleInvariance::look_at_laws()
   {
     system_.events().start(state);
     p_u.setZero();
-    system_.forces().derivatives(state, p, p_u, p_v);
+    linearise(system_.forces(), state, p, p_u, p_v);
     if (g.size() > 0)
       joints.constraints(state, g, G);
     for (Law &law : laws_)

@@ -61,8 +61,8 @@ void FollowerLoad::tangent(const LocalMotion &motion, const double *history, con
 namespace
 {
 
-/// factor e . d^2x/du_i du_j at a direction e that is held, added to the matrix.
-void add_bending(const Placement &point, const Vector3d &e, const double *u, double factor, double *matrix)
+/// e . d^2x/du_i du_j at a direction e that is held, added to the matrix.
+void add_bending(const Placement &point, const Vector3d &e, const double *u, double *matrix)
 {
   const auto bias = [&](const double *v)
   {
@@ -70,7 +70,7 @@ void add_bending(const Placement &point, const Vector3d &e, const double *u, dou
     point.position(u, v, x);
     return e.dot(x.bias);
   };
-  add_polarised<Placement::max_measures>(point.n_measures(), bias, factor, matrix);
+  add_polarised<Placement::max_measures>(point.n_measures(), bias, 1., matrix);
 }
 
 } // namespace
@@ -78,16 +78,24 @@ void add_bending(const Placement &point, const Vector3d &e, const double *u, dou
 void FollowerLoad::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
   const Seen seen = see(motion);
-  double     P;
-  law_->force(seen.motion(motion), history, &P);
+  const int  k    = n_measures();
+  double     P, dP, turn[Placement::max_measures * Placement::max_measures] = {}; // dG_i/du_j
+  law_->tangent(seen.motion(motion), history, {0., 1., 0.}, &P, &dP);
   Placement::MovedVector x, e;
   point_.position(motion.u, nullptr, x);
   point_.direction(e_, motion.u, nullptr, e);
-  const int k = n_measures();
-  add_bending(point_, e.value, motion.u, -P, K);
+  add_bending(point_, e.value, motion.u, turn);
   for (int j = 0; j < k; ++j)
+  {
+    double of_rate = 0.; // e . x' = G u'
     for (int i = 0; i < k; ++i)
-      K[i + k * j] -= P * e.J.col(j).dot(x.J.col(i));
+    {
+      turn[i + k * j] += e.J.col(j).dot(x.J.col(i));
+      of_rate += turn[i + k * j] * motion.v[i];
+    }
+    for (int i = 0; i < k; ++i)
+      K[i + k * j] -= P * turn[i + k * j] + dP * seen.G[i] * of_rate;
+  }
 }
 
 void FollowerLoad::guard_values(const LocalMotion &motion, const double *history, double *g) const

@@ -17,9 +17,10 @@ namespace gestell::mechanism
  * Such a load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step; geometric() is the
  * rest,
  *
- *     K_ij = -P (de/du_j . dx/du_i + e . d^2x/du_i du_j),
+ *     K_ij = -P T_ij - dP/ds' G_i sum_l T_lj u_l',     G_i = e . dx/du_i,
+ *     T_ij = dG_i/du_j = de/du_j . dx/du_i + e . d^2x/du_i du_j,
  *
- * whose first term is not symmetric: such a load may excite a flutter.
+ * whose first term of T is not symmetric: such a load may excite a flutter.
  *
  * Source: docs/theory/joints.md (5a).
  */

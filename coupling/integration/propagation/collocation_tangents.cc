@@ -1,5 +1,7 @@
 #include "coupling/integration/propagation/collocation_step.h"
 
+#include "coupling/integration/system/turning_forces.h"
+
 namespace gestell::coupling
 {
 
@@ -51,7 +53,7 @@ void CollocationStep::linearise_forces()
     node_.u = U_.col(i + 1);
     node_.v = V_.col(i + 1);
     node_.p = P_.segment(i * n_u_, n_u_);
-    context_.system->forces().derivatives(node_, node_.p, dp_du_, dp_dv_);
+    linearise(context_.system->forces(), node_, node_.p, dp_du_, dp_dv_);
     at.all_of_u.middleCols(i * n_u_, n_u_) = dp_du_;
     at.all_of_v.middleCols(i * n_u_, n_u_) = dp_dv_;
   }

@@ -1,5 +1,7 @@
 #include "coupling/integration/propagation/modal_propagation.h"
 
+#include "coupling/integration/system/turning_forces.h"
+
 namespace gestell::coupling
 {
 
@@ -44,7 +46,7 @@ LocalTangents ModalPropagation::local_tangents_of(const MatrixXd &X)
   local.v               = context_.measures.read_v.transpose() * X;
   MatrixXd        dp_du = MatrixXd::Zero(n_u, n_u), dp_dv = dp_du;
   Eigen::VectorXd p = local_.p;
-  system_.forces().derivatives(local_, p, dp_du, dp_dv);
+  linearise(system_.forces(), local_, p, dp_du, dp_dv);
   ++context_.work.evaluations;
   local.p = dp_du * local.u + dp_dv * local.v;
   context_.accelerate_tangents(X, local_.t, local);

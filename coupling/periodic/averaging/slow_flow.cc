@@ -1,6 +1,7 @@
 #include "coupling/periodic/averaging/slow_flow.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/integration/system/turning_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@ using Eigen::VectorXd;
 
 constexpr int    rest_iterations = 100, mean_iterations = 500;
 constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
+constexpr double symmetric     = 1e-9; ///< C - C^T beside C that moves the answer less than averaging itself errs
 constexpr double reach         = 1e3;  ///< of amplitudes searched, below that of the linear system
 constexpr double beyond        = 10.;  ///< the same above its amplitude in resonance
 constexpr double least_damping = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
@@ -69,7 +71,7 @@ void SlowFlow::find_rest()
     if (k == 0)
       problem_.system->events().start(state);
     if (W_.cols() > 0)
-      system.forces().derivatives(state, state.p, dp_du, dp_dv);
+      linearise(system.forces(), state, state.p, dp_du, dp_dv);
     linear_C_           = C_ - W_ * dp_du * W_.transpose();
     const VectorXd step = lu_solution(linear_C_, load + W_ * state.p - C_ * rest_);
     if (!step.allFinite())
@@ -117,6 +119,10 @@ double SlowFlow::nearness(int mode, const VectorXd &omega, const MatrixXd &shape
 
 void SlowFlow::find_mode(int mode)
 {
+  if ((linear_C_ - linear_C_.transpose()).cwiseAbs().maxCoeff() > symmetric * linear_C_.cwiseAbs().maxCoeff())
+    refuse_averaging(
+        "forces follow the motion (loads with carried_by, friction under a load that moves), so that it has "
+        "no modes at right angles to each other to be averaged in; take shooting or harmonic-balance");
   const SymmetricPencilSolver modes(0.5 * (linear_C_ + linear_C_.transpose()), M_);
   if (!modes.converged())
     refuse_averaging("the modes of the base system were not found: its mass matrix is singular");

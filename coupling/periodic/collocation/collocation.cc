@@ -1,6 +1,7 @@
 #include "coupling/periodic/collocation/collocation.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/integration/system/turning_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -275,7 +276,7 @@ void PeriodicCollocation::add_forces(const VectorXd &y, VectorXd &r, MatrixXd *J
       node_.v = v.segment(at, n_u_);
       if (J)
       {
-        forces.derivatives(node_, node_.p, p_u, p_v);
+        coupling::linearise(forces, node_, node_.p, p_u, p_v);
         J->middleRows(at, n_u_).leftCols(m).noalias() -= p_u * G_u_.middleRows(at, n_u_);
         J->middleRows(at, n_u_).leftCols(m).noalias() -= p_v * G_v_.middleRows(at, n_u_);
         if (slope.u.size() > 0)

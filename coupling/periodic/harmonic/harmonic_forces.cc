@@ -1,5 +1,7 @@
 #include "coupling/periodic/harmonic/harmonic_forces.h"
 
+#include "coupling/integration/system/turning_forces.h"
+
 #include <cmath>
 #include <complex>
 #include <stdexcept>
@@ -135,7 +137,7 @@ void HarmonicForces::evaluate_sample(int k, With with)
     forces.force(state_, state_.p);
   else
   {
-    forces.derivatives(state_, state_.p, dp_du_, dp_dv_);
+    linearise(forces, state_, state_.p, dp_du_, dp_dv_);
     for (std::size_t e = 0; e < derivatives_.size(); ++e)
     {
       of_u_(k, e) = dp_du_(derivatives_[e].i, derivatives_[e].j);
