@@ -17,6 +17,8 @@ namespace
 
 using Complex = std::complex<double>;
 
+constexpr double rounding_of_zeta = 1e-12; ///< as `modes` tells ratios
+
 /// omega^2, negative for a motion that is driven away.
 Eigen::VectorXd squares(const DenseModes &modes)
 {
@@ -127,14 +129,68 @@ void add_joined(const DenseModes &modes, const Eigen::MatrixXd &B, const std::ve
     }
 }
 
-} // namespace
-
-std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::MatrixXd &B,
-                                     const CouplingTolerance &tolerance)
+void require_finite_damping(const DenseModes &modes, const Eigen::MatrixXd &B)
 {
   if (!B.allFinite() || !modes.omega.allFinite())
     throw std::invalid_argument("damped_modes: the damping of a mode is not finite; a damper is far too large beside a "
                                 "mass: check their units");
+}
+
+/// By |s|.
+void sort_by_size(std::vector<DampedMode> &modes)
+{
+  std::sort(modes.begin(), modes.end(),
+            [](const DampedMode &a, const DampedMode &b) { return a.line.omega < b.line.omega; });
+}
+
+/// The mode of nearest frequency that is not taken.
+Eigen::Index take_nearest(const DenseModes &modes, double omega, std::vector<char> &taken)
+{
+  Eigen::Index best = -1;
+  for (Eigen::Index j = 0; j < modes.omega.size(); ++j)
+    if (!taken[std::size_t(j)] && (best < 0 || std::abs(modes.omega[j] - omega) < std::abs(modes.omega[best] - omega)))
+      best = j;
+  taken[std::size_t(best)] = true;
+  return best;
+}
+
+} // namespace
+
+/// In the state (Omega y, y'), as large as the highest frequency.
+Eigen::VectorXcd damped_roots(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B)
+{
+  require_finite_damping(modes, B);
+  const Eigen::Index    p     = C.rows();
+  const Eigen::VectorXd omega = (modes.omega.cwiseAbs2() + modes.growth.cwiseAbs2())
+                                    .cwiseSqrt()
+                                    .unaryExpr([](double x) { return x > 0. ? x : 1.; });
+  Eigen::MatrixXd A         = Eigen::MatrixXd::Zero(2 * p, 2 * p);
+  A.topRightCorner(p, p)    = omega.asDiagonal();
+  A.bottomLeftCorner(p, p)  = -C * omega.cwiseInverse().asDiagonal();
+  A.bottomRightCorner(p, p) = -B;
+  return GeneralEigenSolver(A, WithVectors::no).eigenvalues();
+}
+
+std::vector<DampedMode> all_damped_modes(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B)
+{
+  std::vector<DampedMode> result;
+  for (const Complex &s : damped_roots(modes, C, B))
+    if (s.imag() > 1e-9 * std::abs(s)) // two that meet part by the root of rounding
+    {
+      const double zeta = -s.real() / std::abs(s);
+      result.push_back({{std::abs(s), std::abs(zeta) > rounding_of_zeta ? zeta : 0.}, 0});
+    }
+  sort_by_size(result);
+  std::vector<char> taken(std::size_t(C.rows()), 0);
+  for (DampedMode &mode : result)
+    mode.nearest = take_nearest(modes, mode.line.omega, taken);
+  return result;
+}
+
+std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::MatrixXd &B,
+                                     const CouplingTolerance &tolerance)
+{
+  require_finite_damping(modes, B);
   const Eigen::VectorXd square = squares(modes);
   Groups                groups(B.rows());
   std::vector<Share>    shares;
@@ -146,8 +202,7 @@ std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::Matri
       add_single(modes, B, set[0], result);
     else
       add_joined(modes, B, set, result);
-  std::sort(result.begin(), result.end(),
-            [](const DampedMode &a, const DampedMode &b) { return a.line.omega < b.line.omega; });
+  sort_by_size(result);
   return result;
 }
 

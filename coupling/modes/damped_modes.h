@@ -39,4 +39,12 @@ struct CouplingTolerance
 std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::MatrixXd &B,
                                      const CouplingTolerance &tolerance);
 
+/**
+ * The same of forces that follow the motion, all modes together: B and C are by the dual basis of circulatory_modes()
+ * and not symmetric, C in place of diag(omega^2).  A flutter has zeta < 0.
+ */
+std::vector<DampedMode> all_damped_modes(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B);
+/// All s of such a machine [2 p].
+Eigen::VectorXcd damped_roots(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B);
+
 } // namespace gestell::coupling

@@ -1,6 +1,8 @@
 #include "coupling/modes/linear_spectrum.h"
 
+#include "coupling/algebra/circulatory_modes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/configuration/local_stiffness.h"
 #include "coupling/modes/modes.h"
 
 #include <algorithm>
@@ -12,9 +14,20 @@ namespace gestell::coupling
 namespace
 {
 
-/// Geometric stiffness [n x n] of the forces that act as the machine moves on from rest.  It falls to zero where these
-/// are not found: a run that cannot start says so itself.
-Eigen::MatrixXd geometric_at_rest(const Machine &machine, const InitialState &start, LocalState &local)
+Eigen::MatrixXd symmetric(const Eigen::MatrixXd &A)
+{
+  return 0.5 * (A + A.transpose());
+}
+
+struct Geometric
+{
+  Eigen::MatrixXd K;                   ///< [n x n]
+  bool            circulatory = false; ///< K is not symmetric
+};
+
+/// Geometric stiffness of the forces that act as the machine moves on from rest.  It falls to zero where these are not
+/// found: a run that cannot start says so itself.
+Geometric geometric_at_rest(const Machine &machine, const InitialState &start, LocalState &local)
 {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());
   local.resize(machine);
@@ -26,24 +39,38 @@ Eigen::MatrixXd geometric_at_rest(const Machine &machine, const InitialState &st
     }
     catch (const ConvergenceFailure &)
     {
-      return Eigen::MatrixXd::Zero(machine.size(), machine.size());
+      return {Eigen::MatrixXd::Zero(machine.size(), machine.size())};
     }
-  const Eigen::MatrixXd K = geometric_stiffness(machine, local);
-  return 0.5 * (K + K.transpose());
+  const Eigen::MatrixXd K           = geometric_stiffness(machine, local);
+  const bool            circulatory = is_circulatory(machine, local, Eigen::VectorXd::Ones(local.u.size()));
+  return {circulatory ? K : symmetric(K), circulatory};
 }
 
-Eigen::MatrixXd symmetric(const Eigen::MatrixXd &A)
+/// The machine linearised, in free motions; C with geometric stiffness.
+struct Whole
 {
-  return 0.5 * (A + A.transpose());
-}
+  Eigen::MatrixXd M, B, C;
+  bool            circulatory;
+};
 
-/// K and D are what elements add to B and C; all in free motions.
-LinearMachine in_modes(ModeOrigin origin, const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
-                       const Eigen::MatrixXd &K, const Eigen::MatrixXd &D)
+/// K and D are what elements add to B and C.
+LinearMachine in_modes(ModeOrigin origin, const Whole &whole, const Eigen::MatrixXd &K, const Eigen::MatrixXd &D)
 {
-  LinearMachine result{origin, dense_modes(C + K, M), {}, {}};
-  const auto   &V      = result.modes.V;
-  result.B             = symmetric(V.transpose() * (B + D) * V);
+  const auto &[M, B, C, circulatory] = whole;
+  LinearMachine result{origin, {}, {}, {}, {}};
+  const auto   &V = result.modes.V;
+  if (circulatory)
+  {
+    CirculatoryModes found = circulatory_modes(C + K, M);
+    result.modes           = std::move(found.modes);
+    result.B               = found.left.transpose() * (B + D) * V;
+    result.C               = found.left.transpose() * (C + K) * V;
+  }
+  else
+  {
+    result.modes = dense_modes(C + K, M);
+    result.B     = symmetric(V.transpose() * (B + D) * V);
+  }
   result.contact_omega = (V.cwiseProduct(K * V)).colwise().sum().cwiseMax(0.).cwiseSqrt();
   return result;
 }
@@ -127,21 +154,21 @@ LinearSpectrum linear_spectrum(const Machine &machine, const InitialState &start
   if (is_large(machine))
     return {{}, modes_of_large(machine, start.q)};
   LocalState            local;
-  const Eigen::MatrixXd geometric = geometric_at_rest(machine, start, local);
+  const Geometric       geometric = geometric_at_rest(machine, start, local);
   const bool            jointed   = machine.joints().n_rows() > 0;
   const Eigen::MatrixXd Z         = jointed ? free_motions(machine, local) : Eigen::MatrixXd();
-  const auto free = [&](const Eigen::MatrixXd &A) { return jointed ? Eigen::MatrixXd(Z.transpose() * A * Z) : A; };
-  const Eigen::MatrixXd M = free(dense_mass(machine)), B = free(dense_damping(machine)),
-                        C = free(dense_stiffness(machine) + geometric);
+  const auto      free = [&](const Eigen::MatrixXd &A) { return jointed ? Eigen::MatrixXd(Z.transpose() * A * Z) : A; };
+  const Whole     whole{free(dense_mass(machine)), free(dense_damping(machine)),
+                    free(dense_stiffness(machine) + geometric.K), geometric.circulatory};
   Eigen::MatrixXd K, D, stiffest_K, stiffest_D;
   open_matrices(machine, start.q, K, D);
   stiffest_matrices(machine, start.q, stiffest_K, stiffest_D);
 
   LinearSpectrum result;
-  result.machines.push_back(in_modes(ModeOrigin::base, M, B, C, free(symmetric(K)), free(symmetric(D))));
+  result.machines.push_back(in_modes(ModeOrigin::base, whole, free(symmetric(K)), free(symmetric(D))));
   if (stiffest_K != K || stiffest_D != D)
     result.machines.push_back(
-        in_modes(ModeOrigin::closed, M, B, C, free(symmetric(stiffest_K)), free(symmetric(stiffest_D))));
+        in_modes(ModeOrigin::closed, whole, free(symmetric(stiffest_K)), free(symmetric(stiffest_D))));
   return result;
 }
 

@@ -19,7 +19,9 @@ enum class ModeOrigin
  *
  *     y'' + B y' + diag(omega^2) y = 0,     q = Z V y,     B = V^T Z^T B Z V [p x p]
  *
- * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.
+ * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.  Of forces
+ * that follow the motion it is not symmetric: V are those of circulatory_modes(), B and C [p x p] are by the dual
+ * basis, and C takes the place of diag(omega^2).
  */
 struct LinearMachine
 {
@@ -27,6 +29,7 @@ struct LinearMachine
   DenseModes      modes;
   Eigen::MatrixXd B;
   Eigen::VectorXd contact_omega; ///< [p] rad/s, sqrt(v^T K v): what the elements alone contribute
+  Eigen::MatrixXd C;             ///< empty: diag(omega^2)
 };
 
 /// A mode of a machine that is too large for dense matrices.

@@ -3,6 +3,7 @@
 #include "coupling/integration/integration_methods.h"
 #include "coupling/integration/stability/stability.h"
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/simulation/checks/step_roots.h"
 #include "fem/values/two_pi.h"
 
 #include <Eigen/Cholesky>
@@ -86,13 +87,6 @@ bool stable_at_every_step(const MethodOptions &options)
 
 // --- motions of all modes together, for methods with IntegrationMethod::step_weights()
 
-/// A direction of motion in the modes that grows, and by how much in every step.
-struct GrowingMotion
-{
-  double          radius;
-  Eigen::VectorXd direction; ///< y [p]
-};
-
 /// omega^2, negative for motions that are driven away.
 Eigen::VectorXd stiffness_of(const LinearMachine &machine)
 {
@@ -164,6 +158,8 @@ bool weighs_steps(const MethodOptions &options)
 
 std::optional<GrowingMotion> growing_motion(const LinearMachine &machine, const MethodOptions &options, double h)
 {
+  if (machine.C.size() > 0)
+    return growing_step(machine, options, h);
   if (!balanced(machine, options, h, -1.))
     return growing_alternation(machine, options, h);
   if (const auto weights = method_of(options).growing_weights(options))
@@ -252,8 +248,10 @@ StabilityGuard::StabilityGuard(const LinearSpectrum &spectrum, const MethodOptio
 
 void StabilityGuard::add_machine(const LinearMachine &machine)
 {
-  const std::size_t first = modes_.size();
-  for (const DampedMode &mode : damped_modes(machine.modes, machine.B, coupling_tolerance(options_)))
+  const std::size_t first  = modes_.size();
+  const auto        damped = machine.C.size() > 0 ? all_damped_modes(machine.modes, machine.C, machine.B)
+                                                  : damped_modes(machine.modes, machine.B, coupling_tolerance(options_));
+  for (const DampedMode &mode : damped)
     modes_.push_back(
         accuracy(machine.origin, int(mode.nearest) + 1, mode.line, machine.contact_omega[mode.nearest], options_));
   if (!weighs_steps(options_))
@@ -324,7 +322,8 @@ bool StabilityGuard::motion_grows(double h) const
 {
   const auto weights = method_of(options_).growing_weights(options_);
   for (const LinearMachine &machine : spectrum_.machines)
-    if (!balanced(machine, options_, h, -1.) || (weights && growing_root(machine, *weights, h)))
+    if (machine.C.size() > 0 ? growing_step(machine, options_, h).has_value()
+                             : !balanced(machine, options_, h, -1.) || (weights && growing_root(machine, *weights, h)))
       return true;
   return spectrum_.machines.empty() && mode_grows(h);
 }

@@ -36,6 +36,7 @@ LinearSpectrum spectrum_for(const Machine &machine, const InitialState &start, c
  *   m(r) M + b(r) h B + c(r) h^2 C is not positive definite, and for gamma >= 1/2 no other can (docs/stability.md).
  *   Newmark's method with gamma < 1/2 takes, besides, the complex modes of the machine that its step amounts to.
  * - HHT and generalised alpha are stable at every step, for any dampers.
+ * - Where forces follow the motion, the roots r of all modes together decide in place of definiteness: growing_step().
  * - Exact propagation approximates the stiffness of elements only, in the mode v by omega_c^2 = v^T K v of omega^2:
  *   growth is that of a contact oscillator at omega_c h, period error and numerical damping are its own times
  *   omega_c^2/omega^2, in first order.

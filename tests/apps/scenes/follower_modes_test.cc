@@ -5,10 +5,12 @@
 #include "coupling/modes/modes.h"
 #include "coupling/modes/operating_point.h"
 #include "coupling/sensitivity/frequency_sensitivities.h"
+#include "coupling/simulation/checks/stability_guard.h"
 #include "tests/support/scene_parts.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -160,6 +162,41 @@ TEST(FollowerModes, HaveTheDerivativesOfTheirClosedForm)
     const double  slope = -(2. + J) * x / (2. * closed.a * x - closed.b) * 100. / (2. * omega) / two_pi;
     EXPECT_NEAR(found(j, 0), slope, 1e-7 * std::abs(slope)) << j;
   }
+}
+
+// The modes that methods are laid over are these.
+TEST(FollowerModes, AreThoseThatStabilityLooksAt)
+{
+  for (const double damping : {0., 0.4})
+    for (const double kappa : {1., 2.3})
+    {
+      Column                         column(ziegler(kappa, damping));
+      const coupling::InitialState   start{0., column.q, Eigen::VectorXd::Zero(column.q.size())};
+      const coupling::LinearSpectrum spectrum = linear_spectrum(column.machine, start);
+      ASSERT_EQ(spectrum.machines.size(), 1u);
+      coupling::MethodOptions bdf = coupling::options_of("bdf");
+      bdf.step                    = 1e-3;
+      const coupling::StabilityGuard guard(spectrum, bdf);
+      const std::vector<Mode>        modes = column.modes();
+      ASSERT_EQ(guard.modes().size(), modes.size());
+      int told = 0;
+      for (const Mode &mode : modes)
+      {
+        if (std::isnan(mode.damping_ratio)) // dampers mix a flutter and its partner so that neither is one of the two
+          continue;
+        ++told;
+        const bool found = std::any_of(guard.modes().begin(), guard.modes().end(),
+                                       [&](const coupling::ModeAccuracy &looked)
+                                       {
+                                         const auto &[omega, zeta] = looked.mode;
+                                         const double hz           = omega * std::sqrt(1. - zeta * zeta) / two_pi;
+                                         return std::abs(hz - mode.damped_frequency_hz) < 1e-7 &&
+                                                std::abs(zeta - mode.damping_ratio) < 1e-7;
+                                       });
+        EXPECT_TRUE(found) << mode.damped_frequency_hz << ' ' << mode.damping_ratio << " of " << kappa;
+      }
+      EXPECT_GE(told, damping == 0. ? 2 : 1);
+    }
 }
 
 /// A uniform cantilever of EI = 1, l = 1, mass 1 as n rigid links, under a follower load at its tip.
