@@ -1,7 +1,7 @@
 #include "coupling/equilibrium/static_equilibrium.h"
 
 #include "coupling/algebra/dense_modes.h"
-#include "coupling/equilibrium/static_balance.h"
+#include "coupling/equilibrium/small_motions.h"
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
@@ -43,13 +43,6 @@ double largest(const VectorXd &x)
   return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.;
 }
 
-/// A motion that leaves an equilibrium.
-struct Growth
-{
-  double   rate = 0.; ///< [1/s] of exp(rate t), without damping
-  VectorXd motion;    ///< [n]
-};
-
 class Equilibrium
 {
 public:
@@ -63,9 +56,17 @@ public:
   /// From now on the inertia takes the loads along motions that nothing holds.
   void relieve()
   {
-    const auto [Z, K] = admissible();
+    const auto [Z, K, circulatory] = admissible();
     if (Z.cols() == 0)
       return;
+    if (circulatory)
+    {
+      if (Eigen::FullPivLU<MatrixXd>(K).setThreshold(cancelled).isInvertible())
+        return; // nothing floats
+      throw std::invalid_argument("inertia relief does not know forces that follow the motion, such as a load with "
+                                  "carried_by, of a machine that nothing holds: there is no one acceleration that "
+                                  "balances them; hold the machine, or start with rule = \"given\"");
+    }
     const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z, cancelled);
     const auto       n     = ((modes.omega.array() + modes.growth.array()) == 0.).count();
     floating_              = Z * modes.V.leftCols(n); // first, for omega ascends; what grows is no free motion
@@ -111,22 +112,27 @@ public:
     const bool     found = newton_in_parts(begin);
     if (balance_.holds() && found)
       return;
-    const Growth growth = found ? growing() : Growth();
+    const Growth growth = found ? fastest_growth(admissible(), M_) : Growth();
     if (found && growth.rate == 0.)
       return;
+    if (found && !growth.falls())
+    {
+      notes_.push_back("the machine starts in an equilibrium that forces that follow the motion leave by a flutter: " +
+                       growth.text(machine_) + " if no damper prevents it");
+      return;
+    }
     if (found && largest(q_ - begin) <= stays)
     {
-      notes_.push_back("the machine starts in an unstable equilibrium: the motion of " + leader(growth.motion) +
-                       " grows by " + rate_text(growth.rate) + "; disturb it if it is to fall, or hold it");
+      notes_.push_back("the machine starts in an unstable equilibrium: " + growth.text(machine_) +
+                       "; disturb it if it is to fall, or hold it");
       return;
     }
     const VectorXd unstable = q_;
     if (balance_.holds() || floating_.cols() > 0 || !relax(begin))
       no_equilibrium(found);
     else if (found && largest(q_ - unstable) > stays)
-      notes_.push_back("the equilibrium next to the position of the start is unstable, the motion of " +
-                       leader(growth.motion) + " grows there by " + rate_text(growth.rate) +
-                       ": the machine starts from the stable one that it falls to");
+      notes_.push_back("the equilibrium next to the position of the start is unstable, " + growth.text(machine_) +
+                       " there: the machine starts from the stable one that it falls to");
   }
 
   /// K v - A^T lambda' = 0,  A v = -dg/dt  with A = G W^T.
@@ -146,35 +152,12 @@ public:
   }
 
 private:
-  struct Admissible
-  {
-    MatrixXd Z; ///< motions that joints allow
-    MatrixXd K; ///< Z^T C Z, symmetric part
-  };
-  Admissible admissible()
+  SmallMotions admissible()
   {
     MatrixXd saddle;
     VectorXd residual;
     balance_.evaluate(q_, lambda_, 1., saddle, residual);
-    const MatrixXd C = 0.5 * (saddle.topLeftCorner(n_, n_) + saddle.topLeftCorner(n_, n_).transpose());
-    MatrixXd       Z = free_motions(machine_, balance_.local(), machine_.linear().virtual_coordinates());
-    MatrixXd       K = Z.transpose() * C * Z;
-    return {std::move(Z), std::move(K)};
-  }
-
-  static std::string rate_text(double rate)
-  {
-    std::ostringstream text;
-    text << std::setprecision(3) << "exp(" << rate << " t/s)";
-    return text.str();
-  }
-
-  /// Name of the coordinate with most of the motion.
-  std::string leader(const VectorXd &motion) const
-  {
-    Eigen::Index most = 0;
-    motion.head(n_).cwiseAbs().maxCoeff(&most);
-    return machine_.coordinate_name(int(most));
+    return small_motions(balance_, saddle.topLeftCorner(n_, n_));
   }
 
   [[noreturn]] void no_equilibrium(bool unstable) const
@@ -286,29 +269,6 @@ private:
     return false;
   }
 
-  /// The fastest motion that leaves where the machine stands.
-  Growth growing()
-  {
-    const auto [Z, K] = admissible();
-    Growth growth;
-    if (Z.cols() == 0)
-      return growth;
-    try
-    {
-      const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z);
-      Eigen::Index     fastest;
-      if (modes.growth.size() == 0)
-        return growth;
-      growth.rate   = modes.growth.maxCoeff(&fastest);
-      growth.motion = Z * modes.V.col(fastest);
-    }
-    catch (const std::invalid_argument &)
-    {
-      // neither mass nor stiffness: such a motion has no growth
-    }
-    return growth;
-  }
-
   /**
    * Lets the machine go from a position and takes its velocity away after every step: implicit Euler with steps that
    * grow,  M (q_k+1 - q_k)/h^2 + r(q_k+1, lambda) = 0,  each of which lowers the energy, docs/theory/start.md (12).
@@ -344,9 +304,9 @@ private:
       {
         if (!finish())
           return false;
-        const Growth growth = growing();
-        if (growth.rate == 0. || ++pushes > most_pushes)
-          return growth.rate == 0.;
+        const Growth growth = fastest_growth(admissible(), M_);
+        if (!growth.falls() || ++pushes > most_pushes)
+          return !growth.falls();
         q_ += push / largest(growth.motion) * growth.motion;
         h = first_step;
       }
