@@ -84,6 +84,46 @@ TEST(GearedRotors, RoundOnesHaveTheTorqueToWhichARunSettles)
   }
 }
 
+/// Two drives turn each at its own speed, beside a vibration of another frequency: two angles are free.
+TEST(GearedRotors, TwoDrivesHaveTwoFreeAnglesInEveryMethodThatFindsIncrements)
+{
+  const auto drive = [](const std::string &name, double load)
+  {
+    return rotor_body(name, "0.02 kg m^2", "[0, 1, 0]") +
+           element("motor_" + name, "asynchronous motor",
+                   {{"on", name},
+                    {"to", "ground"},
+                    {"breakdown_torque", "12 N m"},
+                    {"breakdown_slip", "20 %"},
+                    {"synchronous_speed", "1500 1/min"}}) +
+           element("load_" + name, "spring-damper",
+                   {{"from", name}, {"about", "[0, 1, 0]"}, {"damping", number(load) + " N m s/rad"}});
+  };
+  const std::string text =
+      drive("a", 0.01) + drive("b", 0.03) + slider_body("slide", "1", "[1, 0, 0]") +
+      element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1000"}, {"damping", "5"}}) +
+      cosine_load("slide", 3., 25.) +
+      test::quoted("[start]\nrule = 'given'\nv = { a = '1400 1/min', b = '1300 1/min' }\n"
+                   "[output.signals]\nwa = 'a.speed'\nwb = 'b.speed'\nx = 'slide.displacement'\n");
+  const PeriodicResult shot = by("shooting", text);
+  ASSERT_EQ(shot.entries.size(), 1u) << shot.failure;
+  const PeriodicResult collocated = by("collocation", text);
+  ASSERT_EQ(collocated.entries.size(), 1u) << collocated.failure;
+  EXPECT_EQ(collocated.entries[0].solution.method, "collocation");
+  for (const PeriodicResult *result : {&shot, &collocated})
+  {
+    const PeriodicEntry &entry = result->entries[0];
+    EXPECT_TRUE(entry.solution.stable());
+    for (const auto &[k, damping] : {std::pair{0, 0.01}, {1, 0.03}}) // 2 M_k s s_k/(s^2 + s_k^2) = d w, s = 1 - w/w_s
+    {
+      const double w = entry.signals[std::size_t(k)].mean, s = 1. - w / (50. * M_PI);
+      EXPECT_NEAR(24. * s * 0.2 / (s * s + 0.04), damping * w, 1e-7 * damping * w) << k;
+    }
+    const double x = 3. / std::hypot(1000. - 625., 5. * 25.);
+    EXPECT_NEAR(entry.signals[2].max, x, 1e-6 * x);
+  }
+}
+
 TEST(GearedRotors, ACrankBehindABeltHasTheExtremesToWhichARunSettles)
 {
   const std::string       text = belt_drive(3.7, crank);
