@@ -86,7 +86,7 @@ Matrix stiffness_of_joints(const Machine &machine, const LocalState &local)
 }
 
 /// Beside the start, in no special position, all branches as they are there; at rest, where directions turn by the
-/// displacement alone, or in motion.
+/// displacement alone, or in motion, where rates turn with them.
 void expect_exact(const apps::Scene &scene, const std::string &name, bool moves)
 {
   Machine machine = apps::build_machine(scene);
@@ -161,7 +161,8 @@ class LinearisedScene : public ::testing::TestWithParam<const char *>
 
 TEST_P(LinearisedScene, HasTheDerivativesOfItsForces)
 {
-  expect_exact(apps::read_scene(shipped(GetParam())), GetParam(), false);
+  for (const bool moves : {false, true})
+    expect_exact(apps::read_scene(shipped(GetParam())), GetParam(), moves);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, LinearisedScene,
@@ -208,7 +209,8 @@ TEST(LinearisedElement, ThatTurnsWithTheMotionHasTheDerivativesOfItsForce)
       element("e", "force", {{"from", "p"}, {"direction", "[0, 0, 1]"}, {"carried_by", "a"}, {"constant", "300"}}),
       joint("e", "revolute", "a", "b", "[0.5, 0, 0.1]", {{"stiffness", "1e5"}, {"damping", "300"}})};
   for (const std::string &scene : scenes)
-    expect_exact(test::scene_of(plates + scene), scene, false);
+    for (const bool moves : {false, true})
+      expect_exact(test::scene_of(plates + scene), scene, moves);
 }
 
 /// A machine with the modes it has before any run.
