@@ -37,7 +37,8 @@ Geometry try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &
 {
   if (!coupling::has_frame_service())
     return {frame.cad + " is there; this build cannot read it"};
-  const auto [found, notes, statements, centroids, of_faces, diagonal] = coupling::mesh_service().inspect(frame);
+  const auto [found, notes, statements, centroids, of_faces, diagonal, curved] =
+      coupling::mesh_service().inspect(frame);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
   for (fem::InterfaceSpecification &interface : frame.interfaces)
     if (const auto centroid = centroids.find(interface.name); centroid != centroids.end() && !interface.position)

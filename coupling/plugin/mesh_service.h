@@ -26,7 +26,8 @@ public:
     std::map<std::string, fem::Vector3> centroids;
     /// [m] Low and high corner of the box around them.
     std::map<std::string, std::array<fem::Vector3, 2>> boxes;
-    double                              diagonal = 0.; ///< of the box around the solids [m]
+    double                                             diagonal = 0.; ///< of the box around the solids [m]
+    bool curved = false; ///< an outer face is no plane; of a mesh, as its facets tell
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 

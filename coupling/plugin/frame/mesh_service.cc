@@ -80,7 +80,9 @@ public:
                       geometry.statements,
                       {},
                       {},
-                      fem::norm(fem::operator-(geometry.max, geometry.min))};
+                      fem::norm(fem::operator-(geometry.max, geometry.min)),
+                      std::any_of(geometry.faces.begin(), geometry.faces.end(),
+                                  [](const fem::Face &face) { return face.kind != fem::FaceKind::plane; })};
     for (const fem::InterfaceSpecification &interface : frame.interfaces)
     {
       const std::vector<const fem::Face *> faces = faces_of(interface, geometry);
