@@ -33,38 +33,19 @@ struct SizeCommand
 const char *const sized_name = "sized.toml";
 const char *const all_name   = "size_all.csv";
 
-/// Whether the scene takes the model's keys beside its own.
-bool readable(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
-              const std::filesystem::path &folder)
-{
-  prepare_folder(folder);
-  const std::filesystem::path file = folder / sized_name;
-  OwnFolder(folder).write(sized_name, sized_scene(scene, overrides, model, folder));
-  try
-  {
-    read_scene(file.string(), {});
-    return true;
-  }
-  catch (const std::exception &)
-  {
-    return false;
-  }
-}
-
-SizedModel climbed(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked,
-                   const std::function<bool(const ModelVariant &)> &readable)
+SizedModel found(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked)
 {
   SizeOptions options;
-  options.tolerance  = asked.tolerance;
-  options.max_cpu    = asked.max_cpu;
-  options.max_memory = 1e9 * asked.max_memory_gb;
-  options.stop       = &interruption();
-  options.exhaustive = asked.exhaustive;
-  options.readable   = readable;
-  options.on_rung    = [begins = true](const SizeRung &rung) mutable
+  options.tolerance   = asked.tolerance;
+  options.max_cpu     = asked.max_cpu;
+  options.max_memory  = 1e9 * asked.max_memory_gb;
+  options.stop        = &interruption();
+  options.exhaustive  = asked.exhaustive;
+  options.on_forecast = [](const SizeForecast &forecast) { std::cout << forecast_text(forecast) << std::endl; };
+  options.on_rung     = [begins = true](const SizeRung &rung) mutable
   {
     if (std::exchange(begins, false))
-      std::cout << "    cells [m]  coordinates  modes  method                CPU [s]  error/allowed, most by\n";
+      std::cout << "    cells [m]   coordinates  modes  method                CPU [s]  error/allowed, most by\n";
     std::cout << rung_text(rung) << std::endl;
   };
   return size_search(scene, outputs, options);
@@ -81,15 +62,15 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   const std::filesystem::path folder  = results_path(options, scene);
   const HeldFolder            held(folder);
   require_room(folder, {sized_name, all_name}, inputs_of(options));
-  const SizedModel model =
-      climbed(scene, outputs, asked,
-              [&](const ModelVariant &other) { return readable(scene, options.overrides, other, folder); });
+  SizedModel model = found(scene, outputs, asked);
 
   prepare_folder(folder);
   const std::filesystem::path file = folder / sized_name;
   OwnFolder(folder).write(sized_name, sized_scene(scene, options.overrides, model.chosen, folder));
-  Session sized(file.string(), {}, options.scripts, {{}, &interruption()});
-  Result  result       = sized.run();
+  const double begin = cpu_now();
+  Session      sized(file.string(), {}, options.scripts, {{}, &interruption()});
+  Result       result = sized.run();
+  model.result.cpu_s += cpu_now() - begin;
   result.command       = "size";
   result.size          = model.result;
   const SizeRung &rung = model.result.ladder[model.result.chosen];
@@ -98,7 +79,7 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   budget.run_cpu_s = rung.cpu_s;
   result.budget    = budget;
   if (!model.result.met)
-    result.warnings.push_back("no model of the ladder keeps all outputs within the tolerance: " + model.result.stopped);
+    result.warnings.push_back("no model keeps all outputs within the tolerance: " + model.result.stopped);
   if (asked.exhaustive && model.result.all.empty())
     result.warnings.push_back(
         "--exhaustive: all models are compared with the finer one of the proof, and there is none: " +
@@ -135,7 +116,7 @@ Command size_command()
            {"--max-cpu", &asked->max_cpu, "[s] that a model may take, from CAD to the end of the run",
             CommandOption::Range::above_zero},
            {"--exhaustive", &asked->exhaustive,
-            "try every model up to one rung finer than the chosen one, too, to show what the climb has missed"},
+            "try every model up to one rung finer than the chosen one, too, to show what the search has missed"},
            {"--max-memory", &asked->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
           [asked](const CommonOptions &options) { return size_scene(options, *asked); }};
 }

@@ -72,10 +72,11 @@ py::dict errors_of(const std::vector<apps::BudgetEntry> &entries)
 
 py::dict rung_values(const apps::SizeRung &rung)
 {
-  return py::dict("mesh_size"_a = rung.mesh_size, "coordinates"_a = rung.coordinates, "interface"_a = rung.interface,
-                  "modes"_a = rung.modes, "reduction"_a = rung.reduction, "method"_a = rung.method,
-                  "step"_a = rung.step, "tolerance"_a = rung.tolerance, "cpu_s"_a = rung.cpu_s, "share"_a = rung.share,
-                  "worst"_a = rung.worst, "errors"_a = errors_of(rung.entries));
+  return py::dict("mesh_size"_a = rung.mesh_size, "sides"_a = rung.cells, "coordinates"_a = rung.coordinates,
+                  "interface"_a = rung.interface, "modes"_a = rung.modes, "reduction"_a = rung.reduction,
+                  "method"_a = rung.method, "step"_a = rung.step, "tolerance"_a = rung.tolerance,
+                  "cpu_s"_a = rung.cpu_s, "share"_a = rung.share, "worst"_a = rung.worst,
+                  "errors"_a = errors_of(rung.entries));
 }
 
 } // namespace
@@ -156,7 +157,8 @@ py::dict size_values(const apps::SizeResult &found)
                           "finer"_a = output.finer));
   return py::dict("met"_a = found.met, "tolerance"_a = found.tolerance, "ladder"_a = ladder, "chosen"_a = found.chosen,
                   "stopped"_a = found.stopped, "proof"_a = proof, "finer"_a = found.finer,
-                  "left_out"_a = found.left_out, "missing"_a = found.missing, "all"_a = all);
+                  "left_out"_a = found.left_out, "missing"_a = found.missing, "unasked"_a = found.unasked,
+                  "cpu_s"_a = found.cpu_s, "runs"_a = found.runs(), "all"_a = all);
 }
 
 py::dict stability_values(const apps::StabilityStudy &study)

@@ -403,6 +403,8 @@ class Size:
         self.errors = self.chosen["errors"]  #: {output: {value, unit, mesh, reduction, time, total}}, absolute
         self.proof, self.finer = values["proof"], values["finer"]  #: outputs beside those of a finer model
         self.left_out, self.missing, self.all = values["left_out"], values["missing"], values["all"]
+        self.unasked = values["unasked"]  #: questions that would have taken the search above ten runs of the chosen model
+        self.cpu_s, self.runs = values["cpu_s"], values["runs"]  #: what the search took, in all and in runs of the chosen model
 
     def __repr__(self) -> str:
         return f"<gestell.Size to {self.tolerance:g}: {'met' if self.met else 'not met'} after {len(self.ladder)} models>"

@@ -400,19 +400,7 @@ std::pair<apps::SizeResult, PythonScene> PythonScene::size(const SizeChoice &cho
         options.max_cpu    = choice.max_cpu;
         options.exhaustive = choice.exhaustive;
         options.stop       = watch.interruption;
-        options.readable   = [&](const apps::ModelVariant &model)
-        {
-          try
-          {
-            sized(model).scene();
-            return true;
-          }
-          catch (const std::exception &)
-          {
-            return false;
-          }
-        };
-        const auto found = apps::size_search(scene, apps::budget_outputs(scene, choice.outputs), options);
+        const auto found   = apps::size_search(scene, apps::budget_outputs(scene, choice.outputs), options);
         return std::make_pair(found.result, sized(found.chosen));
       });
 }

@@ -53,281 +53,248 @@ Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
   return {};
 }
 
-/// A second model that differs in one part, or why there is none.
-struct SecondModel
+/// Two models that differ in one part, or why there are none.
+struct Comparison
 {
-  std::optional<ModelAnswer> answer;
-  std::optional<ModelAnswer> first;         ///< that it differs from; none: the scene's own
+  std::optional<ModelAnswer> first, second;
   double                     factor = 1.;   ///< from the difference of two values to the error of the first
   std::string                reason;        ///< what the second model is; without one why
   bool                       exact = false; ///< there is nothing to err
 };
 
-class BudgetMaker
+Comparison nothing_errs(const std::string &reason)
 {
-public:
-  BudgetMaker(ModelAnswers &models, const ModelVariant &model, const BudgetParts &parts)
-      : models_(models), model_(model), parts_(parts), scene_(varied(models.scene(), model)),
-        outputs_(models.outputs()), run_(models.of(model)), stop_(models.stop())
-  {
-  }
-
-  ErrorBudget make();
-
-private:
-  /// This model by the method of the models that differ in mesh and modes.
-  ModelVariant model() const
-  {
-    ModelVariant variant = model_;
-    if (method_)
-      variant.method = method_;
-    return variant;
-  }
-  ModelVariant with_modes(int modes, double size = 1.) const
-  {
-    ModelVariant variant = model();
-    variant.mesh *= size;
-    if (modes >= 0)
-      variant.modes = modes;
-    return variant;
-  }
-  ModelAnswer answer(const ModelVariant &variant) const { return models_.of(variant); }
-  /// Of the scene's frame with another integration; what fails is a reason.
-  SecondModel finer_in_time();
-  SecondModel finer_in_modes();
-  SecondModel curved_in_mesh();
-  SecondModel other_in_mesh(bool curved);
-  SecondModel raised_in_mesh(bool curved);
-  SecondModel coarser_in_mesh();
-  template <typename Make>
-  SecondModel tried(const Make &make) const;
-  BudgetPart part_of(std::size_t output, const ModelAnswer &first, const SecondModel &second, BudgetEntry &entry) const;
-
-  ModelAnswers                          &models_;
-  const ModelVariant                     model_;
-  const BudgetParts                      parts_;
-  const Scene                            scene_; ///< of the model
-  const std::vector<OutputName>         &outputs_;
-  const ModelAnswer                      run_;
-  const std::atomic<bool>               *stop_;
-  std::optional<coupling::MethodOptions> method_;    ///< of the models that differ in mesh and modes
-  ModelAnswer                            reference_; ///< the scene's model by that method
-  std::optional<ModelAnswer>             curved_;    ///< and with sides that follow the geometry, where it has not
-};
-
-SecondModel unasked()
-{
-  SecondModel none;
-  none.reason = "not asked for";
+  Comparison none;
+  none.exact  = true;
+  none.reason = reason;
   return none;
 }
 
-template <typename Make>
-SecondModel BudgetMaker::tried(const Make &make) const
+Comparison not_known(const std::string &reason)
 {
+  Comparison none;
+  none.reason = reason;
+  return none;
+}
+
+/// Each comparison begins with the finer model of the one before: all differences together are that to the finest.
+class BudgetMaker
+{
+public:
+  BudgetMaker(ModelAnswers &models, const ModelVariant &model)
+      : models_(models), scene_(varied(models.scene(), model)), outputs_(models.outputs()), run_(models.of(model)),
+        finest_(model), stop_(models.stop())
+  {
+  }
+
+  JudgedModel make();
+
+private:
+  /// @param cpu  [s] that it took
+  template <typename Make>
+  Comparison                timed(double &cpu, const Make &make);
+  Comparison                against(ModelVariant finer, std::string reason);
+  Comparison                sides();
+  Comparison                degree();
+  Comparison                raised();
+  Comparison                coarser_cells();
+  Comparison                more_modes_kept();
+  std::optional<Comparison> exact_in_time();
+  Comparison                finer_steps();
+  std::string               what_is_finest();
+  BudgetPart                part_of(std::size_t output, const Comparison &comparison, BudgetEntry &entry) const;
+
+  ModelAnswers                  &models_;
+  const Scene                    scene_; ///< of the model
+  const std::vector<OutputName> &outputs_;
+  const ModelAnswer              run_;
+  ModelVariant                   finest_; ///< of the models so far
+  const std::atomic<bool>       *stop_;
+};
+
+/// What fails is a reason.
+template <typename Make>
+Comparison BudgetMaker::timed(double &cpu, const Make &make)
+{
+  const double begin = cpu_now();
+  Comparison   comparison;
   try
   {
-    return make();
+    comparison = make();
   }
   catch (const std::exception &failure)
   {
     if (stop_ && *stop_)
       throw;
-    SecondModel none;
-    none.reason = std::string("the second model failed: ") + failure.what();
-    return none;
+    comparison = not_known(std::string("the second model failed: ") + failure.what());
   }
+  cpu += cpu_now() - begin;
+  return comparison;
 }
 
-SecondModel BudgetMaker::finer_in_time()
+/// The finest model so far against one that is finer, which takes its place.
+Comparison BudgetMaker::against(ModelVariant finer, std::string reason)
 {
-  reference_ = run_;
-  try
-  {
-    SecondModel second;
-    method_       = finest_method(scene_);
-    second.answer = answer(model());
-    second.reason = "against " + second.answer->method;
-    reference_    = *second.answer;
-    return second;
-  }
-  catch (const std::exception &)
-  {
-    if (stop_ && *stop_)
-      throw;
-    method_.reset();
-  }
-  if (!parts_.time)
-    return unasked();
-  return tried(
-      [&]
-      {
-        const coupling::MethodOptions &given = scene_.run.options.method;
-        SecondModel                    second;
-        ModelVariant                   finer = model_;
-        finer.method                         = finer_method(given);
-        second.answer                        = answer(finer);
-        const double power                   = controlled(given) ? 16. : std::pow(2., std::max(1, given.order));
-        second.factor                        = power / (power - 1.);
-        second.reason = controlled(given) ? "against a sixteenth of the tolerance" : "against half the step";
-        return second;
-      });
-}
-
-SecondModel BudgetMaker::finer_in_modes()
-{
-  SecondModel second;
-  if (frame_path(scene_) == FramePath::from_file)
-  {
-    second.reason = "the frame was reduced elsewhere; only who has the whole frame can tell";
-    return second;
-  }
-  if (!modes_are_chosen(scene_) && scene_.reduction.method != "guyan")
-  {
-    second.exact  = true;
-    second.reason = "the frame is not reduced";
-    return second;
-  }
-  const int most = run_.most_modes;
-  if (run_.modes >= most)
-  {
-    second.exact  = true;
-    second.reason = "all modes are kept";
-    return second;
-  }
-  return tried(
-      [&]
-      {
-        const int    m    = more_modes(scene_, run_);
-        ModelVariant more = with_modes(m);
-        if (!modes_are_chosen(scene_)) // of statics alone
-          more.reduction = "craig-bampton";
-        second.answer = answer(more);
-        second.reason = "against " + std::to_string(m) + " modes";
-        return second;
-      });
-}
-
-SecondModel BudgetMaker::coarser_in_mesh()
-{
-  SecondModel second;
-  if (scene_.frame.source == FrameSource::none || scene_.frame.source == FrameSource::matrices)
-  {
-    second.exact  = true;
-    second.reason = scene_.frame.source == FrameSource::none ? "there is no frame" : "the matrices are the frame";
-    return second;
-  }
-  if (!mesh_can_change(scene_))
-  {
-    second.reason = "the mesh comes from a file and cannot be made coarser";
-    return second;
-  }
-  return tried(
-      [&]
-      {
-        const bool   parts = scene_.frame.source == FrameSource::parts; // their second reduction stays as it is
-        ModelAnswer  other = answer(with_modes(parts ? -1 : modes_asked(scene_, run_), coarser));
-        const double ratio = std::cbrt(double(run_.n_frame) / other.n_frame);
-        second.reason      = "against cells of 1.5 times the size";
-        if (ratio < hardly)
-          second.reason = "cells of 1.5 times the size give nearly the same mesh: small features decide its size";
-        else
-        {
-          second.answer = std::move(other);
-          second.factor = 1. / (std::pow(ratio, mesh_order) - 1.);
-        }
-        return second;
-      });
+  Comparison comparison;
+  comparison.first  = models_.of(finest_);
+  comparison.second = models_.of(finer);
+  comparison.reason = "against " + std::move(reason);
+  finest_           = std::move(finer);
+  return comparison;
 }
 
 /// What straight sides cut off curved faces: the same cells with sides that follow these.  It falls with no finer mesh
 /// while no circle has fewer sides than a mesh gives each, so it is no part of what two sizes of cells tell.
-SecondModel BudgetMaker::curved_in_mesh()
+Comparison BudgetMaker::sides()
 {
-  SecondModel second;
-  second.exact = true;
-  if (!sides_can_curve(scene_))
-    return second;
-  try
+  if (scene_.frame.source != FrameSource::geometry && scene_.frame.source != FrameSource::parts)
+    return nothing_errs("");
+  switch (sides_of(scene_, models_.planes()))
   {
-    ModelVariant variant = with_modes(scene_.frame.source == FrameSource::parts ? -1 : modes_asked(scene_, run_));
-    variant.curved       = true;
-    second.answer        = answer(variant);
-    second.exact         = false;
-    second.reason        = "against sides that follow the geometry";
-    return second;
+  case Sides::exact:
+    return nothing_errs("");
+  case Sides::unknown:
+    return not_known("sides of its cells are straight at curved faces, and no second mesh has others; tetrahedra with "
+                     "mesh.curved = true follow them");
+  case Sides::straight:
+    break;
   }
-  catch (const std::exception &failed) // such as cells that sides along the geometry turn inside out
-  {
-    if (stop_ && *stop_)
-      throw;
-    second.reason = std::string("straight sides at curved faces are not judged: ") + failed.what();
-    return second;
-  }
+  ModelVariant curved = finest_;
+  curved.cells        = Cells::curved;
+  if (scene_.frame.source == FrameSource::geometry && modes_are_chosen(scene_))
+    curved.modes = run_.modes;
+  return against(curved, "sides that follow the geometry");
 }
 
-/// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one; both with
-/// sides that follow the geometry where the model with such sides is at hand.
-SecondModel BudgetMaker::raised_in_mesh(bool curved)
+Comparison BudgetMaker::degree()
 {
-  ModelAnswer first = curved ? *curved_ : reference_;
-  double      size  = 1.;
-  for (int k = 0; k <= coarsest_raised; ++k, size *= coarser)
-  {
-    if (k > 0 && !mesh_can_change(scene_))
-      break;
-    ModelVariant variant = with_modes(run_.modes, size);
-    variant.curved |= curved;
-    if (k > 0)
-      first = answer(variant);
-    if (first.n_frame > most_raised)
-      continue;
-    variant.raised = true;
-    SecondModel second;
-    second.answer = answer(variant);
-    second.factor = left_over / std::pow(std::cbrt(double(run_.n_frame) / first.n_frame), mesh_order);
-    second.reason = "against elements of degree three" +
-                    (k > 0 ? " in cells of " + short_text(size, 3) + " times the size" : std::string());
-    second.first = std::move(first);
-    return second;
-  }
-  return {};
-}
-
-SecondModel BudgetMaker::other_in_mesh(bool curved)
-{
+  if (scene_.frame.source == FrameSource::none || scene_.frame.source == FrameSource::matrices)
+    return nothing_errs(scene_.frame.source == FrameSource::none ? "there is no frame" : "the matrices are the frame");
+  const ModelVariant before = finest_;
   if (scene_.frame.source == FrameSource::geometry && !run_.whole && !scene_.reduction.superposition)
     try
     {
-      if (SecondModel second = raised_in_mesh(curved); second.answer)
-        return second;
+      if (Comparison third = raised(); third.second)
+        return third;
     }
     catch (const std::exception &) // such as an output that degree three does not tell
     {
       if (stop_ && *stop_)
         throw;
+      finest_ = before;
     }
-  return coarser_in_mesh();
+  return coarser_cells();
 }
 
-BudgetPart BudgetMaker::part_of(std::size_t output, const ModelAnswer &given, const SecondModel &second,
-                                BudgetEntry &entry) const
+/// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one.
+Comparison BudgetMaker::raised()
 {
-  const ModelAnswer &first = second.first ? *second.first : given;
-  if (second.exact)
-    return {no_part, second.reason};
-  if (!second.answer)
-    return {std::nullopt, second.reason};
-  const double v = first.values[output], w = second.answer->values[output];
+  ModelVariant variant = finest_;
+  variant.modes        = run_.modes;
+  for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= coarser)
+  {
+    if (k > 0 && !mesh_can_change(scene_))
+      break;
+    const ModelAnswer first = k > 0 ? models_.of(variant) : models_.of(finest_);
+    if (first.n_frame > most_raised)
+      continue;
+    const double ratio = std::cbrt(double(run_.n_frame) / first.n_frame);
+    if (k > 0)
+      finest_ = variant;
+    variant.raised = true;
+    if (modes_are_chosen(scene_)) // of which there may be a frame already
+      variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
+    Comparison comparison =
+        against(variant, "elements of degree three" +
+                             (k > 0 ? " in cells of " + short_text(std::pow(coarser, k), 3) + " times the size" : ""));
+    comparison.factor = left_over / std::pow(ratio, mesh_order);
+    return comparison;
+  }
+  return {};
+}
+
+/// Beside the finest model so far, which stays that.
+Comparison BudgetMaker::coarser_cells()
+{
+  if (!mesh_can_change(scene_))
+    return not_known("the mesh comes from a file and cannot be made coarser");
+  ModelVariant variant = finest_;
+  variant.mesh *= coarser;
+  if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
+    variant.modes = modes_asked(scene_, run_);
+  Comparison comparison;
+  comparison.first   = models_.of(finest_);
+  comparison.second  = models_.of(variant);
+  const double ratio = std::cbrt(double(run_.n_frame) / comparison.second->n_frame);
+  if (ratio < hardly)
+    return not_known("cells of 1.5 times the size give nearly the same mesh: small features decide its size");
+  comparison.factor = 1. / (std::pow(ratio, mesh_order) - 1.);
+  comparison.reason = "against cells of 1.5 times the size";
+  return comparison;
+}
+
+Comparison BudgetMaker::more_modes_kept()
+{
+  if (frame_path(scene_) == FramePath::from_file)
+    return not_known("the frame was reduced elsewhere; only who has the whole frame can tell");
+  if (!modes_are_chosen(scene_) && scene_.reduction.method != "guyan")
+    return nothing_errs("the frame is not reduced");
+  if (run_.modes >= run_.most_modes)
+    return nothing_errs("all modes are kept");
+  ModelVariant more = finest_; // whose frame has so many at least, if it was made with more
+  more.modes        = more_modes(scene_, run_);
+  if (!modes_are_chosen(scene_)) // of statics alone
+    more.reduction = "craig-bampton";
+  return against(more, std::to_string(more.modes) + " modes");
+}
+
+/// By `exact`, so that what follows differs in nothing else; nothing where that does not treat the machine.
+std::optional<Comparison> BudgetMaker::exact_in_time()
+{
+  try
+  {
+    ModelVariant finer = finest_;
+    finer.method       = finest_method(scene_);
+    Comparison exact   = against(finer, "");
+    exact.reason += exact.second->method;
+    return exact;
+  }
+  catch (const std::exception &)
+  {
+    if (stop_ && *stop_)
+      throw;
+    return {};
+  }
+}
+
+Comparison BudgetMaker::finer_steps()
+{
+  const coupling::MethodOptions &given = scene_.run.options.method;
+  ModelVariant                   finer = finest_;
+  finer.method                         = finer_method(given);
+  const double power                   = controlled(given) ? 16. : std::pow(2., std::max(1, given.order));
+  Comparison   steps = against(finer, controlled(given) ? "a sixteenth of the tolerance" : "half the step");
+  steps.factor       = power / (power - 1.);
+  return steps;
+}
+
+BudgetPart BudgetMaker::part_of(std::size_t output, const Comparison &comparison, BudgetEntry &entry) const
+{
+  if (comparison.exact)
+    return {no_part, comparison.reason};
+  if (!comparison.second)
+    return {std::nullopt, comparison.reason};
+  const double v = comparison.first->values[output], w = comparison.second->values[output];
   for (const double value : {v, w})
     entry.bracket = {std::min(entry.bracket->first, value), std::max(entry.bracket->second, value)};
   if (outputs_[output].of_signal())
-    if (const Differs event = differing_event(first, *second.answer, first.decided_s[output]))
-      return {std::nullopt, "the order of events changes, " + second.reason + ": " + *event};
-  return {second.factor * std::abs(v - w), second.reason};
+    if (const Differs event =
+            differing_event(*comparison.first, *comparison.second, comparison.first->decided_s[output]))
+      return {std::nullopt, "the order of events changes, " + comparison.reason + ": " + *event};
+  return {comparison.factor * std::abs(v - w), comparison.reason};
 }
 
-/// Of two causes; nothing is known where it is not of one of them.
+/// Of two causes; nothing is known where one is not.
 BudgetPart sum(const BudgetPart &a, const BudgetPart &b)
 {
   if (!a.error || !b.error)
@@ -336,18 +303,26 @@ BudgetPart sum(const BudgetPart &a, const BudgetPart &b)
   return {*a.error + *b.error, a.reason + between + b.reason};
 }
 
-ErrorBudget BudgetMaker::make()
+std::string BudgetMaker::what_is_finest()
 {
-  ErrorBudget       budget;
-  const SecondModel time = finer_in_time(), modes = parts_.reduction ? finer_in_modes() : unasked();
-  const SecondModel sides = parts_.mesh ? curved_in_mesh() : unasked();
-  curved_                 = sides.answer;
-  const SecondModel mesh  = parts_.mesh ? other_in_mesh(curved_.has_value()) : unasked();
-  budget.run_cpu_s        = run_.cpu();
-  for (const auto &[model, cpu] : {std::pair(&time, &budget.time_cpu_s), std::pair(&modes, &budget.reduction_cpu_s),
-                                   std::pair(&mesh, &budget.mesh_cpu_s)})
-    *cpu = model->answer ? model->answer->cpu() : 0.;
-  budget.mesh_cpu_s += curved_ ? curved_->cpu() : 0.;
+  const ModelAnswer &finest = models_.of(finest_);
+  return (finest.n_frame > 0 ? std::to_string(finest.n_frame) + " coordinates" : std::string()) +
+         (finest_.raised ? " in elements of degree three" : "") + (finest.n_frame > 0 ? ", " : "") +
+         (finest.modes >= 0 ? std::to_string(finest.modes) + " modes, " : "") + finest.method;
+}
+
+JudgedModel BudgetMaker::make()
+{
+  JudgedModel               judged;
+  ErrorBudget              &budget = judged.budget;
+  std::optional<Comparison> time;
+  timed(budget.time_cpu_s, [&] { return (time = exact_in_time()) ? *time : Comparison(); });
+  const Comparison edges = timed(budget.mesh_cpu_s, [&] { return sides(); });
+  const Comparison mesh  = timed(budget.mesh_cpu_s, [&] { return degree(); });
+  const Comparison modes = timed(budget.reduction_cpu_s, [&] { return more_modes_kept(); });
+  if (!time)
+    time = timed(budget.time_cpu_s, [&] { return finer_steps(); });
+  budget.run_cpu_s = run_.cpu();
   for (std::size_t i = 0; i < outputs_.size(); ++i)
   {
     BudgetEntry entry;
@@ -355,14 +330,19 @@ ErrorBudget BudgetMaker::make()
     entry.unit      = run_.units[i];
     entry.value     = run_.values[i];
     entry.bracket   = {entry.value, entry.value};
-    entry.time      = outputs_[i].of_signal() ? part_of(i, run_, time, entry) : BudgetPart{no_part, "not integrated"};
-    entry.reduction = part_of(i, reference_, modes, entry);
-    entry.mesh      = sum(part_of(i, reference_, sides, entry), part_of(i, reference_, mesh, entry));
+    entry.time      = outputs_[i].of_signal() ? part_of(i, *time, entry) : BudgetPart{no_part, "not integrated"};
+    entry.reduction = part_of(i, modes, entry);
+    const BudgetPart straight = part_of(i, edges, entry);
+    entry.mesh                = sum(straight, part_of(i, mesh, entry));
+    entry.sides               = straight.error;
     if (entry.time.error && entry.reduction.error && entry.mesh.error)
       entry.total = *entry.time.error + *entry.reduction.error + *entry.mesh.error;
     budget.entries.push_back(entry);
   }
-  return budget;
+  judged.run    = run_;
+  judged.finest = models_.of(finest_);
+  judged.what   = what_is_finest();
+  return judged;
 }
 
 } // namespace
@@ -380,12 +360,12 @@ ErrorBudget error_budget(const Scene &scene, const std::vector<OutputName> &outp
 {
   ModelAnswers models(scene, outputs, stop);
   models.know({}, run);
-  return BudgetMaker(models, {}, {}).make();
+  return judged(models, {}).budget;
 }
 
-ErrorBudget error_budget(ModelAnswers &models, const ModelVariant &model, const BudgetParts &parts)
+JudgedModel judged(ModelAnswers &models, const ModelVariant &model)
 {
-  return BudgetMaker(models, model, parts).make();
+  return BudgetMaker(models, model).make();
 }
 
 } // namespace gestell::apps

@@ -1,6 +1,7 @@
 #include "apps/sizing/model_variant.h"
 
 #include "apps/session/prepared_machine.h"
+#include "apps/sizing/first_modes.h"
 #include "coupling/frame/frame_cache.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/modes/modes.h"
@@ -9,9 +10,10 @@
 #include "coupling/simulation/simulation.h"
 #include "fem/values/number_text.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -35,12 +37,6 @@ double frequency_of(const OutputName &output, const Modes &modes)
 
 constexpr double least_steps = 50.;
 constexpr int    least_more  = 8; ///< modes
-
-/// [s] of the processor that this process took so far.
-double cpu_now()
-{
-  return double(std::clock()) / CLOCKS_PER_SEC;
-}
 
 const coupling::SignalSummary &signal_of(const coupling::RunResult &run, const std::string &name)
 {
@@ -82,15 +78,33 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
 
 } // namespace
 
+double cpu_now()
+{
+  double seconds = 0.;
+  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN})
+  {
+    rusage used{};
+    getrusage(who, &used);
+    for (const timeval &time : {used.ru_utime, used.ru_stime})
+      seconds += double(time.tv_sec) + 1e-6 * double(time.tv_usec);
+  }
+  return seconds;
+}
+
 int modes_asked(const Scene &scene, const ModelAnswer &answer)
 {
   return scene.frame.source == FrameSource::parts ? scene.reduction.options.n_modes : answer.modes;
 }
 
+int more_than(int modes)
+{
+  return modes < 0 ? modes : std::max(2 * modes, modes + least_more);
+}
+
 int more_modes(const Scene &scene, const ModelAnswer &answer)
 {
   const int asked = modes_asked(scene, answer), modes = asked < 0 ? answer.modes : asked;
-  return std::min(answer.most_modes, std::max(2 * modes, modes + least_more));
+  return std::min(answer.most_modes, more_than(modes));
 }
 
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
@@ -126,20 +140,18 @@ void scale(fem::MeshOptions &mesh, double ratio)
     size *= ratio;
 }
 
-bool is_meshed(const std::string &cad)
+void set_cells(fem::MeshOptions &mesh, Cells cells)
 {
-  const std::string kind = cad.substr(std::min(cad.rfind('.'), cad.size()));
-  return kind != ".msh" && kind != ".inp" && kind != ".stl";
+  if (cells == Cells::given)
+    return;
+  mesh.plates = cells == Cells::swept ? fem::Plates::swept : fem::Plates::tetrahedra;
+  mesh.curved = cells == Cells::curved;
 }
 
-bool may_curve(const fem::MeshOptions &mesh)
+/// Of parts: those that are swept stay so.
+bool is_tetrahedra(const fem::MeshOptions &mesh)
 {
   return mesh.plates == fem::Plates::tetrahedra;
-}
-
-bool is_straight(const fem::MeshOptions &mesh)
-{
-  return may_curve(mesh) && !mesh.curved;
 }
 
 } // namespace
@@ -148,14 +160,15 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
 {
   Scene other = scene;
   scale(other.frame.geometry.mesh, variant.mesh);
-  if (variant.swept)
-    other.frame.geometry.mesh.plates = fem::Plates::swept;
+  set_cells(other.frame.geometry.mesh, variant.cells);
+  if (variant.most_cells > 0.)
+    other.frame.geometry.mesh.max_cells = std::min(other.frame.geometry.mesh.max_cells, variant.most_cells);
   for (coupling::FramePart &part : other.frame.parts.parts)
   {
     scale(part.geometry.mesh, variant.mesh);
-    part.geometry.mesh.curved |= variant.curved && may_curve(part.geometry.mesh);
+    if (is_tetrahedra(part.geometry.mesh))
+      set_cells(part.geometry.mesh, variant.cells);
   }
-  other.frame.geometry.mesh.curved |= variant.curved && may_curve(other.frame.geometry.mesh);
   other.frame.parts.all_modes |= variant.modes >= 0; // each part has as many as are asked for
   for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
     if (entry.name == variant.reduction)
@@ -183,30 +196,58 @@ Scene varied(const Scene &scene, const ModelVariant &variant)
 namespace
 {
 
-/// On the frame in elements of degree three, which is kept in the cache as others are.
-PreparedMachine prepare_raised(Scene &scene)
+/// Whether the first modes of the reduction are those that it has with fewer.
+bool is_nested(const Scene &scene)
+{
+  return frame_path(scene) == FramePath::reduce && scene.frame.source != FrameSource::parts &&
+         !scene.reduction.superposition && scene.reduction.method == "craig-bampton" &&
+         !scene.reduction.options.inertia_relief;
+}
+
+/// A frame in elements of degree three is kept in the cache as others are.
+coupling::CachedFrame raised_frame(Scene &scene)
 {
   fem::FrameSpecification &frame = scene.frame.geometry;
   frame.stress                   = false;
   coupling::FrameOrigin origin   = frame_origin(scene);
   origin.recipe.push_back({"degree", "3"});
-  const auto raised = coupling::cached_or_made(
+  return coupling::cached_or_made(
       origin, [&] { return coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {}); });
-  PreparedMachine prepared = prepare_machine_on(scene, raised.frame);
-  prepared.from_cache      = raised.from_cache;
-  return prepared;
 }
 
 /// [s] A frame that was made before in this process has cost what it did, though it now comes from the cache.
-double preparation(const Scene &scene, const ModelVariant &variant, const PreparedMachine &prepared, double taken)
+double preparation(const Scene &making, bool raised, bool from_cache, double taken)
 {
   static std::map<std::string, double> made;
   static std::mutex                    one;
-  if (frame_path(scene) != FramePath::reduce)
+  if (frame_path(making) != FramePath::reduce)
     return taken;
   const std::lock_guard<std::mutex> alone(one);
-  double &cpu = made[coupling::content_key(frame_origin(scene).recipe) + (variant.raised ? "raised" : "")];
-  return cpu  = prepared.from_cache ? std::max(cpu, taken) : taken;
+  double &cpu = made[coupling::content_key(frame_origin(making).recipe) + (raised ? "raised" : "")];
+  return cpu  = from_cache ? std::max(cpu, taken) : taken;
+}
+
+/// The scene on its frame.  @param cpu  [s] that it took
+PreparedMachine prepare(Scene &scene, const ModelVariant &variant, double &cpu)
+{
+  const double begin  = cpu_now();
+  const bool   nested = variant.modes >= 0 && variant.made > variant.modes && is_nested(scene);
+  Scene        making = scene;
+  if (nested)
+    making.reduction.options.n_modes = variant.made;
+  const auto made_apart = [&]
+  {
+    coupling::CachedFrame made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
+    if (nested)
+      made.frame = with_first_modes(std::move(made.frame), variant.modes);
+    PreparedMachine prepared = prepare_machine_on(scene, made.frame);
+    prepared.from_cache      = made.from_cache;
+    return prepared;
+  };
+  PreparedMachine prepared = nested || variant.raised ? made_apart() : prepare_machine(scene);
+  keep_stable_step(prepared, scene.run);
+  cpu = preparation(making, variant.raised, prepared.from_cache, cpu_now() - begin);
+  return prepared;
 }
 
 /// No others, which may read what a model does not tell.
@@ -233,11 +274,8 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   answer.sizes.resize(outputs.size());
   answer.units.resize(outputs.size());
   answer.decided_s.assign(outputs.size(), other.run.options.begin);
-  const double    begin    = cpu_now();
-  PreparedMachine prepared = variant.raised ? prepare_raised(other) : prepare_machine(other);
-  keep_stable_step(prepared, other.run);
-  answer.from_cache  = prepared.from_cache;
-  answer.prepare_cpu = preparation(other, variant, prepared, cpu_now() - begin);
+  PreparedMachine prepared = prepare(other, variant, answer.prepare_cpu);
+  answer.from_cache        = prepared.from_cache;
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     answer.n_frame    = frame->n_full;
@@ -290,7 +328,8 @@ std::string key_of(const coupling::MethodOptions &method)
 std::string key_of(const ModelVariant &model)
 {
   return exact_text(model.mesh) + '|' + std::to_string(model.modes) + '|' + model.reduction + '|' +
-         std::to_string(model.swept) + std::to_string(model.raised) + std::to_string(model.curved) + '|' +
+         std::to_string(int(model.cells)) + std::to_string(model.raised) + '|' +
+         std::to_string(std::max(model.modes, model.made)) + '|' + exact_text(model.most_cells) + '|' +
          (model.method ? key_of(*model.method) : "");
 }
 
@@ -303,11 +342,9 @@ const ModelAnswer &ModelAnswers::of(const ModelVariant &model)
     return found->second;
   if (const auto found = failed_.find(key); found != failed_.end())
     throw std::invalid_argument(found->second);
-  const double begin = cpu_now();
   try
   {
     const ModelAnswer answer = answer_of(scene_, model, outputs_, stop_);
-    cpu_s_ += cpu_now() - begin;
     if (stop_ && *stop_)
       throw coupling::ConvergenceFailure("interrupted");
     return known_[key] = answer;
@@ -354,39 +391,6 @@ coupling::MethodOptions finer_method(const coupling::MethodOptions &given)
   else
     finer.step /= 2.;
   return finer;
-}
-
-bool mesh_is_made(const Scene &scene)
-{
-  return scene.frame.source == FrameSource::geometry && is_meshed(scene.frame.geometry.cad);
-}
-
-bool meshes_of_parts_are_made(const Scene &scene)
-{
-  const auto &parts = scene.frame.parts.parts;
-  return scene.frame.source == FrameSource::parts &&
-         std::all_of(parts.begin(), parts.end(),
-                     [](const coupling::FramePart &part) { return is_meshed(part.geometry.cad); });
-}
-
-bool mesh_can_change(const Scene &scene)
-{
-  return mesh_is_made(scene) || meshes_of_parts_are_made(scene);
-}
-
-bool sides_can_curve(const Scene &scene)
-{
-  const auto &parts = scene.frame.parts.parts;
-  return mesh_is_made(scene)
-             ? is_straight(scene.frame.geometry.mesh)
-             : meshes_of_parts_are_made(scene) &&
-                   std::any_of(parts.begin(), parts.end(),
-                               [](const coupling::FramePart &part) { return is_straight(part.geometry.mesh); });
-}
-
-bool modes_are_chosen(const Scene &scene)
-{
-  return scene.reduction.superposition || (frame_path(scene) == FramePath::reduce && scene.reduction.method != "guyan");
 }
 
 std::vector<std::string> signal_names(const Scene &scene)

@@ -2,6 +2,7 @@
 
 #include "apps/output/values/result.h"
 #include "apps/scene/scene.h"
+#include "apps/sizing/model_choices.h"
 #include "apps/sizing/output_name.h"
 
 #include <atomic>
@@ -13,16 +14,28 @@
 namespace gestell::apps
 {
 
+/// How the geometry of a frame is meshed.
+enum class Cells
+{
+  given,    ///< as the scene says
+  straight, ///< tetrahedra
+  curved,   ///< tetrahedra whose sides follow the geometry
+  swept     ///< plates in hexahedra
+};
+
 /// How a model differs from that of the scene.
 struct ModelVariant
 {
-  double                                 mesh  = 1.;     ///< size of the cells, of that in the scene
-  int                                    modes = -1;     ///< that the frame keeps; below zero: as the scene says
-  std::optional<coupling::MethodOptions> method;         ///< of integration; none: that of the scene
-  std::string                            reduction{};    ///< a name of coupling::Reductions; empty: that of the scene
-  bool                                   swept  = false; ///< plates are, whatever the scene says
+  double                                 mesh  = 1.;  ///< size of the cells, of that in the scene
+  int                                    modes = -1;  ///< that the frame keeps; below zero: as the scene says
+  std::optional<coupling::MethodOptions> method;      ///< of integration; none: that of the scene
+  std::string                            reduction{}; ///< a name of coupling::Reductions; empty: that of the scene
+  Cells                                  cells  = Cells::given;
   bool                                   raised = false; ///< the elements of its mesh have degree three
-  bool                                   curved = false; ///< sides of tetrahedra are, whatever the scene says
+  /// Modes of the frame that is made, of which the first `modes` are kept (with_first_modes()); fewer, or where the
+  /// reduction is not nested: those kept.
+  int    made       = -1;
+  double most_cells = 0.; ///< that its mesh may have; 0: as the scene says
 };
 
 /// What a model answers, and what it costs.
@@ -46,9 +59,14 @@ struct ModelAnswer
   double cpu() const { return prepare_cpu + run_cpu; }
 };
 
+/// [s] of the processor that this process and the helpers that it waited for took so far.
+double cpu_now();
+
 /// As reduction.modes has it: of a frame of parts each part's, below zero where they are chosen by themselves.
 int modes_asked(const Scene &scene, const ModelAnswer &answer);
-/// Of a model to compare with: twice the modes, eight more at least, as many as there are.
+/// Of a model to compare with: twice the modes, eight more at least; of none, below zero, none.
+int more_than(int modes);
+/// The same, as many as there are.
 int more_modes(const Scene &scene, const ModelAnswer &answer);
 
 /// The answer that a run of the scene has given.
@@ -80,8 +98,7 @@ public:
   const Scene                   &scene() const { return scene_; }
   const std::vector<OutputName> &outputs() const { return outputs_; }
   const std::atomic<bool>       *stop() const { return stop_; }
-  /// [s] of the processor that all that were computed took.
-  double cpu_s() const { return cpu_s_; }
+  KnownPlanes                   &planes() { return planes_; }
 
 private:
   const Scene                       &scene_;
@@ -89,24 +106,13 @@ private:
   const std::atomic<bool>           *stop_;
   std::map<std::string, ModelAnswer> known_;
   std::map<std::string, std::string> failed_; ///< with what was said
-  double                             cpu_s_ = 0.;
+  KnownPlanes                        planes_;
 };
 
 /// Integrates as exactly as the program can where `exact` treats the machine: order 8, tolerance 1e-10.
 coupling::MethodOptions finest_method(const Scene &scene);
 /// A finer one of the same kind: half the step, a sixteenth of the tolerance.
 coupling::MethodOptions finer_method(const coupling::MethodOptions &given);
-
-/// Whether the mesh of the scene's frame is made by the program, so that its size can be chosen.
-bool mesh_is_made(const Scene &scene);
-/// The same of a frame of parts: of all of them.
-bool meshes_of_parts_are_made(const Scene &scene);
-/// Either of them.
-bool mesh_can_change(const Scene &scene);
-/// Whether the sides of its cells, tetrahedra, are straight and could follow the geometry.
-bool sides_can_curve(const Scene &scene);
-/// Whether the frame of the scene is reduced, so that its number of modes can be chosen.
-bool modes_are_chosen(const Scene &scene);
 
 /// Names of the scene's signals.
 std::vector<std::string> signal_names(const Scene &scene);

@@ -47,8 +47,9 @@ private:
   /// No others, which may read what is left out.
   Scene with_signals_of_outputs(Scene scene) const;
   /// Of another scene; null where it cannot be run: others rest on what it lacks.
-  std::optional<Change> change(const Scene &other) const;
+  std::optional<Change> change(const Scene &other, const ModelAnswer &than) const;
   void                  may_be_left_out(const std::string &what, const Scene &without);
+  bool                  may_ask(const std::string &what, double cpu);
   /// Tries the scene with each member of a list changed.
   template <typename List, typename Act>
   void each(List Scene::*list, const Act &act)
@@ -87,15 +88,23 @@ Scene Questions::with_signals_of_outputs(Scene scene) const
   return scene;
 }
 
-std::optional<Change> Questions::change(const Scene &other) const
+/// Else it is named.
+bool Questions::may_ask(const std::string &what, double cpu)
+{
+  const bool may = !model_.affords || model_.affords(cpu);
+  if (!may)
+    found_.unasked.push_back(what);
+  return may;
+}
+
+std::optional<Change> Questions::change(const Scene &other, const ModelAnswer &than) const
 {
   try
   {
     const ModelAnswer answer = answer_of(with_signals_of_outputs(other), {}, model_.outputs, stop_);
     Change            change;
     for (std::size_t i = 0; i < model_.outputs.size(); ++i)
-      if (const double share = std::abs(answer.values[i] - model_.answer.values[i]) / model_.scales[i];
-          share >= change.share)
+      if (const double share = std::abs(answer.values[i] - than.values[i]) / model_.scales[i]; share >= change.share)
         change = {share, model_.outputs[i].text};
     return change;
   }
@@ -109,7 +118,9 @@ std::optional<Change> Questions::change(const Scene &other) const
 
 void Questions::may_be_left_out(const std::string &what, const Scene &without)
 {
-  if (const auto changed = change(without); changed && changed->share <= half * model_.tolerance)
+  if (!may_ask(what, model_.answer.run_cpu))
+    return;
+  if (const auto changed = change(without, model_.answer); changed && changed->share <= half * model_.tolerance)
     found_.left_out.push_back(what + ": " + changed->text());
 }
 
@@ -174,14 +185,17 @@ void Questions::rigid_springs()
 
 void Questions::rigid_frame()
 {
-  if (model_.scene.frame.source != FrameSource::geometry)
+  const std::string what = "elasticity of the frame";
+  if (model_.scene.frame.source != FrameSource::geometry || !may_ask(what, model_.coarse_answer.cpu()))
     return;
-  Scene                    rigid = model_.scene;
+  Scene                    rigid = model_.coarse;
   fem::FrameSpecification &frame = rigid.frame.geometry;
   frame.material.E *= as_rigid;
   for (auto &material : frame.materials)
     material.second.E *= as_rigid;
-  may_be_left_out("elasticity of the frame", rigid);
+  const auto changed = change(rigid, model_.coarse_answer);
+  if (changed && changed->share <= half * model_.tolerance)
+    found_.left_out.push_back(what + ": " + changed->text());
 }
 
 /// Both kinds of every interface: a wall softer than its rigid surface, and one whose elasticity does nothing.
@@ -195,10 +209,12 @@ void Questions::kinds_of_interfaces()
     const bool rigid = interfaces[i].coupling == fem::InterfaceCoupling::rigid;
     if (!rigid && interfaces[i].coupling != fem::InterfaceCoupling::average)
       continue;
-    Scene other = model_.scene;
+    if (!may_ask("the wall of interface \"" + interfaces[i].name + '"', model_.coarse_answer.cpu()))
+      continue;
+    Scene other = model_.coarse;
     other.frame.geometry.interfaces[i].coupling =
         rigid ? fem::InterfaceCoupling::average : fem::InterfaceCoupling::rigid;
-    const auto changed = change(other);
+    const auto changed = change(other, model_.coarse_answer);
     if (rigid && changed && changed->share > model_.tolerance)
       found_.missing.push_back("the wall of interface \"" + interfaces[i].name +
                                "\": it is held rigid, and coupling = \"average\" " + changed->text());

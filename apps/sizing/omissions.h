@@ -3,6 +3,7 @@
 #include "apps/sizing/model_variant.h"
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace gestell::apps
 struct Omissions
 {
   std::vector<std::string> left_out, missing;
+  std::vector<std::string> unasked; ///< questions that cost too much
 };
 
 /// The model that is questioned.
@@ -23,6 +25,11 @@ struct QuestionedModel
   const std::vector<OutputName> &outputs;
   std::vector<double>            scales; ///< against which changes of outputs count
   double                         tolerance = 0.;
+  /// A coarser mesh of the same model with its answer, on which frames are changed: changes need no fine mesh.
+  const Scene       &coarse;
+  const ModelAnswer &coarse_answer;
+  /// Whether a question may take so much time of the processor [s]; none: any.
+  std::function<bool(double)> affords{};
 };
 
 /**
@@ -31,7 +38,7 @@ struct QuestionedModel
  * that no event has touched, too.  With each rigid interface averaged instead it tells those whose wall is softer than
  * they are, by changes above what is allowed, and loads near the highest mode that the frame keeps.
  *
- * What fails without a part needs it.
+ * What fails without a part needs it.  Questions that may not take what they cost are named.
  */
 Omissions find_omissions(const QuestionedModel &model, const std::atomic<bool> *stop = nullptr);
 

@@ -1,15 +1,14 @@
 #include "apps/sizing/size_search.h"
 
 #include "apps/sizing/omissions.h"
-#include "coupling/integration/system/convergence_failure.h"
-#include "coupling/reduction/reductions.h"
+#include "apps/sizing/size_models.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <deque>
 #include <limits>
-#include <map>
+#include <optional>
 #include <tuple>
 
 namespace gestell::apps
@@ -18,427 +17,433 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double ratio_of_meshes = 1.5;
-constexpr int    coarsest_mesh = -2, finest_mesh = 4; ///< powers of the ratio below the scene's size
-constexpr int    mode_numbers[] = {0, 2, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256};
-constexpr int    n_mode_numbers = int(std::size(mode_numbers));
-constexpr int    first_modes = 2, first_time = 1, n_tolerances = 7, n_steps = 10;
 constexpr double smallest_tolerance = 1e-8;
-constexpr int    most_rungs         = 40;
-constexpr int    thin_after         = 2;   ///< rungs
-constexpr double worth_it           = 0.9; ///< of the CPU time, below which another reduction is taken
-constexpr double far_too_stiff      = 4.;  ///< times what is allowed: on walls, at order one, 64 times the coordinates
+constexpr double aim                = 0.8; ///< of what is allowed, as laws err
+constexpr double of_a_part          = 0.2; ///< of what is allowed: modes and time are cheap beside the mesh,
+constexpr double without_mesh       = 0.5; ///< of modes where there is none to be made finer
+constexpr double enough             = 1.5; ///< times that part: only above is it made smaller
+constexpr double worth_it           = 0.8; ///< of the coordinates, below which a smaller model is judged, too
+constexpr double another_kind       = 2.;  ///< times the coordinates of the first model, from which others are tried
+constexpr double most_runs          = 10.; ///< of the chosen model, that a search may take
+constexpr double not_worth_counting = 5.;  ///< [s] that a search may take of machines that run in a moment
+constexpr int    most_judged        = 12;
+constexpr int    seen_enough        = 3;   ///< models without a known error
+constexpr double of_finer_cells     = 2.6; ///< CPU time of cells of 2/3 the size in walls, 1.5^(2 1.2)
+constexpr double models_of_a_budget = 4.;  ///< of about the same cost: sides, degree, modes, time
+/// Coordinates that a cell brings at least: a tetrahedron of a solid 4.1, a hexahedron of one layer 15.
+constexpr double of_tetrahedron = 4., of_hexahedron = 12.;
 
-constexpr auto thin_walls = "walls are thin";
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-constexpr double unknown = std::numeric_limits<double>::infinity();
-
-/// Numbers of the rungs of the three ladders.
-struct Place
-{
-  int         mesh = 0, modes = 0, time = 0;
-  std::string reduction{}; ///< empty: the scene's
-  bool        operator<(const Place &other) const
-  {
-    return std::tie(mesh, modes, time, reduction) < std::tie(other.mesh, other.modes, other.time, other.reduction);
-  }
-};
-
-/// Shares of the parts in the tolerance, of the output with the largest.
-struct Shares
-{
-  double      mesh = 0., modes = 0., time = 0., total = 0.;
-  std::size_t output = 0;
-
-  std::string worst() const { return mesh >= modes && mesh >= time ? "mesh" : modes >= time ? "reduction" : "time"; }
-};
-
-/// [byte] that the program has taken at most so far; 0: the system does not say.
-double memory_taken()
-{
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (double kilobytes = 0.; word == "VmHWM:" && status >> kilobytes)
-      return 1024. * kilobytes;
-  return 0.;
-}
-
-class Climb
+class Search
 {
 public:
-  /// @param until_thin  ends where cells are far too stiff for the walls
-  Climb(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options, bool until_thin)
-      : scene_(scene), outputs_(outputs), options_(options), by_exact_(takes_exact()), until_thin_(until_thin)
+  Search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
+      : scene_(scene), outputs_(outputs), options_(options), begin_(cpu_now()),
+        models_(scene, outputs, options.tolerance, options.stop)
   {
     if (!(options.tolerance >= smallest_tolerance) || options.tolerance > 1.)
       throw std::invalid_argument("--tolerance: needs a relative error between 1e-8, below which rounding decides, and "
                                   "1, got " +
                                   short_text(options.tolerance));
-    if (!by_exact_ && !scene.run.step_given)
-      throw std::invalid_argument(scene.run.place + ": the step follows from the modes, and `size` varies a given one: "
-                                                    "give run.step, or a method with a tolerance");
   }
 
   SizedModel run();
 
 private:
-  bool          takes_exact() const;
-  int           most_given() const;
-  ModelVariant  variant_of(const Place &place) const;
-  int           last_time() const { return by_exact_ ? n_tolerances - 1 : n_steps - 1; }
-  const Shares &look(const Place &place);
-  Shares        shares_of(const ModelAnswer &answer, const SizeRung &rung) const;
-  bool          fits(const Place &place) { return look(place).total <= 1.; }
-  bool          finer(Place &place);
-  void          coarsen(Place &place);
-  void          try_reductions(Place &place);
-  void          prove(const Place &place, SizedModel &model);
-  void          question(const Place &place, SizeResult &result);
-  void          try_all(const Place &place, SizeResult &result);
-  SizeRung      rung_of(const Scene &scene, const ModelAnswer &answer) const;
-  double        scale_of(std::size_t output, const ModelAnswer &answer) const;
+  const SizedPlace        &judge(const SizePlace &place, double most_cells = 0.);
+  void                     find_kinds();
+  std::vector<MeshPoint>   points_of(Cells cells) const;
+  double                   of_modes() const { return mesh_can_change(scene_) ? of_a_part : without_mesh; }
+  void                     plan(const SizedPlace &last);
+  void                     keep_few_modes(const SizedPlace &coarse);
+  std::optional<MeshPoint> expected(SizePlace &place) const;
+  void                     try_kind(double coordinates);
+  const SizedPlace        *best() const;
+  bool                     is_confirmed();
+  bool                     is_known();
+  bool                     is_worth(const SizePlace &place, double coordinates) const;
+  void                     forecast(double coordinates, double model_cpu, double work);
+  bool                     may_cost(const SizePlace &place, const MeshPoint &next);
+  void                     search();
+
+  void question(const SizedPlace &chosen);
+  void try_all(const SizedPlace &chosen);
 
   const Scene                   &scene_;
   const std::vector<OutputName> &outputs_;
   const SizeOptions             &options_;
-  bool                           by_exact_, until_thin_;
-  std::map<Place, Shares>        known_;
-  std::map<Place, std::size_t>   rung_of_;
-  std::map<Place, ModelAnswer>   answers_;
+  const double                   begin_; ///< [s]
+  SizeModels                     models_;
+  std::vector<Cells>             kinds_ = {Cells::given}, untried_; ///< of meshes
+  std::deque<SizedPlace>         judged_;
+  SizePlace                      planned_; ///< modes and time of the next model
+  std::vector<Shares>            others_;  ///< that they will leave
   SizeResult                     result_;
-  ModelAnswer                    finer_; ///< of the proof
-  int                            most_modes_ = n_mode_numbers - 1;
 };
 
-/// Whether `exact` treats the machine, with the scene's keys beside it.
-bool Climb::takes_exact() const
+const SizedPlace &Search::judge(const SizePlace &place, double most_cells)
 {
-  const coupling::MethodOptions &given = scene_.run.options.method;
-  if (given.method != "exact" && !given.own.empty())
-    return false;
-  try
-  {
-    const double coarse    = mesh_can_change(scene_) ? std::pow(ratio_of_meshes, -coarsest_mesh) : 1.;
-    Scene        short_run = varied(scene_, {coarse, -1, finest_method(scene_)});
-    short_run.run.options.end =
-        short_run.run.options.begin + 1e-3 * (short_run.run.options.end - short_run.run.options.begin);
-    short_run.run.options.from = short_run.run.options.begin; // whether it runs is asked, no extreme
-    short_run.run.last_period  = false;
-    answer_of(short_run, {}, outputs_, options_.stop);
-    return true;
-  }
-  catch (const std::exception &)
-  {
-    return false;
-  }
-}
-
-/// Modes that a frame given by matrices can keep at most.
-int Climb::most_given() const
-{
-  if (scene_.frame.source != FrameSource::matrices)
-    return mode_numbers[n_mode_numbers - 1];
-  const int interface = int(scene_.frame.matrices.interface_coordinates().size());
-  return std::max(1, int(scene_.frame.matrices.M.rows()) - (scene_.reduction.superposition ? 0 : interface));
-}
-
-ModelVariant Climb::variant_of(const Place &place) const
-{
-  ModelVariant variant;
-  variant.reduction = place.reduction;
-  if (mesh_can_change(scene_))
-    variant.mesh = std::pow(ratio_of_meshes, -(place.mesh + coarsest_mesh));
-  if (modes_are_chosen(scene_))
-    variant.modes = std::min(mode_numbers[place.modes], most_given());
-  if (by_exact_)
-  {
-    variant.method            = finest_method(scene_);
-    variant.method->tolerance = std::pow(10., -3 - place.time);
-  }
-  else
-  {
-    coupling::MethodOptions method = scene_.run.options.method;
-    const double            factor = std::pow(2., 3 - place.time);
-    if (controlled(method))
-      method.tolerance *= factor * factor;
-    else
-      method.step *= factor;
-    variant.method = method;
-  }
-  return variant;
-}
-
-double Climb::scale_of(std::size_t output, const ModelAnswer &answer) const
-{
-  if (answer.units[output] == "s" && outputs_[output].kind.rfind("t_", 0) == 0)
-    return scene_.run.options.end - scene_.run.options.begin;
-  return std::max(std::abs(answer.values[output]), answer.sizes[output]);
-}
-
-Shares Climb::shares_of(const ModelAnswer &answer, const SizeRung &rung) const
-{
-  Shares     shares;
-  const auto share = [&](const BudgetPart &part, double allowed) {
-    return !part.error ? unknown : *part.error == 0. ? 0. : *part.error / allowed;
-  };
-  for (std::size_t i = 0; i < outputs_.size(); ++i)
-  {
-    const double allowed = options_.tolerance * scale_of(i, answer);
-    const Shares here{share(rung.entries[i].mesh, allowed), share(rung.entries[i].reduction, allowed),
-                      share(rung.entries[i].time, allowed), 0., i};
-    if (const double total = here.mesh + here.modes + here.time; total >= shares.total)
-      shares = {here.mesh, here.modes, here.time, total, i};
-  }
-  return shares;
-}
-
-/// What the model is and costs.
-SizeRung Climb::rung_of(const Scene &scene, const ModelAnswer &answer) const
-{
-  const auto &method = scene.run.options.method;
-  SizeRung    rung;
-  rung.mesh_size   = mesh_is_made(scene)               ? scene.frame.geometry.mesh.size
-                     : meshes_of_parts_are_made(scene) ? scene.frame.parts.parts.front().geometry.mesh.size
-                                                       : 0.;
-  rung.coordinates = answer.n_frame;
-  rung.interface   = answer.interface;
-  rung.modes       = modes_are_chosen(scene) ? modes_asked(scene, answer) : -1;
-  rung.reduction   = modes_are_chosen(scene) ? scene.reduction.method : "";
-  rung.method      = method.method;
-  rung.step        = method.step;
-  rung.tolerance   = method.tolerance;
-  rung.cpu_s       = answer.cpu();
-  return rung;
-}
-
-const Shares &Climb::look(const Place &place)
-{
-  if (const auto known = known_.find(place); known != known_.end())
-    return known->second;
-  const Scene       scene  = varied(scene_, variant_of(place));
-  const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
-  const ErrorBudget budget = error_budget(scene, outputs_, answer, options_.stop);
-  SizeRung          rung   = rung_of(scene, answer);
-  rung.entries             = budget.entries;
-  const Shares shares      = shares_of(answer, rung);
-  while (most_modes_ > 0 && answer.n_frame > 0 && mode_numbers[most_modes_] > answer.most_modes)
-    --most_modes_;
-  rung.share = shares.total;
-  if (shares.total > 0.)
-    rung.worst = shares.worst() + " of " + outputs_[shares.output].text;
-  rung_of_[place] = result_.ladder.size();
-  answers_[place] = answer;
-  result_.ladder.push_back(rung);
+  judged_.push_back(models_.judge(place, most_cells));
   if (options_.on_rung)
-    options_.on_rung(result_.ladder.back());
-  return known_[place] = shares;
+    options_.on_rung(judged_.back().rung);
+  return judged_.back();
 }
 
-/// One rung finer in what errs most and can be refined; false: nothing can.
-bool Climb::finer(Place &place)
+/// Kinds of mesh beside the one given.  What straight sides leave is known apart: without it they are curved ones.
+void Search::find_kinds()
 {
-  const Shares shares = look(place);
-  struct Part
-  {
-    double share;
-    int Place::*rung;
-    int         last;
-  };
-  std::vector<Part> parts = {{shares.mesh, &Place::mesh, mesh_can_change(scene_) ? finest_mesh - coarsest_mesh : 0},
-                             {shares.modes, &Place::modes, modes_are_chosen(scene_) ? most_modes_ : 0},
-                             {shares.time, &Place::time, last_time()}};
-  std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) { return a.share > b.share; });
-  for (const Part &part : parts)
-    if (part.share > 0. && place.*part.rung < part.last)
-    {
-      ++(place.*part.rung);
-      return true;
-    }
-  return false;
-}
-
-/// As coarse in each part as the tolerance allows, what costs most first.
-void Climb::coarsen(Place &place)
-{
-  for (int Place::*rung : {&Place::mesh, &Place::modes, &Place::time})
-    while (place.*rung > 0 && int(result_.ladder.size()) < most_rungs)
-    {
-      Place coarser = place;
-      --(coarser.*rung);
-      if (!fits(coarser))
-        break;
-      place = coarser;
-    }
-}
-
-/// Another reduction with as many modes, where it takes less and fits.  One that does not apply is left.
-void Climb::try_reductions(Place &place)
-{
-  if (!modes_are_chosen(scene_) || scene_.frame.source == FrameSource::parts || !options_.readable)
+  if (!mesh_can_change(scene_))
     return;
-  for (const coupling::ReductionEntry &entry : coupling::Reductions::entries())
+  const fem::MeshOptions &mesh = scene_.frame.geometry.mesh;
+  if (mesh_is_made(scene_) && mesh.plates == fem::Plates::swept)
   {
-    Place other        = place;
-    other.reduction    = entry.name;
-    const bool reduces = entry.makes != coupling::ReductionEntry::Makes::no_frame && entry.takes("modes");
-    if (!reduces || entry.name == scene_.reduction.method || !options_.readable(variant_of(other)))
-      continue;
+    if (mesh.layers == 1) // a key of swept plates alone
+      untried_ = {Cells::curved};
+    return;
+  }
+  if (sides_of(scene_, models_.answers().planes()) == Sides::straight)
+    kinds_.push_back(Cells::curved);
+  ModelVariant swept;
+  swept.cells = Cells::swept;
+  if (mesh_is_made(scene_) && sides_of(varied(scene_, swept), models_.answers().planes()) == Sides::exact)
+    untried_ = {Cells::swept};
+}
+
+std::vector<MeshPoint> Search::points_of(Cells cells) const
+{
+  const bool             given_is_straight = scene_.frame.geometry.mesh.plates != fem::Plates::swept;
+  std::vector<MeshPoint> points;
+  for (const SizedPlace &judged : judged_)
+    if (judged.place.cells == cells ||
+        (cells == Cells::curved && judged.place.cells == Cells::given && given_is_straight))
+    {
+      points.push_back(judged.point);
+      for (Shares &shares : points.back().shares)
+        shares.sides = judged.place.cells == cells ? shares.sides : 0.;
+    }
+  return points;
+}
+
+/// More modes and a finer integration where these take too much.
+void Search::plan(const SizedPlace &last)
+{
+  const auto  &shares = last.point.shares;
+  const double modes = largest(shares, &Shares::modes), time = largest(shares, &Shares::time);
+  planned_ = last.place;
+  if (planned_.modes >= 0 && modes > enough * of_modes())
+    planned_.modes = std::min(models_.most_modes(), modes_for(of_modes(), last.place.modes, modes));
+  if (time > enough * of_a_part)
+  {
+    const SizeModels::TimeLaw law = models_.time_law();
+    const double rungs = std::isfinite(time) ? std::log(time / of_a_part) / (law.order * std::log(law.factor)) : 1.;
+    planned_.time      = std::max(law.finest, planned_.time / std::pow(law.factor, std::max(1., std::ceil(rungs))));
+  }
+  others_.assign(shares.size(), {});
+  for (std::size_t i = 0; i < shares.size(); ++i)
+  {
+    others_[i].modes = planned_.modes == last.place.modes ? shares[i].modes : std::min(of_modes(), shares[i].modes);
+    others_[i].time  = planned_.time == last.place.time ? shares[i].time : std::min(of_a_part, shares[i].time);
+  }
+}
+
+/// As few modes as the coarse frame shows to suffice, of those planned: the first of one reduction are the modes of
+/// smaller ones.
+void Search::keep_few_modes(const SizedPlace &coarse)
+{
+  SizePlace  all  = coarse.place;
+  const bool more = planned_.modes > coarse.place.modes;
+  if (planned_.modes <= 0)
+    return;
+  all.modes                      = planned_.modes;
+  const ModelAnswer       full   = models_.answers().of(models_.variant_of(all));
+  const std::vector<int> &ladder = mode_ladder();
+  const auto              at     = [&](int modes) { return std::lower_bound(ladder.begin(), ladder.end(), modes); };
+  auto low = more ? at(coarse.place.modes) : ladder.begin() - 1, high = at(all.modes); // all from `high` on suffice
+  while (high - low > 1)
+  {
+    const auto          middle = low + (high - low) / 2;
+    ModelVariant        fewer  = models_.variant_of(all);
+    std::vector<Shares> others = others_;
+    double              most   = no_limit;
+    fewer.made                 = fewer.modes;
+    fewer.modes                = *middle;
     try
     {
-      const Scene  scene = varied(scene_, variant_of(other));
-      const double cpu   = rung_of(scene, answer_of(scene, {}, outputs_, options_.stop)).cpu_s;
-      if (cpu < worth_it * result_.ladder[rung_of_[place]].cpu_s && fits(other))
-        place = other;
+      const ModelAnswer answer = models_.answers().of(fewer);
+      for (std::size_t i = 0; i < outputs_.size(); ++i)
+        others[i].modes =
+            (more ? 0. : coarse.point.shares[i].modes) +
+            std::abs(answer.values[i] - full.values[i]) / (options_.tolerance * models_.scale_of(i, full));
+      most = largest(others, &Shares::modes);
     }
-    catch (const std::exception &)
+    catch (const std::exception &) // the motion needs more
     {
       if (options_.stop && *options_.stop)
         throw;
     }
+    if (most <= of_modes())
+    {
+      high           = middle;
+      others_        = others;
+      planned_.modes = *middle;
+    }
+    else
+      low = middle;
   }
 }
 
-void Climb::prove(const Place &place, SizedModel &model)
+/// The next model, of the kind of mesh that needs the fewest coordinates.
+std::optional<MeshPoint> Search::expected(SizePlace &place) const
 {
-  const ModelVariant chosen = variant_of(place);
-  ModelVariant       finer  = chosen;
-  finer.mesh /= ratio_of_meshes;
-  if (chosen.modes >= 0)
-    finer.modes = more_modes(varied(scene_, chosen), answers_[place]);
-  finer.method = by_exact_ ? finest_method(scene_) : finer_method(*chosen.method);
+  std::optional<MeshPoint> fewest;
+  for (const Cells cells : kinds_)
+  {
+    const auto points = points_of(cells);
+    if (points.empty())
+      continue;
+    const auto next =
+        mesh_can_change(scene_) ? coarsest_within(aim, points, others_, coarsest_mesh) : std::optional(points.front());
+    if (!next || (fewest && next->coordinates > 0.95 * fewest->coordinates))
+      continue;
+    fewest      = next;
+    place       = planned_;
+    place.mesh  = mesh_can_change(scene_) ? std::floor(1e3 * next->size) / 1e3 : 1.;
+    place.cells = cells;
+  }
+  return fewest;
+}
+
+/// Judges one of the kinds that were not tried, unless it has more coordinates even where it is coarse.
+void Search::try_kind(double coordinates)
+{
+  SizePlace place = planned_;
+  place.mesh      = coarsest_mesh;
+  place.cells     = untried_.back();
+  untried_.pop_back();
+  const double of_a_cell = place.cells == Cells::swept ? of_hexahedron : of_tetrahedron;
+  const double most      = std::isfinite(coordinates) ? coordinates / of_a_cell : 0.;
   try
   {
-    const ModelAnswer better = answer_of(scene_, finer, outputs_, options_.stop);
-    finer_                   = better;
-    for (std::size_t i = 0; i < outputs_.size(); ++i)
-      model.result.proof.push_back({outputs_[i].text, better.units[i], answers_[place].values[i], better.values[i]});
-    model.result.finer = (better.n_frame > 0 ? std::to_string(better.n_frame) + " coordinates, " : "") +
-                         (better.modes >= 0 ? std::to_string(better.modes) + " modes, " : "") + better.method;
+    const int n = models_.answers().of(models_.variant_of(place, most)).n_frame;
+    if (n >= coordinates || n == judged_.front().model.run.n_frame) // the same mesh, as plates cannot be swept
+      return;
+    kinds_.push_back(place.cells);
+    plan(judge(place, most));
   }
-  catch (const std::exception &failure)
+  catch (const std::exception &)
   {
     if (options_.stop && *options_.stop)
       throw;
-    model.result.finer = std::string("the finer model failed: ") + failure.what();
   }
 }
 
-void Climb::question(const Place &place, SizeResult &result)
+/// The smallest model so far that keeps the tolerance; null: none.
+const SizedPlace *Search::best() const
 {
-  const Scene         chosen = varied(scene_, variant_of(place));
-  std::vector<double> scales;
-  for (std::size_t i = 0; i < outputs_.size(); ++i)
-    scales.push_back(scale_of(i, answers_[place]));
-  const Omissions found =
-      find_omissions({chosen, answers_[place], outputs_, scales, options_.tolerance}, options_.stop);
-  result.left_out = found.left_out;
-  result.missing  = found.missing;
-}
-
-/// Every model up to one rung finer than the chosen one in each part, against the finer one of the proof.
-void Climb::try_all(const Place &place, SizeResult &result)
-{
-  if (finer_.values.empty())
-    return;
-  const int last_mesh  = mesh_can_change(scene_) ? std::min(place.mesh + 1, finest_mesh - coarsest_mesh) : 0;
-  const int last_modes = modes_are_chosen(scene_) ? std::min(place.modes + 1, most_modes_) : 0;
-  const int last       = std::min(place.time + 1, last_time());
-  std::vector<std::string> reductions = {""};
-  if (!place.reduction.empty())
-    reductions.push_back(place.reduction);
-  for (const std::string &reduction : reductions)
-    for (int mesh = 0; mesh <= last_mesh; ++mesh)
-      for (int modes = 0; modes <= last_modes; ++modes)
-        for (int time = 0; time <= last; ++time)
-        {
-          const Place       here{mesh, modes, time, reduction};
-          const Scene       scene  = varied(scene_, variant_of(here));
-          const ModelAnswer answer = answer_of(scene, {}, outputs_, options_.stop);
-          SizeRung          rung   = rung_of(scene, answer);
-          for (std::size_t i = 0; i < outputs_.size(); ++i)
-            if (const double share =
-                    std::abs(answer.values[i] - finer_.values[i]) / (options_.tolerance * scale_of(i, finer_));
-                share >= rung.share)
-            {
-              rung.share = share;
-              rung.worst = outputs_[i].text;
-            }
-          if (!(here < place) && !(place < here))
-            result.chosen_of_all = result.all.size();
-          result.all.push_back(rung);
-          if (options_.on_rung)
-            options_.on_rung(rung);
-        }
-}
-
-SizedModel Climb::run()
-{
-  Place place;
-  place.modes = modes_are_chosen(scene_) ? first_modes : 0;
-  place.time  = by_exact_ ? first_time : 2;
-  SizedModel model;
-  Place      best = place;
-  while (true)
+  const SizedPlace *best    = nullptr;
+  const auto        smaller = [](const SizedPlace &a, const SizedPlace &b)
   {
-    look(place);
-    const SizeRung &rung = result_.ladder[rung_of_[place]];
-    if (options_.max_cpu > 0. && rung.cpu_s > options_.max_cpu)
-      result_.stopped = "a model takes " + short_text(rung.cpu_s, 2) + " s, above --max-cpu";
-    else if (options_.max_memory > 0. && memory_taken() > options_.max_memory)
-      result_.stopped = "the program took " + short_text(memory_taken() / 1e9, 2) + " GB, above --max-memory";
-    if (!result_.stopped.empty())
-      break;
-    if (look(place).total <= look(best).total)
-      best = place;
-    if (fits(place))
+    return std::make_tuple(a.point.coordinates, a.place.modes, a.model.run.cpu()) <
+           std::make_tuple(b.point.coordinates, b.place.modes, b.model.run.cpu());
+  };
+  for (const SizedPlace &judged : judged_)
+    if (judged.rung.share <= 1. && (!best || smaller(judged, *best)))
+      best = &judged;
+  return best;
+}
+
+/// Whether the best so far, if any, agrees with its answer on cells of 2/3 the size; else that model is judged.
+bool Search::is_confirmed()
+{
+  const SizedPlace *so_far = best();
+  if (!so_far || so_far->confirmed || !mesh_can_change(scene_))
+    return true;
+  SizedPlace &judged =
+      *std::find_if(judged_.begin(), judged_.end(), [&](const SizedPlace &other) { return &other == so_far; });
+  SizePlace finer = judged.place;
+  finer.mesh      = std::floor(1e3 * finer.mesh / ratio_of_meshes) / 1e3;
+  try
+  {
+    models_.compare(judged, models_.answers().of(models_.variant_of(finer)));
+    if (judged.rung.share <= 1.)
+      return true;
+    if (options_.on_rung)
+      options_.on_rung(judged.rung);
+    plan(judge(finer));
+    return false;
+  }
+  catch (const std::exception &) // too many cells, or cells that fold
+  {
+    if (options_.stop && *options_.stop)
+      throw;
+    judged.confirmed = true;
+    return true;
+  }
+}
+
+/// Whether the error of one of the first models is: where in all of them events come in another order, finer ones cost
+/// more and tell no more.
+bool Search::is_known()
+{
+  if (int(judged_.size()) < seen_enough ||
+      std::any_of(judged_.begin(), judged_.end(), [](const auto &judged) { return std::isfinite(judged.rung.share); }))
+    return true;
+  for (const BudgetEntry &entry : judged_.back().rung.entries)
+    for (const BudgetPart *part : {&entry.mesh, &entry.reduction, &entry.time})
+      if (!part->error)
+        result_.stopped = "in no model the error is known; the last, " + entry.output + ": " + part->reason;
+  return false;
+}
+
+/// To be judged: a model not judged yet, smaller than the best so far.
+bool Search::is_worth(const SizePlace &place, double coordinates) const
+{
+  if (std::any_of(judged_.begin(), judged_.end(), [&](const SizedPlace &other) { return other.place == place; }))
+    return false;
+  const SizedPlace *so_far = best();
+  return !so_far || coordinates < worth_it * so_far->point.coordinates ||
+         (place.cells == so_far->place.cells && place.mesh == so_far->place.mesh && place.modes < so_far->place.modes);
+}
+
+void Search::forecast(double coordinates, double model_cpu, double work)
+{
+  SizeForecast &told = result_.forecast;
+  told.coordinates   = coordinates;
+  told.modes         = planned_.modes;
+  told.model_cpu_s   = model_cpu;
+  told.spent_cpu_s   = cpu_now() - begin_;
+  told.cpu_s         = told.spent_cpu_s + (work + (mesh_can_change(scene_) ? of_finer_cells : 0.) + 1.) * model_cpu;
+  if (options_.on_forecast)
+    options_.on_forecast(told);
+}
+
+bool Search::may_cost(const SizePlace &place, const MeshPoint &next)
+{
+  const SizedPlace &last = judged_.back();
+  const double cpu = next.cpu_s + last.model.run.run_cpu * (models_.by_steps() ? last.place.time / place.time : 1.);
+  forecast(next.coordinates, cpu, last.work);
+  if (options_.max_cpu > 0. && cpu > options_.max_cpu)
+    result_.stopped = "the next model would take " + short_text(cpu, 2) + " s, above --max-cpu";
+  else if (options_.max_memory > 0. && memory_taken() > options_.max_memory)
+    result_.stopped = "the program took " + short_text(memory_taken() / 1e9, 2) + " GB, above --max-memory";
+  return result_.stopped.empty() && (!best() || result_.forecast.runs() <= most_runs);
+}
+
+void Search::search()
+{
+  const SizePlace    coarse = planned_ = models_.coarse();
+  const ModelAnswer &answer            = models_.answers().of(models_.variant_of(coarse));
+  forecast(answer.n_frame, answer.cpu(), models_of_a_budget);
+  plan(judge(coarse));
+  keep_few_modes(judged_.front());
+  find_kinds();
+  while (int(judged_.size()) < most_judged && is_known())
+  {
+    SizePlace    place;
+    const auto   next  = expected(place);
+    const double limit = next ? next->coordinates : best() ? best()->point.coordinates : no_limit;
+    if (!untried_.empty() && limit >= another_kind * judged_.front().point.coordinates)
     {
-      coarsen(place);
-      try_reductions(place);
-      best        = place;
-      result_.met = true;
-      break;
+      try_kind(limit);
+      continue;
     }
-    if (until_thin_ && int(result_.ladder.size()) == thin_after && look(place).mesh > far_too_stiff)
+    if (!next || !is_worth(place, next->coordinates) || !may_cost(place, *next))
     {
-      result_.stopped = thin_walls;
-      model.result    = result_;
-      return model;
+      if (!result_.stopped.empty() || is_confirmed())
+        break;
+      continue;
     }
-    if (int(result_.ladder.size()) >= most_rungs || !finer(place))
+    try
     {
-      result_.stopped = "the ladder ends here: nothing finer is at hand";
-      break;
+      plan(judge(place));
+    }
+    catch (const std::exception &failure)
+    {
+      if ((options_.stop && *options_.stop) || place.cells == Cells::given)
+        throw;
+      kinds_.erase(std::find(kinds_.begin(), kinds_.end(), place.cells));
     }
   }
+}
+
+void Search::question(const SizedPlace &chosen)
+{
+  const ModelAnswer &answer = chosen.model.run;
+  const Scene        scene  = varied(scene_, models_.variant_of(chosen.place)),
+              coarse        = varied(scene_, models_.variant_of(judged_.front().place));
+  QuestionedModel model{scene, answer, outputs_, {}, options_.tolerance, coarse, judged_.front().model.run, {}};
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    model.scales.push_back(models_.scale_of(i, answer));
+  if (!options_.exhaustive) // and the last run
+    model.affords = [&](double cpu)
+    { return cpu_now() - begin_ + cpu + answer.cpu() <= std::max(most_runs * answer.cpu(), not_worth_counting); };
+  const Omissions found                                        = find_omissions(model, options_.stop);
+  std::tie(result_.left_out, result_.missing, result_.unasked) = std::tie(found.left_out, found.missing, found.unasked);
+}
+
+/// Every model up to one rung finer than the chosen one in each part, against the finest of its budget.
+void Search::try_all(const SizedPlace &chosen)
+{
+  const ModelAnswer &finer = chosen.model.finest;
+  for (const SizePlace &place : models_.about(chosen.place, judged_.front().place))
+  {
+    const ModelAnswer answer = models_.answers().of(models_.variant_of(place));
+    SizeRung          rung   = models_.rung_of(place, answer);
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      if (const double share =
+              std::abs(answer.values[i] - finer.values[i]) / (options_.tolerance * models_.scale_of(i, finer));
+          share >= rung.share)
+      {
+        rung.share = share;
+        rung.worst = outputs_[i].text;
+      }
+    if (place == chosen.place)
+      result_.chosen_of_all = result_.all.size();
+    result_.all.push_back(rung);
+    if (options_.on_rung)
+      options_.on_rung(rung);
+  }
+}
+
+SizedModel Search::run()
+{
+  search();
+  const SizedPlace *best_of_all = best();
+  if (result_.met = best_of_all; !result_.met && result_.stopped.empty())
+    result_.stopped = "nothing finer is at hand";
+  SizedPlace &chosen = *std::find_if(judged_.begin(), judged_.end(),
+                                     [&](const SizedPlace &a)
+                                     {
+                                       return best_of_all ? &a == best_of_all
+                                                          : std::all_of(judged_.begin(), judged_.end(),
+                                                                        [&](const SizedPlace &b)
+                                                                        { return a.rung.share <= b.rung.share; });
+                                     });
+  models_.settle(chosen);
+  for (const SizedPlace &judged : judged_)
+  {
+    if (&judged == &chosen)
+      result_.chosen = result_.ladder.size();
+    result_.ladder.push_back(judged.rung);
+  }
+  const ModelAnswer &finer = chosen.model.finest;
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    result_.proof.push_back({outputs_[i].text, finer.units[i], chosen.model.run.values[i], finer.values[i]});
+  result_.finer     = chosen.model.what;
   result_.tolerance = options_.tolerance;
-  result_.chosen    = rung_of_[best];
-  model.chosen      = variant_of(best);
-  model.result      = result_;
-  prove(best, model);
+  question(chosen);
+  result_.cpu_s = cpu_now() - begin_;
   if (options_.exhaustive)
-    try_all(best, model.result);
-  question(best, model.result);
-  return model;
+    try_all(chosen);
+  return {result_, models_.variant_of(chosen.place)};
 }
 
 } // namespace
 
 SizedModel size_search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
 {
-  const bool may_sweep = mesh_is_made(scene) && scene.frame.geometry.mesh.plates != fem::Plates::swept;
-  SizedModel model     = Climb(scene, outputs, options, may_sweep).run();
-  if (model.result.met || !may_sweep || (options.stop && *options.stop))
-    return model;
-  // Thin walls, which are too stiff as tetrahedra.
-  const Scene swept = varied(scene, {1., -1, {}, {}, true});
-  SizedModel  other = Climb(swept, outputs, options, false).run();
-  if (other.result.met)
-  {
-    other.chosen.swept = true;
-    other.result.swept = true;
-    return other;
-  }
-  return model.result.stopped == thin_walls ? Climb(scene, outputs, options, false).run() : model;
+  return Search(scene, outputs, options).run();
 }
 
 } // namespace gestell::apps

@@ -10,15 +10,13 @@ namespace gestell::apps
 
 struct SizeOptions
 {
-  double                                tolerance  = 0.;    ///< relative, of the total error of each output
-  double                                max_cpu    = 0.;    ///< [s] of a model; 0: any
-  double                                max_memory = 0.;    ///< [byte] of the program; 0: any
-  bool                                  exhaustive = false; ///< every model up to a rung finer than the chosen one, too
-  std::function<void(const SizeRung &)> on_rung    = {};    ///< after each model
-  /// Whether a model can be written as a scene, which may have keys that another reduction does not take; none: only
-  /// the scene's reduction is tried.
-  std::function<bool(const ModelVariant &)> readable = {};
-  const std::atomic<bool>                  *stop     = nullptr;
+  double                                    tolerance   = 0.;    ///< relative, of the total error of each output
+  double                                    max_cpu     = 0.;    ///< [s] of a model; 0: any
+  double                                    max_memory  = 0.;    ///< [byte] of the program; 0: any
+  bool                                      exhaustive  = false; ///< every model about the chosen one, too
+  std::function<void(const SizeRung &)>     on_rung     = {};    ///< after each model that was judged
+  std::function<void(const SizeForecast &)> on_forecast = {};    ///< before it is
+  const std::atomic<bool>                  *stop        = nullptr;
 };
 
 /// The model of a rung as a variant of the scene.
@@ -29,21 +27,16 @@ struct SizedModel
 };
 
 /**
- * Climbs from the cheapest model of a scene to one whose errors, by error_budget(), stay within the tolerance of every
- * output:
+ * The smallest model of a scene whose errors, by error_budget(), stay within the tolerance of every output.
  *
- *     mesh       cells of 9/4, 3/2, 1, 2/3, 4/9, ... of the scene's size
- *     reduction  0, 2, 4, 6, 8, 12, ... modes; none are the statics of the interface
- *     time       `exact` with a tolerance of 1e-3, 1e-4 ... 1e-9; where that does not treat the machine, or the scene
- *                gives its method parameters of its own, that method with 8, 4, 2, 1, 1/2, ... of its step or tolerance
+ * A coarse model, cells of 9/4 of the scene's size, 8 modes, integration to 1e-3 or in eight of the scene's steps, is
+ * judged first.  How many modes suffice is seen on its frame, whose first modes are a frame of fewer.  Its errors in
+ * mesh and time tell by their orders which model of each kind of mesh, tetrahedra with straight or curved sides and
+ * swept plates, will do; the one with the fewest coordinates is judged, and the laws are corrected by what it shows
+ * (size_laws.h), until no smaller one is expected, or what it costs would take all above ten runs of it.  The best is
+ * compared with its answer on cells of 2/3 the size, and must agree.
  *
- * Then each other reduction is tried with as many modes, and taken if it fits in nine tenths of the CPU time.
- *
- * Where no mesh of tetrahedra will do, the climb begins again with plates swept, and counts if it gets there.
- *
- * Each step refines what takes the largest share of the tolerance.  Behind the first model that fits each part is made
- * coarser again as long as the model fits.  Errors count against the largest size of the signal, of instants against
- * the length of the run.
+ * Errors count against the largest size of the signal, of instants against the length of the run.
  *
  * @throws std::invalid_argument for a tolerance of zero or less, above 1 or below 1e-8
  */

@@ -60,10 +60,12 @@ std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scen
   if (mesh_is_made(scene))
   {
     sizes.emplace_back("frame.mesh.size", number(sized.frame.geometry.mesh.size));
-    if (model.swept)
-      sizes.emplace_back("frame.mesh.plates", written_text("swept"));
-    if (model.curved && sized.frame.geometry.mesh.curved)
-      sizes.emplace_back("frame.mesh.curved", "true");
+    if (model.cells != Cells::given)
+    {
+      const fem::MeshOptions &mesh = sized.frame.geometry.mesh;
+      sizes.emplace_back("frame.mesh.plates", written_text(mesh.plates == fem::Plates::swept ? "swept" : "tetrahedra"));
+      sizes.emplace_back("frame.mesh.curved", mesh.curved ? "true" : "false");
+    }
     for (const auto &[surface, size] : sized.frame.geometry.mesh.surface_size)
       sizes.emplace_back("frame.mesh." + written_text(surface), number(size));
   }
@@ -75,7 +77,7 @@ std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scen
       const std::string key = "frame.part." + written_text(part.name) + ".mesh.";
       written.push_back(part.geometry.place);
       sizes.emplace_back(key + "size", number(part.geometry.mesh.size));
-      if (model.curved && part.geometry.mesh.curved)
+      if (model.cells == Cells::curved && part.geometry.mesh.curved)
         sizes.emplace_back(key + "curved", "true");
       for (const auto &[surface, size] : part.geometry.mesh.surface_size)
         sizes.emplace_back(key + written_text(surface), number(size));

@@ -27,6 +27,7 @@ Json size_json(const SizeResult &size)
   const SizeRung &rung   = size.ladder.at(size.chosen);
   Json            chosen = {{"rung", size.chosen + 1},
                             {"mesh_size", rung.mesh_size > 0. ? Json(rung.mesh_size) : Json()},
+                            {"sides", rung.cells.empty() ? Json() : Json(rung.cells)},
                             {"coordinates", rung.coordinates},
                             {"interface", rung.interface},
                             {"modes", rung.modes >= 0 ? Json(rung.modes) : Json()},
@@ -45,7 +46,9 @@ Json size_json(const SizeResult &size)
                {"proof", Json::object()},
                {"finer", size.finer},
                {"left_out", size.left_out},
-               {"missing", size.missing}};
+               {"missing", size.missing},
+               {"unasked", size.unasked},
+               {"cost", {{"cpu_s", size.cpu_s}, {"runs", size.runs()}, {"forecast_cpu_s", size.forecast.cpu_s}}}};
   for (const SizeProof &proof : size.proof)
     json["proof"][proof.output] = {
         {"value", proof.value}, {"finer", proof.finer}, {"difference", std::abs(proof.finer - proof.value)}};
@@ -92,13 +95,25 @@ std::string size_all_csv(const SizeResult &size)
 std::string rung_text(const SizeRung &rung)
 {
   std::ostringstream text;
-  text << std::setw(12) << (rung.mesh_size > 0. ? short_text(rung.mesh_size, 3) : "-") << std::setw(13)
+  const std::string  cells = rung.cells.empty() || rung.cells == "straight" ? "" : rung.cells + " ";
+  text << std::setw(13) << (rung.mesh_size > 0. ? cells + short_text(rung.mesh_size, 3) : "-") << std::setw(13)
        << (rung.coordinates > 0 ? std::to_string(rung.coordinates) : "-") << std::setw(7)
        << (rung.modes >= 0 ? std::to_string(rung.modes) : "-") << "  " << std::left << std::setw(20)
        << (rung.method +
            (rung.tolerance > 0. ? " " + short_text(rung.tolerance, 2) : " " + short_text(rung.step, 3) + " s"))
        << std::right << std::setw(9) << short_text(rung.cpu_s, 2) << std::setw(12)
        << (std::isfinite(rung.share) ? short_text(rung.share, 2) : "not known") << "  " << rung.worst;
+  return text.str();
+}
+
+std::string forecast_text(const SizeForecast &forecast)
+{
+  std::ostringstream text;
+  text << "forecast:";
+  if (forecast.coordinates > 0.)
+    text << " a model of " << short_text(forecast.coordinates, 2) << " coordinates,";
+  text << ' ' << short_text(forecast.model_cpu_s, 2) << " CPU s from CAD to the end of its run; with its errors "
+       << short_text(forecast.cpu_s, 2) << " CPU s, of which " << short_text(forecast.spent_cpu_s, 2) << " are spent";
   return text.str();
 }
 
@@ -117,10 +132,10 @@ std::string size_text(const SizeResult &size)
   text << "chosen: model " << size.chosen + 1 << " of " << size.ladder.size() << ", every output "
        << (size.met ? "within " : "NOT within ") << short_text(100. * size.tolerance, 3) << " %"
        << (size.met ? "" : ": " + size.stopped) << '\n';
-  if (const SizeRung &rung = size.ladder[size.chosen]; rung.reduction != size.ladder.front().reduction)
-    text << "reduced by another method, which takes less: reduction.method = \"" << rung.reduction << "\"\n";
-  if (size.swept)
-    text << "plates are swept, as tetrahedra do not get there: frame.mesh.plates = \"swept\"\n";
+  if (const SizeRung &rung = size.ladder[size.chosen]; rung.cells != size.ladder.front().cells)
+    text << (rung.cells == "swept"    ? "plates are swept: frame.mesh.plates = \"swept\"\n"
+             : rung.cells == "curved" ? "sides of cells follow the geometry: frame.mesh.curved = true\n"
+                                      : "");
   if (!size.proof.empty())
     text << "proof: against " << size.finer << '\n';
   else if (!size.finer.empty())
@@ -145,6 +160,15 @@ std::string size_text(const SizeResult &size)
     text << "may be left out: " << what << '\n';
   for (const std::string &what : size.missing)
     text << "missing: " << what << '\n';
+  if (!size.unasked.empty())
+  {
+    text << "not asked, as all would take more than ten runs of the chosen model (--exhaustive asks): ";
+    for (std::size_t i = 0; i < size.unasked.size(); ++i)
+      text << (i > 0 ? ", " : "") << size.unasked[i];
+    text << '\n';
+  }
+  text << "cost: " << short_text(size.cpu_s, 3) << " CPU s, " << short_text(size.runs(), 2)
+       << " runs of the chosen model with its preparation\n";
   return text.str();
 }
 

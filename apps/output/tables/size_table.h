@@ -6,7 +6,8 @@
 namespace gestell::apps
 {
 
-/// Of summary.json: `tolerance`, `met`, `chosen` (the rung), `proof` by output, `left_out`, `missing`.
+/// Of summary.json: `tolerance`, `met`, `chosen` (the rung), `proof` by output, `left_out`, `missing`,
+/// `unasked`, `cost`.
 Json size_json(const SizeResult &size);
 
 /// size.csv: a row for each model that was tried.
@@ -20,6 +21,7 @@ const SizeRung *cheapest_of(const SizeResult &size);
 
 /// For a terminal: one model, and all of them with what follows.
 std::string rung_text(const SizeRung &rung);
+std::string forecast_text(const SizeForecast &forecast);
 std::string size_text(const SizeResult &size);
 
 } // namespace gestell::apps

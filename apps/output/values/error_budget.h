@@ -22,6 +22,7 @@ struct BudgetEntry
   std::string                              unit;
   double                                   value = 0.;
   BudgetPart                               mesh, reduction, time;
+  std::optional<double>                    sides;   ///< of the mesh's error what straight sides leave; none: not known
   std::optional<double>                    total;   ///< sum of the three; none where one is not known
   std::optional<std::pair<double, double>> bracket; ///< smallest and largest value of all models computed
 };

@@ -1,6 +1,7 @@
 // Error budgets of frames from CAD against a mesh that is far finer.
 
 #include "apps/sizing/error_budget.h"
+#include "apps/sizing/size_search.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
 
@@ -56,6 +57,55 @@ TEST(FrameBudget, OfCoarseCellsAroundAHoleIsAtLeastHalfOfTheTrueError)
     EXPECT_GT(error, 3e-4 * std::abs(entry.value)) << entry.output << ": the test needs a coarse mesh";
     EXPECT_GE(*entry.total, 0.5 * error) << entry.output << ", " << entry.mesh.reason;
     EXPECT_LE(*entry.total, 4. * error) << entry.output;
+  }
+}
+
+/// Nothing is known of what straight sides of hexahedra leave of a hole, and of a plate without one there is nothing.
+TEST(FrameBudget, OfSweptPlatesIsKnownWhereAllFacesArePlanes)
+{
+  for (const bool has_hole : {true, false})
+  {
+    test::SceneFolder folder;
+    Scene             scene = eye_bar(folder, "size = '60 mm', plates = 'swept'");
+    if (!has_hole)
+      folder.write("eye.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.3, 0.05, 0.3};\n");
+    const auto         outputs = budget_outputs(scene, "modes.1");
+    const ErrorBudget  budget  = error_budget(scene, outputs, answer_of(scene, {}, outputs));
+    const BudgetEntry &entry   = budget.entries.at(0);
+    EXPECT_EQ(entry.mesh.error.has_value(), !has_hole) << entry.mesh.reason;
+    EXPECT_EQ(entry.total.has_value(), !has_hole);
+    if (has_hole)
+      EXPECT_NE(entry.mesh.reason.find("straight at curved faces"), std::string::npos) << entry.mesh.reason;
+  }
+}
+
+/// Tetrahedra with curved sides need fewer coordinates than straight ones, which leave more of the hole than is allowed
+/// at any size; what they answer is within the tolerance of a far finer mesh, and less than twice what is told.
+TEST(FrameSize, IsTheSmallestOfAllKindsOfMeshForAtMostTenRuns)
+{
+  test::SceneFolder folder, fine_folder;
+  const Scene       scene   = eye_bar(folder, "size = '40 mm'");
+  const auto        outputs = budget_outputs(scene, "x.max,modes.1,modes.2");
+  SizeOptions       options;
+  options.tolerance      = 0.01;
+  double told            = 0.;
+  options.on_forecast    = [&](const SizeForecast &forecast) { told = forecast.cpu_s; };
+  const SizedModel model = size_search(scene, outputs, options);
+  ASSERT_TRUE(model.result.met) << model.result.stopped;
+  EXPECT_LE(model.result.runs(), 10.);
+  EXPECT_GT(told, 0.);
+  EXPECT_EQ(told, model.result.forecast.cpu_s);
+  const SizeRung &chosen = model.result.ladder.at(model.result.chosen);
+  EXPECT_EQ(chosen.cells, "curved");
+  const ModelAnswer truth =
+      answer_of(eye_bar(fine_folder, "size = '15 mm', curved = true"), {1., 48, finest_method(scene)}, outputs);
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+  {
+    const BudgetEntry &entry = chosen.entries.at(i);
+    const double       error = std::abs(entry.value - truth.values.at(i));
+    EXPECT_LE(error, options.tolerance * truth.sizes[i]) << entry.output;
+    ASSERT_TRUE(entry.total) << entry.output;
+    EXPECT_GE(*entry.total, 0.5 * error) << entry.output;
   }
 }
 

@@ -299,7 +299,7 @@ TEST(Size, NamesLoadsNearTheHighestModeKept)
       text.replace(text.find("'" + f + " Hz'"), f.size() + 5, "'" + number(hertz) + " Hz'");
     const Read  scene(text);
     SizeOptions options;
-    options.tolerance       = 0.5;
+    options.tolerance       = 0.2;
     const SizeResult result = size_search(scene.scene, of_scene(scene.scene, "x.max"), options).result;
     const double     cutoff = hertz == 350. ? 1. : 0.;
     EXPECT_EQ(result.missing.size(), std::size_t(cutoff));

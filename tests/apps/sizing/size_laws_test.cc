@@ -1,0 +1,129 @@
+// The laws by which a search jumps to the next model, and frames of the first modes of a reduction.
+
+#include "apps/sizing/first_modes.h"
+#include "apps/sizing/size_laws.h"
+#include "coupling/plugin/frame_service_loader.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using namespace apps;
+
+constexpr double coarsest = 2.25, aim = 0.8;
+
+/// Of one output, whose error falls like h^q.
+MeshPoint point(double size, double error, double q, double r, double sides = 0.)
+{
+  return {size, 1e4 * std::pow(size, -r), 1., {{sides, error * std::pow(size, q), 0., 0.}}};
+}
+
+TEST(SizeLaws, FindTheMeshThatTwoPointsForetell)
+{
+  for (const double q : {1.2, 2., 3.5})
+    for (const double r : {1.5, 2.5})
+    {
+      const std::vector<Shares> others = {{0., 0., 0.1, 0.05}};
+      const auto next = coarsest_within(aim, {point(2., 3., q, r), point(1.2, 3., q, r)}, others, coarsest);
+      ASSERT_TRUE(next);
+      const double size = std::pow((aim - 0.15) / 3., 1. / q);
+      EXPECT_NEAR(next->size, size, 1e-6 * size) << q;
+      EXPECT_NEAR(next->coordinates, 1e4 * std::pow(size, -r), 1. / size) << r;
+    }
+}
+
+/// One point shows no law: the next mesh is at most twice as fine.  None is coarser than the coarsest.
+TEST(SizeLaws, StayWithinWhatIsKnown)
+{
+  const std::vector<Shares> none = {{}};
+  EXPECT_NEAR(coarsest_within(aim, {point(2., 100., 1., 2.)}, none, coarsest)->size, 1., 1e-12);
+  EXPECT_EQ(coarsest_within(aim, {point(2., 1e-9, 2., 2.)}, none, coarsest)->size, coarsest);
+}
+
+/// What straight sides leave falls with no finer mesh.
+TEST(SizeLaws, GiveUpWhereStraightSidesAloneAreTooMuch)
+{
+  const std::vector<Shares> none    = {{}};
+  constexpr double          unknown = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(coarsest_within(aim, {point(2., 1., 2., 2., 0.9)}, none, coarsest));
+  EXPECT_FALSE(coarsest_within(aim, {point(2., 1., 2., 2., unknown)}, none, coarsest));
+  EXPECT_TRUE(coarsest_within(aim, {point(2., 1., 2., 2., 0.5)}, none, coarsest));
+  EXPECT_LT(coarsest_within(aim, {point(2., unknown, 2., 2.)}, none, coarsest)->size, 2.); // the error is seen there
+}
+
+TEST(SizeLaws, TakeMoreModesByTheSquareOfTheirNumber)
+{
+  EXPECT_EQ(modes_for(0.2, 8, 0.8), 16);
+  EXPECT_EQ(modes_for(0.2, 8, 0.21), 12);
+  EXPECT_EQ(modes_for(0.2, 0, std::numeric_limits<double>::infinity()), 2);
+}
+
+/// A rod of masses with a row for a force, under its weight along itself.
+fem::FrameMatrices weighing_rod(int n)
+{
+  fem::FrameMatrices frame;
+  frame.M.resize(n, n);
+  frame.C.resize(n, n);
+  frame.B.resize(n, n);
+  for (int i = 0; i < n; ++i)
+  {
+    frame.M.insert(i, i) = 0.2 + 0.01 * i;
+    frame.B.insert(i, i) = 0.3;
+    frame.C.insert(i, i) = i + 1 < n ? 2e4 : 1e4;
+    if (i > 0)
+      frame.C.insert(i, i - 1) = -1e4;
+    if (i + 1 < n)
+      frame.C.insert(i, i + 1) = -1e4;
+  }
+  for (fem::SparseMatrix *A : {&frame.M, &frame.B, &frame.C})
+    A->makeCompressed();
+  fem::Interface tip;
+  tip.name          = "tip";
+  tip.coordinate[0] = n - 1;
+  frame.interfaces  = {tip};
+  frame.translations.setZero(n, 3);
+  frame.translations.col(0).setOnes();
+  fem::FrameOutput root;
+  root.name     = "root";
+  root.unit     = "N";
+  root.on_q     = Eigen::VectorXd::Unit(n, 0) * 1e4;
+  root.on_v     = Eigen::VectorXd::Zero(n);
+  frame.outputs = {root};
+  return frame;
+}
+
+/// Matrices and rows are those of the reduction with as few modes, that under the weight too.
+TEST(FirstModes, AreTheReductionWithAsFew)
+{
+  coupling::ReductionOptions options;
+  options.n_modes                    = 12;
+  const fem::FrameMatrices     frame = weighing_rod(30);
+  const coupling::ReducedFrame many  = coupling::frame_service().reduce(frame, options, {});
+  for (const int n_modes : {0, 3, 12})
+  {
+    options.n_modes                     = n_modes;
+    const coupling::ReducedFrame few    = coupling::frame_service().reduce(frame, options, {});
+    const coupling::ReducedFrame firsts = with_first_modes(many, n_modes);
+    // Signs of modes are free.
+    for (const auto &[A, B] :
+         {std::pair(&few.M, &firsts.M), std::pair(&few.B, &firsts.B), std::pair(&few.C, &firsts.C)})
+    {
+      ASSERT_EQ(A->rows(), B->rows());
+      EXPECT_LT((A->cwiseAbs() - B->cwiseAbs()).norm(), 1e-7 * A->norm());
+    }
+    const fem::FrameOutput &a = few.outputs.at(0), &b = firsts.outputs.at(0);
+    EXPECT_LT((a.on_q.cwiseAbs() - b.on_q.cwiseAbs()).norm(), 1e-7 * a.on_q.norm());
+    EXPECT_GT(a.under_acceleration.norm(), 0.);
+    EXPECT_LT((a.under_acceleration - b.under_acceleration).norm(), 1e-7 * frame.M.sum());
+  }
+  EXPECT_THROW(with_first_modes(many, 13), std::invalid_argument);
+}
+
+} // namespace
+} // namespace gestell::tests
