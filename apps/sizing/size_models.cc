@@ -156,7 +156,7 @@ SizedPlace SizeModels::judge(const SizePlace &place, double most_cells)
   const double begin = cpu_now();
   SizedPlace   here;
   ModelVariant variant = variant_of(place, most_cells);
-  if (place.mesh == first_.mesh && place.modes < first_.modes && judged_first_) // its frames have these modes
+  if (has_frames(place))
     variant.made = first_.modes;
   judged_first_          = true;
   here.place             = place;

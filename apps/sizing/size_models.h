@@ -55,6 +55,11 @@ public:
   /// @throws std::invalid_argument if the scene gives no step to vary
   SizePlace coarse();
 
+  /// Whether those of the coarse one, once it is judged, do for a model.
+  bool has_frames(const SizePlace &place) const
+  {
+    return judged_first_ && place.mesh == first_.mesh && place.modes < first_.modes && place.cells != Cells::swept;
+  }
   /// On the cells of the coarse one fewer modes are taken from its frames.
   SizedPlace judge(const SizePlace &place, double most_cells = 0.);
   /// Takes the answer of the model with a frame of its own, which a frame of first modes gives but for rounding.

@@ -155,6 +155,10 @@ void Search::keep_few_modes(const SizedPlace &coarse)
   const bool more = planned_.modes > coarse.place.modes;
   if (planned_.modes <= 0)
     return;
+  double rest = 0.; // what mesh and time take where nothing is made finer
+  for (const Shares &shares : coarse.point.shares)
+    rest = std::max(rest, shares.mesh() + shares.time);
+  const double part              = std::max(of_modes(), aim - rest);
   all.modes                      = planned_.modes;
   const ModelAnswer       full   = models_.answers().of(models_.variant_of(all));
   const std::vector<int> &ladder = mode_ladder();
@@ -182,7 +186,7 @@ void Search::keep_few_modes(const SizedPlace &coarse)
       if (options_.stop && *options_.stop)
         throw;
     }
-    if (most <= of_modes())
+    if (most <= part)
     {
       high           = middle;
       others_        = others;
@@ -308,12 +312,9 @@ bool Search::is_worth(const SizePlace &place, double coordinates) const
 
 void Search::forecast(double coordinates, double model_cpu, double work)
 {
+  const double  spent = cpu_now() - begin_, proof = mesh_can_change(scene_) ? of_finer_cells : 0.;
   SizeForecast &told = result_.forecast;
-  told.coordinates   = coordinates;
-  told.modes         = planned_.modes;
-  told.model_cpu_s   = model_cpu;
-  told.spent_cpu_s   = cpu_now() - begin_;
-  told.cpu_s         = told.spent_cpu_s + (work + (mesh_can_change(scene_) ? of_finer_cells : 0.) + 1.) * model_cpu;
+  told               = {coordinates, planned_.modes, model_cpu, spent, spent + (work + proof + 1.) * model_cpu};
   if (options_.on_forecast)
     options_.on_forecast(told);
 }
@@ -322,7 +323,7 @@ bool Search::may_cost(const SizePlace &place, const MeshPoint &next)
 {
   const SizedPlace &last = judged_.back();
   const double cpu = next.cpu_s + last.model.run.run_cpu * (models_.by_steps() ? last.place.time / place.time : 1.);
-  forecast(next.coordinates, cpu, last.work);
+  forecast(next.coordinates, cpu, models_.has_frames(place) ? 1. : last.work);
   if (options_.max_cpu > 0. && cpu > options_.max_cpu)
     result_.stopped = "the next model would take " + short_text(cpu, 2) + " s, above --max-cpu";
   else if (options_.max_memory > 0. && memory_taken() > options_.max_memory)
