@@ -1,6 +1,7 @@
 #include "apps/sizing/size_models.h"
 
 #include "coupling/integration/system/convergence_failure.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,12 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int    first_modes      = 8;
-constexpr double loosest          = 1e-3; ///< tolerance of `exact`
-constexpr double finest_tolerance = 1e-9; ///< ten times that of the finest of a budget
-constexpr double longest          = 8.;   ///< of the scene's steps
-constexpr double rounding         = 1e-9;
+constexpr int    first_modes        = 8;
+constexpr double smallest_tolerance = 1e-8; ///< of outputs
+constexpr double loosest            = 1e-3; ///< tolerance of `exact`
+constexpr double finest_tolerance   = 1e-9; ///< ten times that of the finest of a budget
+constexpr double longest            = 8.;   ///< of the scene's steps
+constexpr double rounding           = 1e-9;
 
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
@@ -32,6 +34,17 @@ double memory_taken()
     if (double kilobytes = 0.; word == "VmHWM:" && status >> kilobytes)
       return 1024. * kilobytes;
   return 0.;
+}
+
+SizeModels::SizeModels(const Scene &scene, const std::vector<OutputName> &outputs, double tolerance,
+                       const std::atomic<bool> *stop)
+    : scene_(scene), outputs_(outputs), tolerance_(tolerance), stop_(stop), models_(scene, outputs, stop)
+{
+  if (!(tolerance >= smallest_tolerance) || tolerance > 1.)
+    throw std::invalid_argument(
+        "--tolerance: needs a relative error between 1e-8, below which rounding decides, and 1, "
+        "got " +
+        short_text(tolerance));
 }
 
 /// Whether `exact` treats the machine, with the scene's keys beside it.

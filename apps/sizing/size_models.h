@@ -44,11 +44,9 @@ class SizeModels
 {
 public:
   /// @param tolerance  relative error that each output may have
+  /// @throws std::invalid_argument if it is not between 1e-8 and 1
   SizeModels(const Scene &scene, const std::vector<OutputName> &outputs, double tolerance,
-             const std::atomic<bool> *stop)
-      : scene_(scene), outputs_(outputs), tolerance_(tolerance), stop_(stop), models_(scene, outputs, stop)
-  {
-  }
+             const std::atomic<bool> *stop);
 
   /// The coarse one to begin with: cells of 9/4 of the scene's size, 8 modes, `exact` to 1e-3 or, where that does not
   /// treat the machine, eight of the scene's steps, or as many as it can be integrated with.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <optional>
 #include <tuple>
 
 namespace gestell::apps
@@ -17,7 +16,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double smallest_tolerance = 1e-8;
 constexpr double aim                = 0.8; ///< of what is allowed, as laws err
 constexpr double of_a_part          = 0.2; ///< of what is allowed: modes and time are cheap beside the mesh,
 constexpr double without_mesh       = 0.5; ///< of modes where there is none to be made finer
@@ -42,10 +40,6 @@ public:
       : scene_(scene), outputs_(outputs), options_(options), begin_(cpu_now()),
         models_(scene, outputs, options.tolerance, options.stop)
   {
-    if (!(options.tolerance >= smallest_tolerance) || options.tolerance > 1.)
-      throw std::invalid_argument("--tolerance: needs a relative error between 1e-8, below which rounding decides, and "
-                                  "1, got " +
-                                  short_text(options.tolerance));
   }
 
   SizedModel run();
@@ -59,11 +53,12 @@ private:
   void                     keep_few_modes(const SizedPlace &coarse);
   std::optional<MeshPoint> expected(SizePlace &place) const;
   void                     try_kind(double coordinates);
-  const SizedPlace        *best() const;
+  SizedPlace              *best();
   bool                     is_confirmed();
   bool                     is_known();
-  bool                     is_worth(const SizePlace &place, double coordinates) const;
+  bool                     is_worth(const SizePlace &place, double coordinates);
   void                     forecast(double coordinates, double model_cpu, double work);
+  void                     stop_above(double cpu);
   bool                     may_cost(const SizePlace &place, const MeshPoint &next);
   void                     search();
 
@@ -104,9 +99,8 @@ void Search::find_kinds()
   }
   if (sides_of(scene_, models_.answers().planes()) == Sides::straight)
     kinds_.push_back(Cells::curved);
-  ModelVariant swept;
-  swept.cells = Cells::swept;
-  if (mesh_is_made(scene_) && sides_of(varied(scene_, swept), models_.answers().planes()) == Sides::exact)
+  if (mesh_is_made(scene_) &&
+      sides_of(varied(scene_, {1., -1, {}, {}, Cells::swept}), models_.answers().planes()) == Sides::exact)
     untried_ = {Cells::swept};
 }
 
@@ -243,15 +237,15 @@ void Search::try_kind(double coordinates)
 }
 
 /// The smallest model so far that keeps the tolerance; null: none.
-const SizedPlace *Search::best() const
+SizedPlace *Search::best()
 {
-  const SizedPlace *best    = nullptr;
-  const auto        smaller = [](const SizedPlace &a, const SizedPlace &b)
+  SizedPlace *best    = nullptr;
+  const auto  smaller = [](const SizedPlace &a, const SizedPlace &b)
   {
     return std::make_tuple(a.point.coordinates, a.place.modes, a.model.run.cpu()) <
            std::make_tuple(b.point.coordinates, b.place.modes, b.model.run.cpu());
   };
-  for (const SizedPlace &judged : judged_)
+  for (SizedPlace &judged : judged_)
     if (judged.rung.share <= 1. && (!best || smaller(judged, *best)))
       best = &judged;
   return best;
@@ -260,20 +254,18 @@ const SizedPlace *Search::best() const
 /// Whether the best so far, if any, agrees with its answer on cells of 2/3 the size; else that model is judged.
 bool Search::is_confirmed()
 {
-  const SizedPlace *so_far = best();
+  SizedPlace *so_far = best();
   if (!so_far || so_far->confirmed || !mesh_can_change(scene_))
     return true;
-  SizedPlace &judged =
-      *std::find_if(judged_.begin(), judged_.end(), [&](const SizedPlace &other) { return &other == so_far; });
-  SizePlace finer = judged.place;
+  SizePlace finer = so_far->place;
   finer.mesh      = std::floor(1e3 * finer.mesh / ratio_of_meshes) / 1e3;
   try
   {
-    models_.compare(judged, models_.answers().of(models_.variant_of(finer)));
-    if (judged.rung.share <= 1.)
+    models_.compare(*so_far, models_.answers().of(models_.variant_of(finer)));
+    if (so_far->rung.share <= 1.)
       return true;
     if (options_.on_rung)
-      options_.on_rung(judged.rung);
+      options_.on_rung(so_far->rung);
     plan(judge(finer));
     return false;
   }
@@ -281,7 +273,7 @@ bool Search::is_confirmed()
   {
     if (options_.stop && *options_.stop)
       throw;
-    judged.confirmed = true;
+    so_far->confirmed = true;
     return true;
   }
 }
@@ -301,7 +293,7 @@ bool Search::is_known()
 }
 
 /// To be judged: a model not judged yet, smaller than the best so far.
-bool Search::is_worth(const SizePlace &place, double coordinates) const
+bool Search::is_worth(const SizePlace &place, double coordinates)
 {
   if (std::any_of(judged_.begin(), judged_.end(), [&](const SizedPlace &other) { return other.place == place; }))
     return false;
@@ -319,15 +311,21 @@ void Search::forecast(double coordinates, double model_cpu, double work)
     options_.on_forecast(told);
 }
 
+/// What is above the limits that were given ends the search.
+void Search::stop_above(double cpu)
+{
+  if (options_.max_cpu > 0. && cpu > options_.max_cpu)
+    result_.stopped = "the next model takes " + short_text(cpu, 2) + " s, above --max-cpu";
+  else if (options_.max_memory > 0. && memory_taken() > options_.max_memory)
+    result_.stopped = "the program took " + short_text(memory_taken() / 1e9, 2) + " GB, above --max-memory";
+}
+
 bool Search::may_cost(const SizePlace &place, const MeshPoint &next)
 {
   const SizedPlace &last = judged_.back();
   const double cpu = next.cpu_s + last.model.run.run_cpu * (models_.by_steps() ? last.place.time / place.time : 1.);
   forecast(next.coordinates, cpu, models_.has_frames(place) ? 1. : last.work);
-  if (options_.max_cpu > 0. && cpu > options_.max_cpu)
-    result_.stopped = "the next model would take " + short_text(cpu, 2) + " s, above --max-cpu";
-  else if (options_.max_memory > 0. && memory_taken() > options_.max_memory)
-    result_.stopped = "the program took " + short_text(memory_taken() / 1e9, 2) + " GB, above --max-memory";
+  stop_above(cpu);
   return result_.stopped.empty() && (!best() || result_.forecast.runs() <= most_runs);
 }
 
@@ -336,7 +334,10 @@ void Search::search()
   const SizePlace    coarse = planned_ = models_.coarse();
   const ModelAnswer &answer            = models_.answers().of(models_.variant_of(coarse));
   forecast(answer.n_frame, answer.cpu(), models_of_a_budget);
+  stop_above(answer.cpu());
   plan(judge(coarse));
+  if (!result_.stopped.empty())
+    return;
   keep_few_modes(judged_.front());
   find_kinds();
   while (int(judged_.size()) < most_judged && is_known())
@@ -410,17 +411,16 @@ void Search::try_all(const SizedPlace &chosen)
 SizedModel Search::run()
 {
   search();
-  const SizedPlace *best_of_all = best();
-  if (result_.met = best_of_all; !result_.met && result_.stopped.empty())
+  SizedPlace *best_of_all = best();
+  result_.met             = best_of_all && !(options_.max_cpu > 0. && best_of_all->model.run.cpu() > options_.max_cpu);
+  if (result_.met)
+    result_.stopped.clear();
+  else if (result_.stopped.empty())
     result_.stopped = "nothing finer is at hand";
-  SizedPlace &chosen = *std::find_if(judged_.begin(), judged_.end(),
-                                     [&](const SizedPlace &a)
-                                     {
-                                       return best_of_all ? &a == best_of_all
-                                                          : std::all_of(judged_.begin(), judged_.end(),
-                                                                        [&](const SizedPlace &b)
-                                                                        { return a.rung.share <= b.rung.share; });
-                                     });
+  SizedPlace &chosen = best_of_all ? *best_of_all
+                                   : *std::min_element(judged_.begin(), judged_.end(),
+                                                       [](const SizedPlace &a, const SizedPlace &b)
+                                                       { return a.rung.share < b.rung.share; });
   models_.settle(chosen);
   for (const SizedPlace &judged : judged_)
   {
