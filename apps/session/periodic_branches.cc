@@ -3,7 +3,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/session/periodic_answer.h"
 #include "coupling/periodic/collocation/collocation_branch.h"
-#include "coupling/periodic/continuation.h"
+#include "coupling/periodic/verified_orbit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,8 +103,9 @@ class BranchTable
 public:
   BranchTable(const SceneFamily &family, PeriodicResult &result) : family_(family), result_(result) {}
 
-  void add(const coupling::Branch &branch)
+  void add(coupling::Branch branch)
   {
+    verify_branch(family_.problems(), branch);
     ++number_;
     const std::size_t first = result_.entries.size();
     for (const coupling::BranchPoint &point : branch.points)

@@ -17,16 +17,43 @@ using Eigen::VectorXd;
 constexpr int    other_order  = 6;    ///< of exact propagation; searches take 8
 constexpr double other_steps  = 1e-9; ///< tolerance; searches take 1e-11
 constexpr double goes_away    = 1e-3; ///< departure of a motion that closes to 1e-7 at worst, with 20 periods of errors
-constexpr double off_a_series = 0.1;  ///< the same of a Fourier series, whose harmonics are few
+constexpr double off_a_series = 0.1;  ///< the same of a Fourier series, whose harmonics are few, and of fixed steps
+constexpr double off_a_mode   = 0.5;  ///< the same of averaging, which takes first order of one mode: another motion
+constexpr double all_steps    = 1e3; ///< errors of as many steps add up in a motion that is integrated with a tolerance
+constexpr double finer_steps  = 0.5; ///< of fixed steps
+constexpr double finer_errors = 0.1; ///< of a tolerance
 
+/// Exact propagation by other formulas; of another method, that of [run], by finer steps.
 MethodOptions other_integration(const MethodOptions &of_search)
 {
   if (of_search.method != PeriodicOptions().integration.method)
-    return of_search; // that of [run], for what exact propagation does not integrate
+  {
+    MethodOptions finer = of_search;
+    finer.step *= finer_steps;
+    finer.tolerance *= finer_errors;
+    return finer;
+  }
   MethodOptions other = options_of("exact", other_order).with("force", "collocation");
   other.modes         = of_search.modes;
   other.tolerance     = other_steps;
   return other;
+}
+
+double largest_departure(const PeriodicSolution &solution)
+{
+  if (!std::isfinite(solution.residual))
+    return off_a_mode;
+  const MethodOptions &steps = solution.integration;
+  if (solution.series || (steps.step > 0. && !controlled(steps)))
+    return off_a_series;
+  return std::clamp(all_steps * steps.tolerance, goes_away, off_a_series);
+}
+
+/// Motions of averaging have a period of first order where it is unknown: after 20 of them a run is elsewhere.
+bool can_be_verified(const PeriodicProblem &problem, const PeriodicSolution &solution)
+{
+  return solution.stable() && (std::isfinite(solution.residual) || !problem.period_is_unknown()) &&
+         solution.verification.periods == 0 && solution.verification.failure.empty();
 }
 
 /// x without its share along a direction.
@@ -78,7 +105,7 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
   {
     verification.failure = none.what();
   }
-  verification.leaves = !(verification.departure <= (solution.series ? off_a_series : goes_away));
+  verification.leaves = !(verification.departure <= largest_departure(solution));
   std::ostringstream note;
   note.precision(2);
   if (verification.leaves)
@@ -95,9 +122,33 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions)
 {
   for (PeriodicSolution &solution : solutions)
-    if (solution.stable() && std::isfinite(solution.residual) && solution.verification.periods == 0 &&
-        solution.verification.failure.empty())
+    if (can_be_verified(problem, solution))
       verify_by_run(problem, solution);
+}
+
+void verify_branch(const ProblemFamily &family, Branch &branch)
+{
+  std::vector<BranchPoint> &points = branch.points;
+  // Whether a run leaves it.
+  const auto left = [&](std::size_t i)
+  {
+    const FamilyMember member = family(points[i].parameter);
+    if (can_be_verified(member.problem, points[i].solution))
+      verify_by_run(member.problem, points[i].solution);
+    return points[i].solution.verification.leaves;
+  };
+  for (std::size_t first = 0, end = 0; first < points.size(); first = end + 1)
+  {
+    end = first;
+    while (end < points.size() && points[end].solution.stable())
+      ++end;
+    if (end == first)
+      continue;
+    const std::size_t probes[] = {first, first + (end - first) / 2, end - 1};
+    if (std::any_of(std::begin(probes), std::end(probes), left))
+      for (std::size_t i = first; i < end; ++i)
+        left(i);
+  }
 }
 
 } // namespace gestell::coupling

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "coupling/periodic/periodic_problem.h"
-#include "coupling/periodic/periodic_solution.h"
+#include "coupling/periodic/continuation.h"
+#include "coupling/periodic/followed_equations.h"
 
 namespace gestell::coupling
 {
@@ -23,8 +23,12 @@ constexpr int verified_periods = 20; ///< of a run that verifies a motion
  */
 void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution);
 
-/// Those that are stable by their multipliers, unless they are verified already.  Methods that state no residual, such as
-/// averaging, give no motion that closes.
+/// Those that are stable by their multipliers, unless they are verified already; by averaging only those of a given
+/// period.
 void verify_stable(const PeriodicProblem &problem, std::vector<PeriodicSolution> &solutions);
+
+/// Of each stretch of a branch without a motion that is unstable the first one, the middle one and the last; all of it,
+/// where a run leaves one of them.
+void verify_branch(const ProblemFamily &family, Branch &branch);
 
 } // namespace gestell::coupling

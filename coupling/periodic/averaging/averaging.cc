@@ -105,6 +105,7 @@ PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, Sl
     std::swap(solution.multipliers[0], solution.multipliers[1]);
   solution.trivial_multiplier = flow.load_omega() == 0.;
   solution.method             = "averaging";
+  solution.integration        = options.integration;
   std::ostringstream note;
   note.precision(2);
   note << "first order in what the elements add to the frequency of the mode, here "

@@ -1,5 +1,6 @@
 #include "coupling/periodic/averaging/averaging.h"
 #include "coupling/periodic/averaging/slow_flow.h"
+#include "coupling/periodic/verified_orbit.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
@@ -104,6 +105,25 @@ TEST(Averaging, ReturnsSolutionsWithTheirStability)
                              std::hypot(row.number("mu2_re"), row.number("mu2_im"))),
                     0.01);
       }
+  }
+}
+
+/// Multipliers of averaging are those of one mode: a run finds another one that grows.
+TEST(Averaging, IsNotCalledStableWhereAnotherModeGrows)
+{
+  for (const double growth : {-0.05, 0.2})
+  {
+    MatrixXd B(2, 2), C(2, 2);
+    B << 0.02, 0.005, 0.005, -growth;
+    C << 1., 0., 0., 7.;
+    CubicSystem system(MatrixXd::Identity(2, 2), B, C, {{0.02, Eigen::Vector2d(1., 0.)}});
+    system.loads().add_harmonic(0, 1.03, 0.03, 0.);
+    const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 1.03);
+    auto                  found   = averaging_method().solve(problem, {}, {});
+    ASSERT_FALSE(found.empty());
+    EXPECT_TRUE(found[0].stable());
+    verify_stable(problem, found);
+    EXPECT_EQ(found[0].stable(), growth < 0.) << found[0].verification.departure << found[0].verification.failure;
   }
 }
 

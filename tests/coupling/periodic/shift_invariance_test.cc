@@ -190,6 +190,63 @@ TEST(VerifiedOrbit, RefutesAMotionThatClosesByWholeTurnsOnly)
   EXPECT_THAT(found[0].notes.back(), testing::HasSubstr("not called stable"));
 }
 
+/// Along a branch three motions are run, and all of them where one goes away.
+TEST(VerifiedOrbit, OfABranchIsThatOfThreeMotionsOfEachStretch)
+{
+  RotorTrain      system = belt_drive(3.7);
+  PeriodicGuess   guess;
+  PeriodicProblem problem  = problem_of(system, {0, 1}, Eigen::Vector2d(28., 28. / 3.7), guess);
+  const auto      verified = [&]
+  {
+    const PeriodicSolution motion = periodic_method("shooting").solve(problem, guess, {}).front();
+    Branch                 branch;
+    for (int i = 0; i < 8; ++i)
+      branch.points.push_back({double(i), motion});
+    branch.points[5].solution.multipliers[0] = 2.;
+    verify_branch([&](double) { return FamilyMember{problem, nullptr}; }, branch);
+    std::string tried, left;
+    for (const BranchPoint &point : branch.points)
+    {
+      tried += point.solution.verification.periods == verified_periods ? '+' : '-';
+      left += point.solution.verification.leaves ? '+' : '-';
+    }
+    return tried + ' ' + left;
+  };
+  EXPECT_EQ(verified(), "+-+-+-++ --------");
+  problem.turn   = 2. * M_PI * Eigen::Vector2d(11., 3.);
+  problem.period = 3. * 2. * M_PI / (28. / 3.7);
+  EXPECT_EQ(verified(), "+++++-++ +++++-++");
+}
+
+/// Steps of first order, 64 in a period, brake an oscillator by omega h/2 = 5 % of critical, as much as its damper: the
+/// motion to which they settle at its resonance is half of the true one, and half the step goes elsewhere.
+TEST(VerifiedOrbit, RefutesAMotionThatIsOfItsSteps)
+{
+  const MatrixXd one = MatrixXd::Identity(1, 1);
+  SmallSystem    system(one, 0.1 * one, one);
+  system.loads().add_harmonic(0, 1., 1., 0.);
+  PeriodicProblem problem;
+  problem.system     = &system;
+  problem.period     = 2. * M_PI;
+  problem.turn       = VectorXd::Zero(1);
+  const auto settled = [&](const MethodOptions &integration)
+  {
+    PeriodicOptions options;
+    options.integration = integration;
+    options.tolerance   = 1e-6;
+    auto found = periodic_method("settling").solve(problem, {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, options);
+    verify_stable(problem, found);
+    return found.front();
+  };
+  MethodOptions coarse = options_of("bdf", 1), fine = options_of("bdf", 5);
+  coarse.step    = 2. * M_PI / 64.;
+  fine.tolerance = 1e-5;
+  EXPECT_TRUE(settled(coarse).verification.leaves);
+  const PeriodicSolution true_one = settled(fine);
+  EXPECT_TRUE(true_one.stable());
+  EXPECT_EQ(true_one.verification.periods, verified_periods);
+}
+
 /// A base that a load shakes, and a motor on a round rotor: it slips, at the speed of its balance, while the base has the
 /// period of the load.
 TEST(ShiftInvariance, ARoundRotorSlipsAgainstThePeriodOfALoad)
