@@ -140,7 +140,10 @@ bool MachineJoints::wants_multipliers() const
   // What sticks in a joint holds as long as its limit, which follows from multipliers, lets it.
   const auto sticks_in_joint = [](const MachineParts::PlacedElement &part)
   { return part.holds && part.first_multiplier >= 0; };
+  // The balance of energy looks at what a prescribed motion feeds.
+  const auto drives = [this](int joint) { return parts_.placed[joint].drives; };
   return parts_.reads_joints || std::any_of(parts_.placed.begin(), parts_.placed.end(), sticks_in_joint) ||
+         std::any_of(parts_.joints.begin(), parts_.joints.end(), drives) ||
          std::any_of(parts_.switches.begin(), parts_.switches.end(), watches_joint);
 }
 
