@@ -342,9 +342,12 @@ void BdfControlled::start()
     find_implied(middle_[2], t_end_ + step_of(rung_));
     find_implied(z_, t_end_ + 2. * step_of(rung_));
   }
-  // u'' and p at the begin may be those of another branch: they continue what follows.
-  chain_[0]                       = z_begin_;
-  chain_[0].tail(2 * n_u_ + n_c_) = 2. * middle_[2].tail(2 * n_u_ + n_c_) - z_.tail(2 * n_u_ + n_c_);
+  // u'' and p at the begin may be those of another branch: they follow from the motion, or continue what comes.
+  chain_[0] = z_begin_;
+  if (is_implied() && has_consistent())
+    find_implied(chain_[0], t_end_);
+  else
+    chain_[0].tail(2 * n_u_ + n_c_) = 2. * middle_[2].tail(2 * n_u_ + n_c_) - z_.tail(2 * n_u_ + n_c_);
   differences_.start(chain_[0], middle_[2], z_);
   anchor_       = t_end_;
   steps_        = 2;
