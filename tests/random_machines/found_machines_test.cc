@@ -18,8 +18,8 @@ TEST_P(FoundMachines, ObeyWhatHoldsOfAllMotions)
 
 /// Peaks between four samples of a long step, and between fixed ones.
 INSTANTIATE_TEST_SUITE_P(Extremes, FoundMachines, ::testing::Values(107, 110, 277, 541, 661, 759, 1709, 1887));
-/// Power of modes that turn many times in a step.
-INSTANTIATE_TEST_SUITE_P(Energy, FoundMachines, ::testing::Values(738, 851, 1022));
+/// Power of modes that turn many times in a step; of a prescribed motion of which nobody reads the torque.
+INSTANTIATE_TEST_SUITE_P(Energy, FoundMachines, ::testing::Values(738, 851, 1022, 4227));
 /// Rates of modes that turn far in a step, between its nodes.
 INSTANTIATE_TEST_SUITE_P(InsideSteps, FoundMachines, ::testing::Values(142, 220, 671, 889));
 /// Measures that are held, inside a step.
@@ -28,8 +28,8 @@ INSTANTIATE_TEST_SUITE_P(HeldRates, FoundMachines, ::testing::Values(164, 1094, 
 INSTANTIATE_TEST_SUITE_P(Events, FoundMachines, ::testing::Values(1187, 2140));
 /// A sheet that is severed; a drawing force that rests at its limit.
 INSTANTIATE_TEST_SUITE_P(Tools, FoundMachines, ::testing::Values(565, 760, 891, 1096, 1943));
-/// An unbalance takes what rounding leaves of a gear to the frame.
-INSTANTIATE_TEST_SUITE_P(Accelerations, FoundMachines, ::testing::Values(2300));
+/// An unbalance takes what rounding leaves of a gear to the frame; what drives a rotor, behind the begin of a start.
+INSTANTIATE_TEST_SUITE_P(Accelerations, FoundMachines, ::testing::Values(2300, 5257));
 
 } // namespace
 } // namespace gestell::tests
