@@ -2,6 +2,7 @@
 
 #include "coupling/equilibrium/static_balance.h"
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/coordinate_sizes.h"
 #include "coupling/machine/configuration/plays.h"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ class Seating
 {
 public:
   Seating(Machine &machine, const KnownStart &held, const SteadyMotion &motion, const InitialState &state)
-      : machine_(machine), balance_(machine, state, &held, &motion), q_(state.q),
+      : machine_(machine), balance_(machine, state, &held, &motion), sizes_(coordinate_sizes(machine)), q_(state.q),
         lambda_(VectorXd::Zero(balance_.n_rows()))
   {
     for (const PlacedPlay &own : plays(machine, state.q, motion.v))
@@ -77,7 +78,7 @@ private:
     double before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < most_corrections; ++k)
     {
-      const double size = correct(placed()), scale = std::max(q_.cwiseAbs().maxCoeff(), 1e-3);
+      const double size = correct(placed()), scale = std::max(q_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff(), 1e-3);
       if (!std::isfinite(size))
         return false;
       if (size <= seated * scale || (size <= near_rounding * scale && size > 0.3 * before))
@@ -117,7 +118,7 @@ private:
       seat.force += change.segment(row, seat.force.size());
       row += seat.force.size();
     }
-    return change.head(n).cwiseAbs().maxCoeff();
+    return change.head(n).cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
   }
 
   /// Stiffnesses and cosines in one matrix: to columns, then rows, of equal size.
@@ -144,6 +145,7 @@ private:
 
   Machine          &machine_;
   StaticBalance     balance_;
+  VectorXd          sizes_; ///< of large motions
   VectorXd          q_, lambda_;
   std::vector<Seat> seats_;
 };

@@ -3,6 +3,7 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/equilibrium/small_motions.h"
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/machine/configuration/coordinate_sizes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/LU>
@@ -19,37 +20,36 @@ namespace gestell::coupling
 namespace
 {
 
+// Motions and positions count in coordinate_sizes().
 constexpr int    most_iterations = 50, most_parts = 64;
 constexpr double converged = 1e-13; ///< correction, against the size of q
 constexpr double singular  = 1e-14; ///< smallest pivot of the scaled saddle matrix
 constexpr double balanced  = 1e-9;  ///< residual beside its forces that counts as none along a free motion
-constexpr double stays     = 1e-6;  ///< [m, rad] a start this near an equilibrium is meant to be it
+constexpr double stays     = 1e-6;  ///< a start this near an equilibrium is meant to be it
+constexpr double soft      = 1e-8;  ///< stiffness of a coordinate beside the stiffest, below which it counts as this
+constexpr double long_way  = 0.5;   ///< a correction beyond is gone in parts
 
 // Relaxation.
 constexpr int    most_steps = 1000, most_of_step = 15, most_pushes = 5;
 constexpr double first_step = 0.01, shortest_step = 1e-9, longest_step = 1e3; ///< [s]
-constexpr double way_of_step = 0.3, growing_way = 0.1; ///< [m, rad] in a step; share of the way so far, for lengths
+constexpr double way_of_step = 0.3, growing_way = 0.1; ///< in a step; share of the way so far, for lengths
 constexpr double settled_at = 10.;                     ///< [s] a step so long is ruled by stiffness, not by inertia
 constexpr double settled    = 1e-7;                    ///< its motion, against the size of q
-constexpr double push       = 0.01;                    ///< [m, rad] off an unstable equilibrium
-
-constexpr double cancelled = 1e-10; ///< share of an energy that is rounding: motions of a reduced frame that cost none
+constexpr double push       = 0.01;                    ///< off an unstable equilibrium
+constexpr double cancelled  = 1e-10; ///< share of an energy that is rounding: motions of a reduced frame that cost none
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double largest(const VectorXd &x)
-{
-  return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.;
-}
 
 class Equilibrium
 {
 public:
   Equilibrium(Machine &machine, const InitialState &from, const KnownStart *held = nullptr,
               const SteadyMotion *motion = nullptr)
-      : machine_(machine), balance_(machine, from, held, motion), n_(machine.size()), q_(from.q),
-        lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine)), floating_(n_, 0), inertia_(n_, 0)
+      : machine_(machine), balance_(machine, from, held, motion), n_(machine.size()), sizes_(coordinate_sizes(machine)),
+        q_(from.q), lambda_(VectorXd::Zero(balance_.n_rows())), M_(dense_mass(machine)), floating_(n_, 0),
+        inertia_(n_, 0)
   {
   }
 
@@ -152,6 +152,9 @@ public:
   }
 
 private:
+  /// Of a motion or a position.
+  double largest(const VectorXd &x) const { return n_ > 0 ? x.cwiseQuotient(sizes_).cwiseAbs().maxCoeff() : 0.; }
+
   SmallMotions admissible()
   {
     MatrixXd saddle;
@@ -205,13 +208,16 @@ private:
     return false;
   }
 
-  /// Scaled to rows and columns of equal size: stiffnesses beside cosines.
+  /// Scaled to rows and columns of equal size: energies of large motions beside cosines.
   VectorXd scale_of(const MatrixXd &saddle) const
   {
-    const int size = int(saddle.rows());
-    VectorXd  scale(size);
+    const int      size = int(saddle.rows());
+    VectorXd       scale(size);
+    const MatrixXd energies = sizes_.asDiagonal() * saddle.topLeftCorner(n_, n_).cwiseAbs() * sizes_.asDiagonal();
+    const VectorXd stored   = energies.colwise().maxCoeff();
+    const double   least    = soft * (n_ > 0 ? stored.maxCoeff() : 0.);
     for (int i = 0; i < n_; ++i)
-      scale[i] = 1. / std::sqrt(std::max(saddle.col(i).head(n_).cwiseAbs().maxCoeff(), 1.));
+      scale[i] = least > 0. ? sizes_[i] / std::sqrt(std::max(stored[i], least)) : sizes_[i];
     for (int i = n_; i < size; ++i)
     {
       const double row = saddle.row(i).head(n_).cwiseProduct(scale.head(n_).transpose()).cwiseAbs().maxCoeff();
@@ -259,7 +265,7 @@ private:
         return false;
       const double size = largest(delta.head(n_)), scale = std::max(largest(q_), 1e-6);
       // A long way is gone in parts: another equilibrium lies behind the next turn.
-      const double part = size > 0.5 ? 0.5 / size : 1.;
+      const double part = size > long_way ? long_way / size : 1.;
       q_ += part * delta.head(n_);
       lambda_ += part * delta.tail(lambda_.size());
       if (part == 1. && (size <= converged * scale || (size < 1e-9 * scale && size > 0.3 * before)))
@@ -322,16 +328,10 @@ private:
   {
     if (!way.allFinite())
       return std::numeric_limits<double>::infinity();
-    VectorXd most = VectorXd::Constant(n_, way_of_step);
+    VectorXd most = way_of_step * sizes_;
     for (const Body &body : machine_.model().bodies())
-    {
-      const int lengths = body.kind == BodyKind::rotor    ? 0
-                          : body.kind == BodyKind::slider ? 1
-                          : body.kind == BodyKind::planar ? 2
-                                                          : 3;
-      for (int i = body.coordinate; i < body.coordinate + lengths; ++i)
+      for (int i = body.coordinate; i < body.coordinate + n_displacements(body.kind); ++i)
         most[i] = std::max(most[i], growing_way * std::abs(so_far[i]));
-    }
     return way.cwiseAbs().cwiseQuotient(most).maxCoeff();
   }
 
@@ -375,6 +375,7 @@ private:
   Machine                 &machine_;
   StaticBalance            balance_;
   int                      n_;
+  VectorXd                 sizes_; ///< of large motions
   VectorXd                 q_, lambda_;
   MatrixXd                 M_;
   MatrixXd                 floating_, inertia_; ///< R [n x k] of the motions that inertia relieves, and M R

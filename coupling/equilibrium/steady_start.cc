@@ -6,6 +6,7 @@
 #include "coupling/integration/system/dense_solvers.h"
 
 #include "coupling/machine/configuration/assembly.h"
+#include "coupling/machine/configuration/coordinate_sizes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/machine/configuration/loop_closure.h"
 
@@ -260,18 +261,20 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
       std::any_of(known.v_given.begin() + machine.model().n_frame(), known.v_given.end(), [](char g) { return g; });
   if (!given && known.rates.empty() && known.spins.empty())
     throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
-  InitialState     state = assemble(machine, known, BehindPlay::followed);
-  const KnownStart held  = held_at(machine, known, state);
+  InitialState     state   = assemble(machine, known, BehindPlay::followed);
+  const KnownStart held    = held_at(machine, known, state);
+  const auto       largest = [sizes = coordinate_sizes(machine)](const Eigen::VectorXd &x)
+  { return x.cwiseQuotient(sizes).cwiseAbs().maxCoeff(); };
   for (int round = 0; round < most_rounds; ++round)
   {
     const SteadyMotion motion = steady_motion(machine, held, state.q);
     InitialState       from   = state;
     from.q                    = seated_plays(machine, held, motion, state);
     HeldEquilibrium next      = held_equilibrium(machine, held, &motion, &from);
-    const double    change    = (next.q - state.q).cwiseAbs().maxCoeff();
+    const double    change    = largest(next.q - state.q);
     state.q                   = next.q;
     state.v                   = motion.v;
-    if (change <= least_change * std::max(1e-3, state.q.cwiseAbs().maxCoeff()))
+    if (change <= least_change * std::max(1e-3, largest(state.q)))
       return state;
   }
   throw std::invalid_argument(

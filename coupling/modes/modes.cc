@@ -338,19 +338,28 @@ bool may_have_drives(const Machine &machine)
                      { return placement.element->work() == mechanism::Work::input; });
 }
 
-constexpr double slowest = 1.; ///< [rad/s] weight of motions without frequency in the state
+/// [rad/s] weight of motions without frequency in the state: the lowest one, of a machine without any the rate at which
+/// its dampers slow it down.
+double weight_at_rest(const Linear &linear, const DenseModes &modes, const Eigen::MatrixXd &V)
+{
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const double omega : modes.omega)
+    if (omega > 0.)
+      lowest = std::min(lowest, omega);
+  const double rate = (V.transpose() * linear.B * V).norm();
+  return std::isfinite(lowest) ? lowest : rate > 0. ? rate : 1.;
+}
 
 /// d/dt (Omega y, y', x) of motions V y and virtual coordinates x.
-Eigen::MatrixXd state_matrix(const Linear &linear, const DenseModes &modes, const Eigen::MatrixXd &V,
+Eigen::MatrixXd state_matrix(const Linear &linear, const Eigen::VectorXd &omega, const Eigen::MatrixXd &V,
                              const Eigen::MatrixXd &L)
 {
   const Eigen::Index    p = V.cols(), m = L.cols();
-  const Eigen::VectorXd omega = modes.omega.cwiseMax(slowest);
-  const Eigen::MatrixXd K_y   = V.transpose() * linear.K * V * omega.cwiseInverse().asDiagonal();
-  Eigen::MatrixXd       A     = Eigen::MatrixXd::Zero(2 * p + m, 2 * p + m);
-  A.block(0, p, p, p)         = omega.asDiagonal();
-  A.block(p, 0, p, p)         = -K_y;
-  A.block(p, p, p, p)         = -V.transpose() * linear.B * V;
+  const Eigen::MatrixXd K_y = V.transpose() * linear.K * V * omega.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd       A   = Eigen::MatrixXd::Zero(2 * p + m, 2 * p + m);
+  A.block(0, p, p, p)       = omega.asDiagonal();
+  A.block(p, 0, p, p)       = -K_y;
+  A.block(p, p, p, p)       = -V.transpose() * linear.B * V;
   if (m == 0)
     return A;
   A.block(p, 2 * p, p, m) = -V.transpose() * linear.K * L;
@@ -416,7 +425,8 @@ std::vector<Pole> operating_poles(const Machine &machine, const Eigen::VectorXd 
   const Eigen::Index p = V.cols();
   if (p + m == 0) // nothing has mass
     return poles;
-  const auto             solver  = solve_state(state_matrix(linear, modes, V, L), modes.omega);
+  const double           slowest = weight_at_rest(linear, modes, V);
+  const auto             solver  = solve_state(state_matrix(linear, modes.omega.cwiseMax(slowest), V, L), modes.omega);
   const Eigen::VectorXcd s       = solver.eigenvalues();
   const Eigen::MatrixXcd vectors = solver.eigenvectors();
   const double           largest = s.size() > 0 ? s.cwiseAbs().maxCoeff() : 0.;

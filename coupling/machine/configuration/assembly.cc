@@ -2,6 +2,7 @@
 
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/constraint_rank.h"
+#include "coupling/machine/configuration/coordinate_sizes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/machine/configuration/plays.h"
 
@@ -19,7 +20,7 @@ namespace
 {
 
 constexpr int    most_iterations = 60;
-constexpr double closed          = 1e-10; ///< m or rad: residual that counts as closed where rounding stops progress
+constexpr double closed          = 1e-10; ///< share of its terms that counts as closed where rounding stops progress
 
 /// Value of a measure, or of a rate: of a measure or of a rigid body's rotation.
 struct Demand
@@ -266,41 +267,37 @@ private:
     }
   }
 
-  /// The smallest change of the free coordinates that takes the residual away to first order.
-  Eigen::VectorXd change(const Eigen::VectorXd &residual, const Eigen::MatrixXd &rows, const std::vector<char> &given)
-  {
-    Eigen::VectorXd delta = Eigen::VectorXd::Zero(machine_.size());
-    const Free      free(machine_, given);
-    if (!free.index.empty())
-      free.add(LeastSquaresSolver(free.scaled(rows), 1e-12).solve(-residual), delta);
-    return delta;
-  }
-
-  /// Returns whether compliant joints are closed too.
+  /// Returns whether compliant joints are closed too.  Lengths and angles have no common size: how far off a position
+  /// is the way says that would close it to first order, measured by masses.
   bool close()
   {
     Eigen::VectorXd residual, next;
     Eigen::MatrixXd rows;
+    const Free      free(machine_, known_.q_given);
     evaluate(measures_, residual, rows, false);
-    for (int k = 0; k < most_iterations && residual.size() > 0; ++k)
+    for (int k = 0; k < most_iterations && residual.size() > 0 && !free.index.empty(); ++k)
     {
-      const Eigen::VectorXd delta = change(residual, rows, known_.q_given), q = state_.q;
-      double                part = 1.;
+      const LeastSquaresSolver solver(free.scaled(rows), 1e-12);
+      const Eigen::VectorXd    way = solver.solve(-residual), q = state_.q;
+      const double             off  = way.norm();
+      double                   part = 1., then = 0.;
       for (;; part *= 0.5) // shorter where the whole way leads further off
       {
-        state_.q = q + part * delta;
+        state_.q = q;
+        free.add(part * way, state_.q);
         evaluate(measures_, next, rows, false);
-        if (next.norm() < residual.norm() || part < 1e-3)
+        then = solver.solve(next).norm();
+        if (then < off || part < 1e-3)
           break;
       }
-      const bool better = next.norm() < 0.5 * residual.norm();
-      if (!(next.norm() < residual.norm()))
+      const bool better = then < 0.5 * off;
+      if (!(then < off))
       {
         state_.q = q;
         break;
       }
       residual = next;
-      if (!better && residual.cwiseAbs().maxCoeff() < closed)
+      if (!better && residual.cwiseQuotient(terms(measures_)).cwiseAbs().maxCoeff() < closed)
         break;
     }
     evaluate(measures_, residual, rows, false);
@@ -324,15 +321,33 @@ private:
   {
     Eigen::VectorXd residual;
     Eigen::MatrixXd rows;
+    const Free      free(machine_, known_.v_given);
     guess_spins();
     for (int k = 0; k < 2; ++k) // linear: the second time takes what rounding left
     {
       evaluate(rates_, residual, rows, true);
-      if (residual.size() > 0)
-        state_.v += change(residual, rows, known_.v_given);
+      if (residual.size() > 0 && !free.index.empty()) // the smallest change
+        free.add(LeastSquaresSolver(free.scaled(rows), 1e-12).solve(-residual), state_.v);
     }
     evaluate(rates_, residual, rows, true);
     return is_closed(residual, rates_, "m/s or rad/s", "velocities");
+  }
+
+  /// Size of the terms of each row of evaluate() [m, rad]: rounding leaves so much of them.
+  Eigen::VectorXd terms(const std::vector<Demand> &demands) const
+  {
+    std::vector<double> sizes;
+    for (const ConstraintBlock &block : G_.blocks())
+      sizes.insert(sizes.end(), std::size_t(block.n_rows), block.size);
+    const double length = machine_length(machine_.model());
+    for (const Demand &demand : demands)
+      sizes.push_back(!demand.spin && machine_.model().measure(demand.measure).unit == "m" ? length : 1.);
+    for (const CompliantPlace &own : yielding_)
+      sizes.insert(sizes.end(), std::size_t(own.joint->n_equations()), own.joint->size_of_terms());
+    for (const PlacedPlay &own : torn_plays())
+      sizes.insert(sizes.end(), std::size_t(own.play.n), length);
+    Eigen::VectorXd terms = Eigen::Map<const Eigen::VectorXd>(sizes.data(), Eigen::Index(sizes.size()));
+    return terms.unaryExpr([](double size) { return size > 0. ? size : 1.; }); // 0: angles alone
   }
 
   /// false: compliant joints or plays have to open.  @throws std::invalid_argument if without them others stay open
@@ -343,7 +358,8 @@ private:
       return true;
     int          worst = 0;
     const double open  = residual.cwiseAbs().maxCoeff(&worst);
-    if (open <= closed * std::max(1., what == "velocities" ? state_.v.cwiseAbs().maxCoeff() : 1.))
+    if (what == "velocities" ? open <= closed * std::max(1., state_.v.cwiseAbs().maxCoeff())
+                             : residual.cwiseQuotient(terms(demands)).cwiseAbs().maxCoeff() <= closed)
       return true;
     if (!yielding_.empty() || !torn_.empty())
       return false;
