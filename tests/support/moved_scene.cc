@@ -60,7 +60,7 @@ class Mover
 {
 public:
   Mover(const SceneNode &scene, const RigidMotion &motion)
-      : motion_(motion), parameters_(scene.find("parameters")), restated_{scene, {}}
+      : motion_(motion), random_(motion.seed), parameters_(scene.find("parameters")), restated_{scene, {}}
   {
   }
 
@@ -88,7 +88,9 @@ private:
 
   // --- values
 
-  SceneNode vector(const SceneNode &value, Vector kind, const std::string &unit) const
+  double between_minus_1_and_1() { return 2. * double(random_()) / 4294967295. - 1.; }
+
+  SceneNode vector(const SceneNode &value, Vector kind, const std::string &unit)
   {
     if (value.type != Type::array || value.elements.size() != 3)
       throw std::invalid_argument("moved(): no vector: " + apps::described(value));
@@ -97,7 +99,7 @@ private:
     for (int i = 0; i < 3; ++i)
       components.push_back(
           weighted_sum({{R(i, 0), value.elements[0]}, {R(i, 1), value.elements[1]}, {R(i, 2), value.elements[2]}}, unit,
-                       kind == Vector::point ? motion_.shift[i] : 0.));
+                       kind == Vector::point ? motion_.shift[i] + motion_.noise * between_minus_1_and_1() : 0.));
     SceneNode moved = array_node(components);
     put_at(moved, value);
     return moved;
@@ -196,6 +198,8 @@ private:
     for (auto &[key, unit] : {std::pair{"mass", " kg"}, std::pair{"stiffness", " N/m"}, std::pair{"damping", " N s/m"}})
       if (SceneNode *matrix = frame.find(key); matrix && matrix->type == Type::array)
         *matrix = transformed_matrix(*matrix, T, unit);
+    if (SceneNode *translations = frame.find("translations"))
+      move_translations(*translations, T);
     for (auto &[name, interface] : frame.find("interface")->entries)
       if (SceneNode *position = interface.find("position"))
         *position = vector(*position, Vector::point, " m");
@@ -203,7 +207,19 @@ private:
         throw std::invalid_argument("moved(): the interface " + name + " has no position");
   }
 
-  /// q' = T q: rows of an interface are the components of vectors.
+  /// q of unit translations in x, y, z become those in the directions that these had.
+  void move_translations(SceneNode &translations, const Eigen::MatrixXd &T) const
+  {
+    Eigen::MatrixXd t(T.rows(), 3);
+    for (Eigen::Index i = 0; i < T.rows(); ++i)
+      t.row(i) = numbers(translations.elements.at(std::size_t(i)));
+    t = T * t * motion_.R.transpose();
+    for (Eigen::Index i = 0; i < T.rows(); ++i)
+      translations.elements[std::size_t(i)] =
+          array_node({number_node(t(i, 0)), number_node(t(i, 1)), number_node(t(i, 2))});
+  }
+
+  /// q' = T q: rows of an interface are the components of vectors, all others coordinates of modes.
   Eigen::MatrixXd motions_of_rows(const SceneNode &frame) const
   {
     const std::size_t n = frame.find("mass")->elements.size();
@@ -230,8 +246,9 @@ private:
           for (std::size_t k = 0; k < 3; ++k)
             T(row[i], row[k]) = sign[i] * sign[k] * R(Eigen::Index(i), Eigen::Index(k));
       }
-    if (!(T * T.transpose()).isIdentity(1e-12))
-      throw std::invalid_argument("moved(): rows of the frame belong to no interface");
+    for (Eigen::Index i = 0; i < T.rows(); ++i)
+      if (T.row(i).isZero(0.))
+        T(i, i) = 1.;
     return T;
   }
 
@@ -341,6 +358,12 @@ private:
     SceneNode *signals = output ? output->find("signals") : nullptr;
     if (!signals)
       return;
+    if (motion_.R.isIdentity(0.) && motion_.shift.isZero(0.)) // noise is no motion of the whole
+    {
+      for (const auto &entry : signals->entries)
+        restated_.signals[entry.first] = {0., {{1., entry.first}}};
+      return;
+    }
     SceneNode moved = *signals;
     moved.entries.clear();
     for (const auto &[name, signal] : signals->entries)
@@ -389,6 +412,7 @@ private:
   }
 
   const RigidMotion &motion_;
+  std::mt19937       random_;
   apps::Parameters   parameters_;
   Restated           restated_;
 };

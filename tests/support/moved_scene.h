@@ -12,6 +12,8 @@ struct RigidMotion
 {
   Eigen::Matrix3d R     = Eigen::Matrix3d::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(); ///< [m]
+  double          noise = 0.; ///< [m] by which each component of each point is moved at most, at random
+  unsigned        seed  = 0;  ///< of that
 
   bool mirrors() const { return R.determinant() < 0.; }
 };
@@ -28,6 +30,8 @@ Eigen::Matrix3d random_rotation(unsigned seed);
  *
  * Left out of the comparison: components of the forces of joints, which count along directions that each joint chooses,
  * and contact angles.
+ *
+ * Rows of a frame that belong to no interface are coordinates of modes and stay.
  *
  * @throws std::invalid_argument for what is bound to the global axes: frames of which not all three motions of each
  * interface are rows, frames from CAD, joints with a stiffness along each axis, unbalance; in a mirror screws

@@ -6,12 +6,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
+#include <utility>
 
 namespace gestell::tests
 {
 
 using apps::SceneNode;
+
+const std::vector<std::string> &named_tables()
+{
+  static const std::vector<std::string> kinds{"body", "place", "measure", "element", "joint", "switch"};
+  return kinds;
+}
+
+SceneNode reordered(SceneNode scene, unsigned seed)
+{
+  std::mt19937 dice(seed);
+  const auto   shuffle = [&](SceneNode &table)
+  {
+    for (std::size_t i = table.entries.size(); i > 1; --i) // std::shuffle differs between libraries
+      std::swap(table.entries[i - 1], table.entries[dice() % i]);
+  };
+  for (const std::string &kind : named_tables())
+    if (SceneNode *table = scene.find(kind); table && kind != "measure")
+      shuffle(*table);
+  if (SceneNode *start = scene.find("start"))
+    for (auto &entry : start->entries)
+      if (entry.second.type == SceneNode::Type::table)
+        shuffle(entry.second);
+  shuffle(scene);
+  return scene;
+}
 
 SceneNode with_resultants(SceneNode scene)
 {

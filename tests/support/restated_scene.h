@@ -33,6 +33,13 @@ struct Restated
 };
 using Restatement = std::function<Restated(const apps::SceneNode &)>;
 
+/// Tables of things that have names.
+const std::vector<std::string> &named_tables();
+
+/// Another order, at random, of tables in the file, of things in them and of values in [start].  Measures stay: one may
+/// name those above it alone.
+apps::SceneNode reordered(apps::SceneNode scene, unsigned seed);
+
 /// The tree with the resultant of each joint that has one among its signals, under the name "|JOINT|".
 apps::SceneNode with_resultants(apps::SceneNode scene);
 

@@ -59,7 +59,8 @@ std::string unit_at_begin(const std::string &text)
   return "";
 }
 
-/// Of an expression: numbers with a unit, and brackets with one.
+} // namespace
+
 std::string scaled_expression(const std::string &text)
 {
   static const std::regex operand(R"((\)|\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(?=[A-Za-z1%\xC2-\xCF]))");
@@ -82,8 +83,6 @@ std::string scaled_expression(const std::string &text)
   }
   return made + text.substr(at);
 }
-
-} // namespace
 
 std::array<double, 3> exponents(const std::string &unit)
 {

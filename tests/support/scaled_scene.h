@@ -22,6 +22,9 @@ std::array<double, 3>             exponents(const std::string &unit);
  */
 std::string scaled_scene(const std::string &toml);
 
+/// An expression so multiplied, of numbers with a unit and brackets with one.
+std::string scaled_expression(const std::string &text);
+
 /// Writes a scene of apps/scenes so, with those that it extends, into a folder.  @return its path
 std::string write_scaled_scene(const std::string &name, const std::string &folder);
 

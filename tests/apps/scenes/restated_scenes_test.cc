@@ -2,6 +2,7 @@
 // frame needs no mesh.
 
 #include "apps/scene/file/scene_file.h"
+#include "tests/support/restated_scene.h"
 #include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,9 +21,6 @@ namespace
 
 using apps::SceneNode;
 using Type = SceneNode::Type;
-
-/// Tables of things that have names.
-const std::vector<std::string> kinds{"body", "place", "measure", "element", "joint", "switch"};
 
 struct ShortRun
 {
@@ -45,20 +42,10 @@ SceneNode tree_of(const ShortRun &one)
 
 coupling::RunResult run_of(const SceneNode &tree, const ShortRun &one)
 {
-  apps::Scene scene              = apps::read_scene(tree, shipped(one.scene), fem::Scripts::harmless);
-  scene.run.options.picture_step = 0.;
-  coupling::Machine machine      = apps::build_machine(scene);
-  const auto        signals      = apps::scene_signals(scene, machine);
-  return coupling::simulate(machine, apps::initial_state(scene, machine), scene.run.options, signals);
+  return tests::run_of(tree, shipped(one.scene));
 }
 
-/// Largest difference of a signal, relative to the largest value of its unit; of a machine that rests to 1e-6 SI units.
-struct Deviation
-{
-  std::string signal;
-  double      value = 0.;
-};
-
+/// Relative to the largest value of a signal's unit; of a machine that rests to 1e-6 SI units.
 Deviation largest_deviation(const coupling::RunResult &a, const coupling::RunResult &b)
 {
   const std::size_t width = a.columns.size();
@@ -88,7 +75,7 @@ public:
     if (const SceneNode *table = scene.find("parameters"))
       for (const auto &entry : table->entries)
         parameters.insert(entry.first);
-    for (const std::string &kind : kinds)
+    for (const std::string &kind : named_tables())
       if (const SceneNode *table = scene.find(kind))
         for (const auto &entry : table->entries)
           if (parameters.count(entry.first) == 0) // a value of that text would be the parameter's
@@ -114,7 +101,7 @@ public:
 
   SceneNode of(SceneNode scene) const
   {
-    for (const std::string &kind : kinds)
+    for (const std::string &kind : named_tables())
       if (SceneNode *table = scene.find(kind))
         replace_keys(*table);
     for (const char *state : {"start", "modes"})
@@ -148,28 +135,6 @@ private:
 
   std::map<std::string, std::string> renamed_;
 };
-
-// --- another order
-
-/// Of tables in the file, of things in them, of values in [start].  Measures stay: one may name those above it alone.
-SceneNode reordered(SceneNode scene, unsigned seed)
-{
-  std::mt19937 dice(seed);
-  const auto   shuffle = [&](SceneNode &table)
-  {
-    for (std::size_t i = table.entries.size(); i > 1; --i) // std::shuffle differs between libraries
-      std::swap(table.entries[i - 1], table.entries[dice() % i]);
-  };
-  for (const std::string &kind : kinds)
-    if (SceneNode *table = scene.find(kind); table && kind != "measure")
-      shuffle(*table);
-  if (SceneNode *start = scene.find("start"))
-    for (auto &entry : start->entries)
-      if (entry.second.type == Type::table)
-        shuffle(entry.second);
-  shuffle(scene);
-  return scene;
-}
 
 class RestatedScene : public ::testing::TestWithParam<ShortRun>
 {
