@@ -119,10 +119,11 @@ void OneStep::advance()
   ++work_.steps;
   // The grid is kept free of what many additions of h would leave.
   end_.motion.t = end_.motion.local.t = t_begin_ + static_cast<double>(index_) * step_;
-  if (!system_.forces().held().empty())
+  const bool holds                    = !system_.forces().held().empty();
+  if (holds) // which finds the multipliers too
     start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
   end_.keep_balance();
-  if (system_.joints().n_rows() > 0 && system_.joints().wants_multipliers())
+  if (!holds && system_.joints().n_rows() > 0 && system_.joints().wants_multipliers())
     start_.solve(end_.motion.q, end_.motion.v, a_found_, end_.motion.local, work_);
 }
 
