@@ -86,7 +86,9 @@ void JointForceGuard::step()
   if (machine_.joints().n_rows() == 0 || lambda.size() == 0)
     return;
   Eigen::Index row;
-  const double force = lambda.cwiseAbs().maxCoeff(&row), bound = limit * std::max(size_, 1. / size_);
+  const double force = lambda.cwiseAbs().maxCoeff(&row), lever = std::max(size_, 1. / size_), bound = limit * lever;
+  if (!(force > lever * largest_))
+    return; // what was seen before explains it
   largest_ = std::max(largest_, known_forces());
   if (!(force > bound * largest_))
     return;

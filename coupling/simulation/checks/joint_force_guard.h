@@ -20,7 +20,8 @@ class StateArchive;
  *
  * N and N m alike: L, the size of the largest joint, makes the one the other.  A linkage that enlarges a force so much
  * is within 1e-8 rad of a dead position, where half of all digits are lost.  The last term is what rounding leaves
- * where a machine does not move.
+ * where a machine does not move.  The sum is formed only where a multiplier exceeds max(L, 1/L) times the largest one
+ * so far, which most steps do not.
  *
  * Source: docs/theory/joints.md (4a).
  */
