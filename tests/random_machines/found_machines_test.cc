@@ -28,6 +28,8 @@ INSTANTIATE_TEST_SUITE_P(HeldRates, FoundMachines, ::testing::Values(164, 1094, 
 INSTANTIATE_TEST_SUITE_P(Events, FoundMachines, ::testing::Values(1187, 2140));
 /// A sheet that is severed; a drawing force that rests at its limit.
 INSTANTIATE_TEST_SUITE_P(Tools, FoundMachines, ::testing::Values(565, 760, 891, 1096, 1943));
+/// A contact that closes inside a step of the twin.
+INSTANTIATE_TEST_SUITE_P(Twin, FoundMachines, ::testing::Values(4267));
 /// An unbalance takes what rounding leaves of a gear to the frame; what drives a rotor, behind the begin of a start.
 INSTANTIATE_TEST_SUITE_P(Accelerations, FoundMachines, ::testing::Values(2300, 5257));
 

@@ -4,9 +4,9 @@
 
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_cash_karp54.hpp>
 #include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_cash_karp54.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -148,7 +148,7 @@ void Twin::sample(const State &y, double t, std::vector<double> &rows) const
 std::vector<double> Twin::history(double end, int n_rows, double tolerance) const
 {
   namespace odeint       = boost::numeric::odeint;
-  const auto        step = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_fehlberg78<State>());
+  const auto        step = odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_cash_karp54<State>());
   const std::size_t n    = q_.size();
   State             y(2 * n + z_.size());
   for (std::size_t i = 0; i < n; ++i)

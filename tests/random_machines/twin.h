@@ -16,8 +16,8 @@ namespace gestell::tests
  *
  *     sum m/2 (G_a^T b'' + G_b^T a'') = sum G_u^T F(t, u, u', z),     s'' = G q'' + gamma,     z' = f(t, u, u', z).
  *
- * Nothing of the program is used: gradients and gamma come from jets, time steps from Boost's Runge-Kutta-Fehlberg of
- * order 7(8).
+ * Nothing of the program is used: gradients and gamma come from jets, time steps from Boost's Cash-Karp of
+ * order 5(4), whose estimate of the error sees contacts inside a step.
  */
 class Twin
 {
