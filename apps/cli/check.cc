@@ -33,7 +33,7 @@ struct Geometry
 
 /// Reads the frame's file and finds its surfaces and where they are, where this build can.
 Geometry try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &warnings,
-                      std::map<std::string, coupling::FaceBox> *boxes = nullptr)
+                      std::map<std::string, PlacedFaces> *faces = nullptr)
 {
   if (!coupling::has_frame_service())
     return {frame.cad + " is there; this build cannot read it"};
@@ -43,9 +43,10 @@ Geometry try_geometry(fem::FrameSpecification &frame, std::vector<std::string> &
   for (fem::InterfaceSpecification &interface : frame.interfaces)
     if (const auto centroid = centroids.find(interface.name); centroid != centroids.end() && !interface.position)
       interface.position = centroid->second;
-  for (const auto &[interface, box] : of_faces)
-    if (boxes)
-      (*boxes)[interface] = coupling::box_between(vector(box[0]), vector(box[1]));
+  for (const fem::InterfaceSpecification &interface : frame.interfaces)
+    if (const auto box = of_faces.find(interface.name); box != of_faces.end() && faces)
+      (*faces)[interface.name] = {coupling::box_between(vector(box->second[0]), vector(box->second[1])),
+                                  interface.position};
   std::string text = frame.cad + ": " + found + "; not meshed";
   for (const std::string &statement : statements)
     text += "\nframe: " + statement;
@@ -105,10 +106,10 @@ int check(const CommonOptions &options)
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)
   {
-    std::map<std::string, coupling::FaceBox> boxes;
-    geometry       = try_geometry(scene.frame.geometry, warnings, &boxes).text;
+    std::map<std::string, PlacedFaces> faces;
+    geometry       = try_geometry(scene.frame.geometry, warnings, &faces).text;
     loose          = check_scene(scene); // the places of interfaces are known now
-    const auto far = places_far_from_faces(scene, boxes);
+    const auto far = places_far_from_faces(scene, faces);
     loose.insert(loose.end(), far.begin(), far.end());
   }
   std::vector<double> diagonals;

@@ -8,6 +8,7 @@
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/result_folder.h"
+#include "apps/scene/build/far_places.h"
 #include "apps/session/session.h"
 #include "apps/version.h"
 #include "coupling/frame/frame_cache.h"
@@ -176,6 +177,8 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
   if (answers_in_json())
     answer_with(frame_answer(answer));
   print_frame(answer);
+  for (const std::string &warning : places_far_from_faces(scene, frame))
+    std::cerr << "gestell: warning: " << warning << '\n';
   for (const auto &[phase, seconds] : session.wall_seconds())
     std::cout << "  " << std::setprecision(3) << std::setw(8) << seconds << " s  " << phase << '\n';
   return exit_done;

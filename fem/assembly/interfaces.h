@@ -53,10 +53,8 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
 /// Box around the nodes of its faces.
 Eigen::AlignedBox3d box_of(const CoupledPatch &coupled, const QuadraticMesh &mesh);
 
-/// A note on every interface that stands farther outside of its faces than these are large, so that levers decide what
-/// they take, and on every attached mass farther than `distance` [m] from its surface: a unit mistaken?
-std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
-                                           double distance);
+/// A note on every attached mass farther than `distance` [m] from its surface: a unit mistaken?
+std::vector<std::string> masses_far_off(const std::vector<CoupledPatch> &coupled, double distance);
 
 /// Finds surfaces and positions; sets MultipointConstraints::n_interface_coordinates and their places among the new
 /// values.

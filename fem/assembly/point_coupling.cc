@@ -115,9 +115,6 @@ namespace
 /// Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge of h
 /// of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
 constexpr double facets_off = 0.25;
-/// A place in millimetres without a unit is off by a thousand; brackets carry loads over some times the size of their
-/// faces.
-constexpr double lever = 10.;
 
 } // namespace
 
@@ -152,28 +149,19 @@ Eigen::AlignedBox3d box_of(const CoupledPatch &coupled, const QuadraticMesh &mes
   return box;
 }
 
-std::vector<std::string> positions_far_off(const std::vector<CoupledPatch> &interfaces, const QuadraticMesh &mesh,
-                                           double distance)
+std::vector<std::string> masses_far_off(const std::vector<CoupledPatch> &coupled, double distance)
 {
   std::vector<std::string> notes;
-  for (const CoupledPatch &coupled : interfaces)
+  for (const CoupledPatch &mass : coupled)
   {
-    const InterfaceSpecification &own     = coupled.specification;
-    const bool                    is_mass = own.what != InterfaceSpecification().what;
-    const Eigen::AlignedBox3d     box     = box_of(coupled, mesh);
-    const double                  off =
-        is_mass ? (coupled.position - coupled.patch.centroid).norm() : box.exteriorDistance(Vector3d(coupled.position));
-    const double size = is_mass ? distance : box.sizes().maxCoeff();
-    if (off <= (is_mass ? 1. : lever) * size)
+    const InterfaceSpecification &own = mass.specification;
+    const double                  off = (mass.position - mass.patch.centroid).norm();
+    if (own.what == InterfaceSpecification().what || off <= distance)
       continue;
     std::ostringstream text;
-    text << own.what << " \"" << own.name << "\" stands at " << metres(coupled.position) << ", " << off
-         << (is_mass ? " m from the middle of its surface and farther than the frame is large"
-                     : " m outside of its faces, which are ");
-    if (!is_mass)
-      text << size << " m across, so that a rigid lever carries its forces to them";
-    text << ": the position is in metres where it has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres"
-         << (is_mass ? "" : ", or choose the faces that carry it");
+    text << own.what << " \"" << own.name << "\" stands at " << metres(mass.position) << ", " << off
+         << " m from the middle of its surface and farther than the frame is large: the position is in metres where it "
+            "has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres";
     notes.push_back(text.str());
   }
   return notes;

@@ -212,7 +212,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
   for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
     frame.notes.push_back(std::move(note));
-  for (std::string &note : positions_far_off(coupled, quadratic, diagonal(mesh)))
+  for (std::string &note : masses_far_off(coupled, diagonal(mesh)))
     frame.notes.push_back(std::move(note));
   for (std::string &note : rayleigh_at_large(specification))
     frame.notes.push_back(std::move(note));

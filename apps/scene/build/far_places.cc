@@ -28,40 +28,59 @@ Eigen::Matrix3d unconstrained_directions(const JointRequest &joint)
   }
 }
 
+/// What an interface guides may act on it anywhere along the way.
+Eigen::Matrix3d guided_directions(const Scene &scene, const std::string &marker)
+{
+  Eigen::Matrix3d free = Eigen::Matrix3d::Zero();
+  for (const BodyRequest &body : scene.bodies)
+    if (body.kind == coupling::BodyKind::slider && body.carrier == marker)
+      free = vector(body.axis) * vector(body.axis).transpose();
+  for (const JointRequest &joint : scene.joints)
+    if (const Eigen::Matrix3d way = unconstrained_directions(joint);
+        !way.isZero(0.) && (joint.from.marker == marker || joint.to.marker == marker))
+      free = way;
+  return free;
+}
+
 class FarPlaces
 {
 public:
-  explicit FarPlaces(const std::map<std::string, coupling::FaceBox> &boxes) : boxes_(boxes) {}
+  explicit FarPlaces(const std::map<std::string, PlacedFaces> &faces) : faces_(faces) {}
 
   void look_at(const PlaceRequest &place, const std::string &head, const Eigen::Matrix3d &free)
   {
     const std::string prefix = frame_prefix;
     if (!place.at || place.marker.rfind(prefix, 0) != 0)
       return;
-    const auto box = boxes_.find(place.marker.substr(prefix.size()));
-    if (box == boxes_.end())
-      return;
-    const auto [outside, size] = coupling::reach_of(box->second, vector(*place.at), free);
-    if (outside <= coupling::far_from_faces * size)
-      return;
-    warnings.push_back(head + ": its point on \"" + place.marker + "\" lies " + short_text(outside, 3) +
-                       " m outside of the faces of this interface, which are " + short_text(size, 3) +
-                       " m across; a rigid lever carries its force to them. Check the point and its unit, or give the "
-                       "interface the faces that carry it");
+    const auto faces = faces_.find(place.marker.substr(prefix.size()));
+    if (faces != faces_.end())
+      look_at(faces->second.box, *place.at, head + ": its point on \"" + place.marker + "\"", free);
+  }
+
+  void look_at(const coupling::FaceBox &box, const Vector3 &point, const std::string &what, const Eigen::Matrix3d &free)
+  {
+    if (const coupling::FaceReach reach = coupling::reach_of(box, vector(point), free); reach.far())
+      warnings.push_back(what + " lies " + short_text(reach.outside, 3) +
+                         " m outside of the faces of this interface, which are " + short_text(reach.size, 3) +
+                         " m across; a rigid lever carries its force to them. Check the point and its unit, or give "
+                         "the interface the faces that carry it");
   }
 
   std::vector<std::string> warnings;
 
 private:
-  const std::map<std::string, coupling::FaceBox> &boxes_;
+  const std::map<std::string, PlacedFaces> &faces_;
 };
 
 } // namespace
 
-std::vector<std::string> places_far_from_faces(const Scene                                    &scene,
-                                               const std::map<std::string, coupling::FaceBox> &boxes)
+std::vector<std::string> places_far_from_faces(const Scene &scene, const std::map<std::string, PlacedFaces> &faces)
 {
-  FarPlaces far(boxes);
+  FarPlaces far(faces);
+  for (const auto &[name, own] : faces)
+    if (own.position)
+      far.look_at(own.box, *own.position, "frame.interface." + name + ".position: the node",
+                  guided_directions(scene, frame_prefix + name));
   for (const JointRequest &joint : scene.joints)
     for (const PlaceRequest *place : {&joint.from, &joint.to})
       far.look_at(*place, joint.place + ": joint \"" + joint.name + "\"", unconstrained_directions(joint));
@@ -79,13 +98,18 @@ std::vector<std::string> places_far_from_faces(const Scene                      
   return std::move(far.warnings);
 }
 
+std::vector<std::string> places_far_from_faces(const Scene &scene, const coupling::ReducedFrame &frame)
+{
+  std::map<std::string, PlacedFaces> faces;
+  for (const fem::Interface &interface : frame.interfaces)
+    faces[interface.name] = {coupling::box_of(interface.face), interface.position};
+  return places_far_from_faces(scene, faces);
+}
+
 std::vector<std::string> places_far_from_faces(const Scene &scene, const coupling::MachineModel &machine)
 {
-  std::map<std::string, coupling::FaceBox> boxes;
-  if (const coupling::ReducedFrame *frame = machine.reduced_frame())
-    for (const fem::Interface &interface : frame->interfaces)
-      boxes[interface.name] = coupling::box_of(interface.face);
-  return places_far_from_faces(scene, boxes);
+  const coupling::ReducedFrame *frame = machine.reduced_frame();
+  return frame ? places_far_from_faces(scene, *frame) : std::vector<std::string>();
 }
 
 } // namespace gestell::apps

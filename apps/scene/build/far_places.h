@@ -5,21 +5,30 @@
 #include "coupling/machine/machine.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gestell::apps
 {
 
+/// What is known of an interface and its faces.
+struct PlacedFaces
+{
+  coupling::FaceBox      box;
+  std::optional<Vector3> position; ///< of its node [m]; none: the middle of the faces
+};
+
 /**
- * Warnings of points of joints and elements that lie far from the faces of the interface they act on, which a rigid
- * lever then carries, see coupling::far_from_faces.  The way along the axis of a guide and in a plane of contact does
- * not count.
+ * Warnings of nodes of interfaces, points of joints and elements that lie far from the faces of their interface, which
+ * a rigid lever then carries, see coupling::FaceReach.  The way along the axis of a guide and in a plane of
+ * contact does not count.
  *
- * @param boxes  by the name of the interface.
+ * @param faces  by the name of the interface.
  */
-std::vector<std::string> places_far_from_faces(const Scene                                    &scene,
-                                               const std::map<std::string, coupling::FaceBox> &boxes);
+std::vector<std::string> places_far_from_faces(const Scene &scene, const std::map<std::string, PlacedFaces> &faces);
+std::vector<std::string> places_far_from_faces(const Scene &scene, const coupling::ReducedFrame &frame);
+/// Of the frame that it has; none: no warnings.
 std::vector<std::string> places_far_from_faces(const Scene &scene, const coupling::MachineModel &machine);
 
 } // namespace gestell::apps

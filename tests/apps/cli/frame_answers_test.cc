@@ -66,7 +66,7 @@ TEST_F(FrameAnswers, FreeMotionsHaveNoFrequencyAndAreNamed)
   EXPECT_FALSE(answer.says("unstable")) << answer.text;
 }
 
-/// The top is 0.2 m long; up to half of that beside it is taken, and more along the way of a guide.
+/// The top is 0.2 x 0.1 m; up to half of that beside it is taken, and more along the way of a guide.
 TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceAreWarnedOf)
 {
   const auto pendulum = [](const std::string &type, const std::string &at, const Keys &more = {})
@@ -77,7 +77,7 @@ TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceAreWarnedOf)
   const std::string far = "joint \"pin\": its point on \"frame.top\" lies ";
   for (const auto &[scene, lies] :
        {std::pair(pendulum("revolute", "[0.1, 0.05, 2.4]"), "1.4 m outside of the faces of this interface, which are "
-                                                            "0.2 m across"),
+                                                            "0.1 m across"),
         std::pair(pendulum("revolute", "[0.302, 0.05, 1]"), "0.102 m outside"),
         std::pair(pendulum("prismatic", "[0.302, 0.05, 1]", {{"axis", "[0, 0, 1]"}}), "0.102 m outside")})
     for (const std::string command : {"check", "modes"})
@@ -86,9 +86,29 @@ TEST_F(FrameAnswers, JointsFarFromTheFacesOfTheirInterfaceAreWarnedOf)
       EXPECT_EQ(answer.exit_code, 0) << answer.text;
       EXPECT_EQ(count(answer.text, far + lies), 1) << command << '\n' << answer.text;
     }
-  for (const std::string &near : {pendulum("revolute", "[0.1, 0.05, 1.09]"), pendulum("revolute", "[0.298, 0.05, 1]"),
+  for (const std::string &near : {pendulum("revolute", "[0.1, 0.05, 1.04]"), pendulum("revolute", "[0.298, 0.05, 1]"),
                                   pendulum("prismatic", "[0.1, 0.05, 2.4]", {{"axis", "[0, 0, 1]"}})})
     EXPECT_FALSE(ask("check", near).says("outside of the faces"));
+}
+
+/// Also its own node; what an interface guides may be anywhere along its way.
+TEST_F(FrameAnswers, NodesFarFromTheFacesOfTheirInterfaceAreWarnedOf)
+{
+  const auto at = [](const std::string &position)
+  {
+    const std::string key  = "[frame.interface.top]\n";
+    std::string       text = block(support);
+    return text.insert(text.find(key) + key.size(), "position = " + position + "\n");
+  };
+  for (const std::string command : {"check", "modes", "reduce"})
+  {
+    const Answer answer = ask(command, at("[0.32, 0.05, 1]"));
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    EXPECT_EQ(count(answer.text, "frame.interface.top.position: the node lies 0.12 m outside of the faces"), 1)
+        << command << '\n'
+        << answer.text;
+  }
+  EXPECT_FALSE(ask("check", at("[0.1, 0.05, 1.4]")).says("outside of the faces"));
 }
 
 /// Of a text, the line that has a part.

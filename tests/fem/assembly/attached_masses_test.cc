@@ -135,6 +135,21 @@ TEST(AttachedMass, JoinsMassCentreAndInertiaOfTheFrame)
   }
 }
 
+/// A centre in millimetres without its unit is told.
+TEST(AttachedMass, FartherFromItsFacesThanTheFrameIsLargeIsTold)
+{
+  auto near               = cantilever();
+  near.masses             = {motor(2., {1., 0.5, 0.4})};
+  near.masses[0].surfaces = {"y1"};
+  near.masses[0].interface.clear();
+  auto far             = near;
+  far.masses[0].centre = fem::Vector3{100., 50., 40.};
+  EXPECT_TRUE(discretise(bar_mesh(), near).notes.empty());
+  const auto notes = discretise(bar_mesh(), far).notes;
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("\"motor\" stands at (100, 50, 40) m, 1"), std::string::npos) << notes[0];
+}
+
 TEST(AttachedMass, HangsOnTheFrameUnderGravity)
 {
   auto       specification    = cantilever();

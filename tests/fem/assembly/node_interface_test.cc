@@ -194,19 +194,6 @@ TEST(PointInterfaces, BesideTheirSurfaceAreTold)
       << notes[0];
 }
 
-TEST(Interfaces, FarFromTheirSurfaceAreTold)
-{
-  auto near         = interface("tip", {"z1"}, fem::InterfaceCoupling::rigid);
-  near.position     = Vector3{1., 0.8, 2.5};
-  auto far          = near;
-  far.position      = Vector3{10., 60., 140.};
-  const auto before = discretise(tetrahedra(), clamped_block({near})).notes;
-  const auto notes  = discretise(tetrahedra(), clamped_block({far})).notes;
-  EXPECT_TRUE(before.empty());
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("interface \"tip\" stands at (10, 60, 140) m, 15"), std::string::npos) << notes[0];
-}
-
 /// The box around faces that are not plane stands for them: the top and a side of a block.
 TEST(Interfaces, KnowTheBoxAroundTheirFaces)
 {
