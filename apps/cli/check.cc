@@ -101,31 +101,30 @@ std::string scene_json(const Scene &scene)
 int check(const CommonOptions &options)
 {
   Scene                    scene    = read_scene(options.input, options.overrides, options.scripts);
-  std::vector<std::string> loose    = check_scene(scene);
-  std::vector<std::string> warnings = scene.warnings;
+  std::vector<std::string> warnings = check_scene(scene), notes;
   std::string              geometry;
   if (scene.frame.source == FrameSource::geometry)
   {
     std::map<std::string, PlacedFaces> faces;
-    geometry       = try_geometry(scene.frame.geometry, warnings, &faces).text;
-    loose          = check_scene(scene); // the places of interfaces are known now
+    geometry       = try_geometry(scene.frame.geometry, notes, &faces).text;
+    warnings       = check_scene(scene); // the places of interfaces are known now
     const auto far = places_far_from_faces(scene, faces);
-    loose.insert(loose.end(), far.begin(), far.end());
+    warnings.insert(warnings.end(), far.begin(), far.end());
   }
   std::vector<double> diagonals;
   for (coupling::FramePart &part : scene.frame.parts.parts)
   {
-    const auto [text, diagonal] = try_geometry(part.geometry, warnings);
+    const auto [text, diagonal] = try_geometry(part.geometry, notes);
     geometry += (geometry.empty() ? "" : "\nframe: ") + part.name + ": " + text;
     diagonals.push_back(diagonal);
   }
   if (scene.frame.source == FrameSource::parts)
   {
     coupling::require_meeting(scene.frame.parts, diagonals);
-    loose = check_scene(scene);
+    warnings = check_scene(scene);
   }
   check_start(scene);
-  warnings.insert(warnings.end(), loose.begin(), loose.end());
+  warnings.insert(warnings.begin(), notes.begin(), notes.end());
   if (const std::string floating = floating_frame(scene); !floating.empty())
     warnings.push_back(floating);
   if (answers_in_json())

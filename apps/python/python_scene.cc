@@ -251,10 +251,7 @@ std::vector<std::string> PythonScene::signals() const
 
 std::vector<std::string> PythonScene::check() const
 {
-  const Scene scene    = this->scene();
-  auto        warnings = apps::check_scene(scene);
-  warnings.insert(warnings.begin(), scene.warnings.begin(), scene.warnings.end());
-  return warnings;
+  return apps::check_scene(scene());
 }
 
 std::vector<std::string> PythonScene::words() const

@@ -298,8 +298,7 @@ Scene read_scene(const SceneNode &root, const std::string &path, fem::Scripts sc
   parameters.refuse_idle_overrides();
   refuse_rotations_of_nodes(scene);
   scene.warnings = table.warnings();
-  for (std::string &warning : implausible_numbers(scene))
-    scene.warnings.push_back(std::move(warning));
+  warn_of_implausible_numbers(scene);
   return scene;
 }
 

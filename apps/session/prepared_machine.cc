@@ -418,11 +418,13 @@ Result begin_result(const Scene &scene, const std::string &command, PreparedMach
     add_modes_beside(scene, small, how, result);
   else
     result.modes_at = modes_configuration(scene, small);
-  for (const auto &warnings :
-       {carried_warnings(scene, small.model()), idle_bodies(scene, small.model()), remote_joints(scene, small.model()),
-        places_far_from_faces(scene, small.model()), scene_magnitudes(scene, small, Masses::known),
-        magnitudes_of_modes(scene, result.frame_modes)})
+  for (const auto &warnings : {carried_warnings(scene, small.model()), idle_bodies(scene, small.model()),
+                               remote_joints(scene, small.model()), places_far_from_faces(scene, small.model())})
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  auto       unexpected = scene_magnitudes(scene, small, Masses::known);
+  const auto of_modes   = magnitudes_of_modes(scene, result.frame_modes);
+  unexpected.insert(unexpected.end(), of_modes.begin(), of_modes.end());
+  warn_of_magnitudes(std::move(unexpected), result.warnings);
   if (const auto warning = free_frame(scene, small.model(), result.coupled_modes); command == "run" && !warning.empty())
     result.warnings.push_back(warning);
   if (!without.empty() && scene.modes.number > 0)

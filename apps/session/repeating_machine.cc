@@ -4,6 +4,7 @@
 #include "coupling/periodic/period_search.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/turn_increments.h"
+#include "coupling/simulation/checks/told_by_time.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -24,7 +25,6 @@ constexpr double equal_periods = 1e-9; ///< of loads and a period that is given
 constexpr double equal_turns   = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
 constexpr double turns_tried   = 3.;   ///< of the fastest angle
 constexpr double drifting_runs = 100.; ///< in which what turns comes round at least once
-constexpr double same_force    = 1e-9; ///< of forces a period later, against the largest change
 
 /// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
 struct MovingAngles
@@ -68,47 +68,6 @@ double common_period_of(const std::vector<double> &omega, const Scene &scene)
   throw std::invalid_argument(text.str());
 }
 
-/// Names of the elements whose force depends explicitly on the time, measures and rates kept as in the state.
-std::vector<std::string> told_by_time(const coupling::Machine &machine, const coupling::InitialState &start,
-                                      double span, double period)
-{
-  constexpr int        probes = 7;
-  coupling::LocalState state;
-  state.resize(machine);
-  state.u           = machine.forces().directions().transpose() * start.q;
-  state.v           = machine.forces().directions().transpose() * start.v;
-  const auto blocks = machine.forces().blocks();
-  const auto forces = [&](double t)
-  {
-    state.t    = t;
-    VectorXd p = VectorXd::Zero(state.u.size());
-    machine.forces().force(state, p);
-    return p;
-  };
-  const VectorXd p_0     = forces(start.t);
-  VectorXd       changes = VectorXd::Zero(p_0.size()), differs = changes;
-  for (int k = 1; k <= probes; ++k)
-  {
-    const double   t = start.t + span * (k - 0.37) / probes;
-    const VectorXd p = forces(t);
-    changes          = changes.cwiseMax((p - p_0).cwiseAbs());
-    differs = differs.cwiseMax(period > 0. ? VectorXd((forces(t + period) - p).cwiseAbs()) : VectorXd(changes));
-  }
-  std::vector<std::string> names;
-  std::size_t              b = 0;
-  for (const coupling::ElementPlacement &placement : machine.model().elements())
-  {
-    if (placement.element->ideal_joint() || b >= blocks.size())
-      continue;
-    const auto   of     = [&](const VectorXd &x) { return x.segment(blocks[b].first_measure, blocks[b].n_measures); };
-    const double change = of(changes).maxCoeff();
-    if (change > 0. && of(differs).maxCoeff() > same_force * change)
-      names.push_back(placement.name);
-    ++b;
-  }
-  return names;
-}
-
 /// Angles that may turn, and their speeds [rad/s].
 struct TurningAngles
 {
@@ -135,8 +94,8 @@ TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, con
     for (const int i : *group)
       fastest = std::max(fastest, std::abs(start.v[i]));
   const double   time = turns_tried * 2. * M_PI / fastest;
-  const VectorXd way  = coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.},
-                                             start.t, time, stop);
+  const VectorXd way =
+      coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.}, start.t, time, stop);
   for (const int i : moving.planar)
     if (way[i] != 0.)
     {
@@ -246,11 +205,11 @@ void oscillate_freely(const Scene &scene, coupling::Machine &machine, RepeatingM
 std::string turn(const Scene &scene, coupling::Machine &machine, const coupling::InitialState &start,
                  RepeatingMachine &repeating)
 {
-  coupling::PeriodicProblem       &problem = repeating.problem;
-  const TurningAngles              turning = turning_angles(scene, machine, start, problem.stop);
-  const coupling::AngleInvariance  invariance(machine, turning.angles, repeating.guess, start.t);
-  const coupling::AngleIncrements  found = coupling::increments_of(invariance, turning.speed, problem.period,
-                                                                   turning.tolerance, machine.linear());
+  coupling::PeriodicProblem      &problem = repeating.problem;
+  const TurningAngles             turning = turning_angles(scene, machine, start, problem.stop);
+  const coupling::AngleInvariance invariance(machine, turning.angles, repeating.guess, start.t);
+  const coupling::AngleIncrements found =
+      coupling::increments_of(invariance, turning.speed, problem.period, turning.tolerance, machine.linear());
   if (!found.refusal.empty())
     throw std::invalid_argument(scene.file + ": " + found.refusal +
                                 (problem.period > 0. ? "; load and turning must be commensurate: give --period, or "
@@ -314,8 +273,8 @@ RepeatingMachine repeating_machine(const Scene &scene, coupling::Machine &machin
     repeating.reason = omega.size() == 1 ? "the period is that of the load" : "the period is common to all loads";
   }
   const std::string held = turn(scene, machine, start, repeating);
-  const double span = problem.period > 0. ? problem.period : 1.;
-  if (const auto names = told_by_time(machine, start, span, problem.period); !names.empty())
+  const double      span = problem.period > 0. ? problem.period : 1.;
+  if (const auto names = coupling::forces_of_time(machine, start, span, problem.period); !names.empty())
     throw std::invalid_argument(scene.file + ": the force of " + joined(names) + " depends on the time" +
                                 (problem.period > 0.
                                      ? " and does not repeat after " + short_text(problem.period, 8) + " s"

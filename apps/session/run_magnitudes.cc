@@ -20,9 +20,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double softest     = 0.05; ///< [m] tyres and rubber mounts of any machine yield by centimetres
-constexpr double most_strain = 0.02; ///< of rod or machine: metal yields below 0.005, tyres and rubber take some 0.01
-constexpr double most_twist  = 0.5;  ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
+constexpr double softest     = 0.05;      ///< [m] tyres and rubber mounts of any machine yield by centimetres
+constexpr double most_twist  = 0.5;       ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
 constexpr double most_turns  = 4. * M_PI; ///< [rad] of a torsion spring on the ground
 constexpr double most_travel = 1.;        ///< of the machine: no spring is longer
 constexpr double farthest    = 10.;       ///< of the machine: beyond, a body has left it
@@ -174,102 +173,118 @@ bool RunMagnitudes::commanded(const std::string &element) const
   return false;
 }
 
-std::string RunMagnitudes::slip_words(const Watched &watched, const coupling::WatchedValue &value) const
+std::optional<UnexpectedValue> RunMagnitudes::judged_slip(const Watched                &watched,
+                                                          const coupling::WatchedValue &value) const
 {
-  const double most = watched.scale;
-  const auto   text = [&](const char *when, double slip, const char *expected)
+  const double most       = watched.scale;
+  const auto   unexpected = [&](const char *when, double slip, const char *expected)
   {
-    return key_place(scene_, watched.object, "slip") + when + " of the run is " + short_text(slip) +
-           "; expected: " + expected + "within the breakdown slip of " + short_text(most) +
-           "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start";
+    return UnexpectedValue{key_place(scene_, watched.object, "slip"),
+                           std::string(when) + " of the run is " + short_text(slip) + "; expected: " + expected +
+                               "within the breakdown slip of " + short_text(most) +
+                               "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start",
+                           std::abs(slip) / most};
   };
   const bool turns = std::abs(1. - value.first) > standstill;
   if (turns && std::abs(value.first) > most)
-    return text("at the start", value.first, "1 at standstill, or ");
+    return unexpected("at the start", value.first, "1 at standstill, or ");
   // A start-up that is under way is no mistake.
   const bool starting_up = value.last < value.first - standstill && value.last > -most;
-  return std::abs(value.last) > most && !starting_up ? text("at the end", value.last, "") : "";
+  if (std::abs(value.last) > most && !starting_up)
+    return unexpected("at the end", value.last, "");
+  return std::nullopt;
 }
 
-std::string RunMagnitudes::judged(const Watched &watched, const std::string &unit, const coupling::WatchedValue &value,
-                                  const coupling::RunResult &run) const
+bool RunMagnitudes::acted(const Watched &watched, const coupling::WatchedValue &value,
+                          const coupling::RunResult &run) const
 {
-  const auto place = [&](const char *key) { return key_place(scene_, watched.object, key); };
+  return value.largest() > 0. ||
+         std::any_of(run.events.begin(), run.events.end(),
+                     [&](const coupling::Event &event) { return event.name == watched.object; });
+}
+
+std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, const std::string &unit,
+                                                     const coupling::WatchedValue &value,
+                                                     const coupling::RunResult    &run) const
+{
+  const auto above = [](double amount, double most, const std::string &place, const std::string &words) {
+    return most > 0. && amount > most ? std::optional(UnexpectedValue{place, words, amount / most}) : std::nullopt;
+  };
+  const auto        key  = [&](const char *name) { return key_place(scene_, watched.object, name); };
+  const std::string body = "body." + watched.object;
+  const double      way  = value.most - value.least;
   switch (watched.kind)
   {
   case Kind::deformation:
   {
-    const bool   turns       = unit == "N m";
-    const double most        = turns ? most_twist : std::max(softest, most_strain * size_of(watched.object)),
-                 e           = value.largest() / watched.scale;
-    const std::string result = turns ? "rad" : "m";
-    if ((turns || size_of(watched.object) > 0.) && e > most)
-      return place("stiffness") + "yields by " + amount(e, result) + " under its largest force of " +
-             amount(value.largest(), unit) + at(value.t_largest()) + "; expected: at most " + amount(most, result) +
-             (turns ? ", as highly elastic couplings do"
-                    : ", or " + short_text(most_strain) + " of the length of the rod or the size of the machine") +
-             "; check the units of its stiffness and of masses and loads";
-    return "";
+    const bool   turns = unit == "N m";
+    const double size = size_of(watched.object), e = value.largest() / watched.scale,
+                 most = turns       ? most_twist
+                        : size > 0. ? std::max(softest, most_yielding * size)
+                                    : 0.;
+    return above(
+        e, most, key("stiffness"),
+        "yields by " + amount(e, turns ? "rad" : "m") + " under its largest force of " + amount(value.largest(), unit) +
+            at(value.t_largest()) + "; expected: at most " + amount(most, turns ? "rad" : "m") +
+            (turns ? ", as highly elastic couplings do"
+                   : ", or " + short_text(most_yielding) + " of the length of the rod or the size of the machine") +
+            "; check the units of its stiffness and of masses and loads");
   }
   case Kind::travel:
   {
     const bool   turns = unit == "rad";
-    const double most = turns ? watched.scale : most_travel * size_, way = value.most - value.least;
-    if (most > 0. && way > most)
-      return place("stiffness") + "its ends move by " + amount(way, unit) + " against each other; expected: at most " +
-             amount(most, unit) +
-             (turns ? ", as elastic couplings and torsion springs do" : ", the size of the machine") +
-             "; check the units of its stiffness and of masses and loads";
-    return "";
+    const double most  = turns ? watched.scale : most_travel * size_;
+    return above(way, most, key("stiffness"),
+                 "its ends move by " + amount(way, unit) + " against each other; expected: at most " +
+                     amount(most, unit) +
+                     (turns ? ", as elastic couplings and torsion springs do" : ", the size of the machine") +
+                     "; check the units of its stiffness and of masses and loads");
   }
   case Kind::contact:
   {
-    const bool events = std::any_of(run.events.begin(), run.events.end(),
-                                    [&](const coupling::Event &event) { return event.name == watched.object; });
-    if (value.largest() > 0. || events || !run.failure.empty() || run.interrupted)
-      return "";
+    if (acted(watched, value, run) || !run.failure.empty() || run.interrupted)
+      return std::nullopt;
     const auto own = scene_.element_places.find(watched.object);
-    return (own == scene_.element_places.end() ? watched.object : own->second) +
-           ": never acts in this run, its force stays zero; check its place, its gap and the motion, or leave it out";
+    return UnexpectedValue{own == scene_.element_places.end() ? watched.object : own->second,
+                           "never acts in this run, its force stays zero; expected: a force at some time; check its "
+                           "place, its gap and the motion, or leave it out",
+                           1.};
   }
   case Kind::slip:
-    return slip_words(watched, value);
+    return judged_slip(watched, value);
   case Kind::turning:
-    if (const double rim = value.largest() * watched.scale; rim > fastest_rim)
-      return "body." + watched.object + ".radius: its rim has " + amount(rim, "m/s") + at(value.t_largest()) +
-             "; expected: at most " + amount(fastest_rim, "m/s") + ", at which a disc of steel bursts; check speeds, " +
-             "torques and inertia";
-    return "";
-  case Kind::speed:
-    if (value.largest() > fastest)
-      return "body." + watched.object + ": moves with " + amount(value.largest(), "m/s") + at(value.t_largest()) +
-             "; expected: at most " + amount(fastest, "m/s") +
-             ", as tools and slides do; check forces, mass and speeds";
-    return "";
-  case Kind::yielding:
-    if (const double way = value.most - value.least; size_ > 0. && way > most_strain * size_)
-      return scene_.frame.place + ": the frame yields at \"" + watched.object + "\" by " + amount(way, "m") +
-             "; expected: at most " + amount(most_strain * size_, "m") + ", " + short_text(most_strain) +
-             " of the size of the machine, as metal yields below 0.005; check stiffness, supports and loads";
-    return "";
-  case Kind::way:
-    if (const double way = value.most - value.least; size_ > 0. && way > farthest * size_)
-      return "body." + watched.object + ": moves " + amount(way, "m") + "; expected: at most " +
-             amount(farthest * size_, "m") + ", " + short_text(farthest) +
-             " times the size of the machine; check what holds it, its mass and its loads";
-    return "";
+  {
+    const double rim = value.largest() * watched.scale;
+    return above(rim, fastest_rim, body + ".radius",
+                 "its rim has " + amount(rim, "m/s") + at(value.t_largest()) + "; expected: at most " +
+                     amount(fastest_rim, "m/s") +
+                     ", at which a disc of steel bursts; check speeds, torques and inertia");
   }
-  return "";
+  case Kind::speed:
+    return above(value.largest(), fastest, body,
+                 "moves with " + amount(value.largest(), "m/s") + at(value.t_largest()) + "; expected: at most " +
+                     amount(fastest, "m/s") + ", as tools and slides do; check forces, mass and speeds");
+  case Kind::yielding:
+    return above(way, most_yielding * size_, scene_.frame.place,
+                 "the frame yields at \"" + watched.object + "\" by " + amount(way, "m") +
+                     "; expected: " + yielding_text(size_) + "; check stiffness, supports and loads");
+  case Kind::way:
+    return above(way, farthest * size_, body,
+                 "moves " + amount(way, "m") + "; expected: at most " + amount(farthest * size_, "m") + ", " +
+                     short_text(farthest) +
+                     " times the size of the machine; check what holds it, its mass and its loads");
+  }
+  return std::nullopt;
 }
 
-std::vector<std::string> RunMagnitudes::warnings(const coupling::RunResult &run) const
+std::vector<UnexpectedValue> RunMagnitudes::unexpected(const coupling::RunResult &run) const
 {
-  std::vector<std::string> warnings;
+  std::vector<UnexpectedValue> values;
   for (std::size_t i = 0; i < signals_.values.size(); ++i)
     if (signals_.values[i].known)
-      if (std::string words = judged(watched_[i], signals_.signals[i].unit, signals_.values[i], run); !words.empty())
-        warnings.push_back(std::move(words));
-  return warnings;
+      if (auto value = judged(watched_[i], signals_.signals[i].unit, signals_.values[i], run))
+        values.push_back(std::move(*value));
+  return values;
 }
 
 } // namespace gestell::apps

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "apps/scene/file/unexpected_values.h"
 #include "apps/scene/values/requests.h"
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/resumable_run.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +26,8 @@ public:
 
   coupling::WatchedSignals &signals() { return signals_; } ///< to be followed by a run
 
-  /// After that run: one warning for each that is out of its range.
-  std::vector<std::string> warnings(const coupling::RunResult &run) const;
+  /// After that run: what is out of its range.
+  std::vector<UnexpectedValue> unexpected(const coupling::RunResult &run) const;
 
 private:
   enum class Kind
@@ -46,16 +48,18 @@ private:
     double      scale;
   };
 
-  void        watch(Kind kind, const std::string &object, const std::string &path, double scale = 0.);
-  void        watch_elements(const coupling::Machine &small);
-  void        watch_springs();
-  void        watch_bodies();
-  void        watch_frame(const coupling::MachineModel &small);
-  double      size_of(const std::string &element) const;
-  std::string judged(const Watched &watched, const std::string &unit, const coupling::WatchedValue &value,
-                     const coupling::RunResult &run) const;
-  std::string slip_words(const Watched &watched, const coupling::WatchedValue &value) const;
-  bool        commanded(const std::string &element) const;
+  void   watch(Kind kind, const std::string &object, const std::string &path, double scale = 0.);
+  void   watch_elements(const coupling::Machine &small);
+  void   watch_springs();
+  void   watch_bodies();
+  void   watch_frame(const coupling::MachineModel &small);
+  double size_of(const std::string &element) const;
+  bool   acted(const Watched &watched, const coupling::WatchedValue &value, const coupling::RunResult &run) const;
+
+  std::optional<UnexpectedValue> judged(const Watched &watched, const std::string &unit,
+                                        const coupling::WatchedValue &value, const coupling::RunResult &run) const;
+  std::optional<UnexpectedValue> judged_slip(const Watched &watched, const coupling::WatchedValue &value) const;
+  bool                           commanded(const std::string &element) const;
 
   const Scene                  &scene_;
   const coupling::MachineModel &machine_;

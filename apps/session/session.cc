@@ -3,6 +3,7 @@
 #include "apps/output/text/settings_text.h"
 #include "apps/scene/build/coordinate_sign.h"
 #include "apps/scene/build/damping_text.h"
+#include "apps/scene/build/result_window.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/scene.h"
@@ -275,15 +276,15 @@ Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre 
   result.settings         = settings_text(scene_.run.options);
   result.asked            = {path_, overrides_, scene_.run.options};
   SceneTwins           twins;
-  coupling::Trajectory trajectory;
-  const std::clock_t   at_twins = std::clock();
+  coupling::Trajectory trajectory, *const followed = differentiated ? &trajectory : nullptr;
+  const std::clock_t at_twins = std::clock();
   if (differentiated)
     twins = scene_twins({root, path_, scripts_}, scene_, prepared, keys, sensitivities == "all" ? &left_out : nullptr,
                         progress());
   for (const auto *warnings : {&left_out, &twins.warnings})
     result.warnings.insert(result.warnings.end(), warnings->begin(), warnings->end());
   const std::clock_t at_run     = std::clock();
-  result.run                    = failure.empty() ? simulated(initial, signals, differentiated ? &trajectory : nullptr)
+  result.run                    = failure.empty() ? simulated(initial, signals, followed, result.warnings)
                                                   : not_started(scene_.run.options, failure);
   const std::clock_t behind_run = std::clock();
   if (differentiated && result.run->failure.empty() && !result.run->interrupted)
@@ -406,28 +407,28 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
 }
 
 coupling::RunResult Session::simulated(const coupling::InitialState        &initial,
-                                       const std::vector<coupling::Signal> &signals, coupling::Trajectory *trajectory)
+                                       const std::vector<coupling::Signal> &signals, coupling::Trajectory *trajectory,
+                                       std::vector<std::string> &warnings)
 {
   coupling::RunOptions run = scene_.run.options;
   ask_for_peak(signals, run.states);
   if (swings_ && run.picture_step > 0.)
     run.states.around = swing_extremes(signals, machine_->machine.size());
   RunMagnitudes magnitudes(scene_, machine_->machine, machine_->small());
-  const auto    now = progress();
-  now("integration", 0.);
-  const auto share = [&](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  const auto share = [&, now = progress()](double t) { now("integration", (t - run.begin) / (run.end - run.begin)); };
+  share(run.begin);
   std::optional<coupling::RunCheckpoints> checkpoints;
   std::vector<std::string>                not_kept;
   if (checkpoints_)
-    checkpoints =
-        run_checkpoints(*checkpoints_, read_scene_file(path_, overrides_), machine_->machine, initial, not_kept);
+    checkpoints = run_checkpoints(*checkpoints_, entries(), machine_->machine, initial, not_kept);
   try
   {
     coupling::RunResult result =
         coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
                            checkpoints ? &*checkpoints : nullptr, &magnitudes.signals());
-    for (const auto &warnings : {not_kept, magnitudes.warnings(result)})
-      result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+    for (const auto &more : {not_kept, window_warnings(scene_, machine_->machine, initial, result)})
+      result.warnings.insert(result.warnings.end(), more.begin(), more.end());
+    warn_of_magnitudes(magnitudes.unexpected(result), warnings);
     return result;
   }
   catch (const std::invalid_argument &error)

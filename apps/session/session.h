@@ -104,7 +104,7 @@ public:
 private:
   SceneNode           entries() const;
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
-                                coupling::Trajectory *trajectory);
+                                coupling::Trajectory *trajectory, std::vector<std::string> &warnings);
   Result              periodic_here(const PeriodicRequest &request);
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);

@@ -1,5 +1,6 @@
 #include "apps/sizing/model_variant.h"
 
+#include "apps/scene/build/result_window.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/sizing/first_modes.h"
 #include "coupling/frame/frame_cache.h"

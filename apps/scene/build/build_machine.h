@@ -40,14 +40,6 @@ std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::
 /// State at the beginning of the run by the rule of the scene.
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine);
 
-/**
- * [s] from which on extremes count, [output] from.  The last period is the least common one of the loads with
- * harmonics, else a revolution of the slowest rotor that turns once in the run at the speed it starts with.
- *
- * @throws std::invalid_argument if the scene asks for the last period of a machine that has none in its run
- */
-double result_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial);
-
 /// q [n] of the configuration that modes are asked for.
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine);
 
@@ -56,7 +48,7 @@ coupling::KnownStart modes_position(const Scene &scene, coupling::Machine &machi
 
 /// Builds the machine, on a frame that only has the right names where the true one must be computed, and with it all
 /// signals and states: what is wrong in a scene beyond read_scene() comes up here.  Computes nothing.  Joints are
-/// closed if places_known(): a body turns about its interface.  @return warnings, see free_things.h
+/// closed if places_known(): a body turns about its interface.  @return all warnings, those of read_scene() included
 std::vector<std::string> check_scene(const Scene &scene);
 
 /// Whether the scene says where all interfaces of its frame are; the centroids of surfaces are known by the CAD file.

@@ -1,6 +1,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/far_places.h"
 #include "apps/scene/build/free_bodies.h"
+#include "apps/scene/build/result_window.h"
 #include "apps/scene/build/scene_magnitudes.h"
 #include "apps/scene/build/stand_in_frame.h"
 #include "apps/scene/build/superposed_machine.h"
@@ -60,17 +61,18 @@ std::vector<std::string> check_scene(const Scene &scene)
   }
   for (const auto &[name, angle] : scene.start.steady.angles)
     (void)angle, machine.model().body(name);
-  auto warnings = idle_bodies(scene, machine.model());
+  auto       warnings = scene.warnings;
+  const auto add      = [&](const std::vector<std::string> &more)
+  { warnings.insert(warnings.end(), more.begin(), more.end()); };
+  add(idle_bodies(scene, machine.model()));
   if (places_known(scene))
   {
     const FramePath path   = frame_path(scene);
     const bool      exists = path == FramePath::none || path == FramePath::dense || path == FramePath::from_file;
-    for (const auto &more : {remote_joints(scene, machine.model()),
-                             scene_magnitudes(scene, machine, exists ? Masses::known : Masses::of_stand_in)})
-      warnings.insert(warnings.end(), more.begin(), more.end());
+    add(remote_joints(scene, machine.model()));
+    warn_of_magnitudes(scene_magnitudes(scene, machine, exists ? Masses::known : Masses::of_stand_in), warnings);
   }
-  const auto far = places_far_from_faces(scene, machine.model());
-  warnings.insert(warnings.end(), far.begin(), far.end());
+  add(places_far_from_faces(scene, machine.model()));
   if (!scene.run.given)
     return warnings;
   try

@@ -1,6 +1,7 @@
-#include "apps/scene/build/build_machine.h"
+#include "apps/scene/build/result_window.h"
 
 #include "coupling/periodic/period_search.h"
+#include "coupling/simulation/checks/told_by_time.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
@@ -23,17 +24,54 @@ double period_of_loads(const coupling::Machine &machine)
   return omega.empty() ? 0. : coupling::common_period(omega);
 }
 
-/// [s] at most `longest`; 0: no rotor turns so fast.
-double slowest_revolution(const coupling::Machine &machine, const coupling::InitialState &initial, double longest)
+constexpr double equal_speeds = 0.01; ///< mean and start of a run: a window of a revolution, but for 4 degrees
+
+/// The slowest rotor that completes a revolution in the run at the speed it starts with.
+struct Revolution
 {
-  double period = 0.;
+  const coupling::Body *rotor = nullptr; ///< null: there is none
+  double                speed = 0.;      ///< [rad/s]
+
+  double period() const { return rotor ? two_pi / std::abs(speed) : 0.; } ///< [s]
+};
+
+Revolution slowest_revolution(const coupling::Machine &machine, const coupling::InitialState &initial, double longest)
+{
+  Revolution slowest;
   if (initial.v.size() != machine.size() || machine.superposed_frequencies().size() > 0) // modes have no angles
-    return period;
+    return slowest;
   for (const coupling::Body &body : machine.model().bodies())
-    if (body.kind == coupling::BodyKind::rotor)
-      if (const double speed = std::abs(initial.v[body.coordinate]); speed * longest >= two_pi)
-        period = std::max(period, two_pi / speed);
-  return period;
+    if (const double speed = body.kind == coupling::BodyKind::rotor ? initial.v[body.coordinate] : 0.;
+        std::abs(speed) * longest >= two_pi && (!slowest.rotor || std::abs(speed) < std::abs(slowest.speed)))
+      slowest = {&body, speed};
+  return slowest;
+}
+
+[[noreturn]] void refuse(const Scene &scene, const std::string &reason, const std::string &remedy)
+{
+  throw std::invalid_argument(scene.run.place + ": output.from = \"last period\", but " + reason + "; " + remedy);
+}
+
+const char *const give_time = "give the time instead, as in output.from = \"1 s\"";
+
+/// What tells the time by itself has to repeat with the period: after loads at the end of the run, after a revolution,
+/// whose speed is that of the start, from the start on.
+void require_repeating(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial,
+                       double period, bool of_rotor)
+{
+  const coupling::RunOptions &run   = scene.run.options;
+  const double                whole = std::floor((run.end - run.begin) / period);
+  coupling::InitialState      at    = initial;
+  at.t                              = of_rotor ? run.begin : run.end - std::min(2., whole) * period;
+  const double shift                = of_rotor ? std::max(1., whole - 1.) * period : period;
+  auto         names                = coupling::forces_of_time(machine, at, period, shift);
+  for (const std::string &joint : coupling::motions_of_time(machine, at, period, shift))
+    names.push_back(joint);
+  if (!names.empty())
+    refuse(scene,
+           "\"" + names.front() + "\" depends on the time and does not repeat with the period of " +
+               short_text(period) + " s that " + (of_rotor ? "the rotor starts with" : "the loads have"),
+           give_time);
 }
 
 } // namespace
@@ -43,23 +81,40 @@ double result_window(const Scene &scene, const coupling::Machine &machine, const
   const coupling::RunOptions &run = scene.run.options;
   if (!scene.run.last_period || initial.v.size() == 0) // no start was found: there is no run
     return run.from;
-  const double length = run.end - run.begin;
-  double       period = period_of_loads(machine);
-  if (period == 0. && !machine.linear().excitation().harmonics().empty())
-    throw std::invalid_argument(scene.run.place + ": output.from = \"last period\", but the loads have no common "
-                                                  "period; give the time instead, as in output.from = \"1 s\"");
+  const double length = run.end - run.begin, of_loads = period_of_loads(machine);
+  if (of_loads == 0. && !machine.linear().excitation().harmonics().empty())
+    refuse(scene, "the loads have no common period", give_time);
+  const double period = of_loads > 0. ? of_loads : slowest_revolution(machine, initial, length).period();
   if (period == 0.)
-    period = slowest_revolution(machine, initial, length);
-  if (period == 0.)
-    throw std::invalid_argument(scene.run.place +
-                                ": output.from = \"last period\", but no period is known: no load has harmonics of a "
-                                "common period, and no rotor that starts with a speed completes a revolution in the "
-                                "run; give the time instead, as in output.from = \"1 s\"");
+    refuse(scene,
+           "no period is known: no load has harmonics of a common period, and no rotor that starts with a speed "
+           "completes a revolution in the run; whether planar bodies revolve or swing is not known before it",
+           give_time);
   if (period > length)
-    throw std::invalid_argument(scene.run.place + ": output.from = \"last period\", but the period of the loads, " +
-                                short_text(period) + " s, is longer than the run of " + short_text(length) +
-                                " s; give a later run.end");
+    refuse(scene,
+           "the period of the loads, " + short_text(period) + " s, is longer than the run of " + short_text(length) +
+               " s",
+           "give a later run.end");
+  if (initial.v.size() == machine.size())
+    require_repeating(scene, machine, initial, period, of_loads == 0.);
   return run.end - period;
+}
+
+std::vector<std::string> window_warnings(const Scene &scene, const coupling::Machine &machine,
+                                         const coupling::InitialState &initial, const coupling::RunResult &run)
+{
+  const double     length  = scene.run.options.end - scene.run.options.begin;
+  const Revolution slowest = slowest_revolution(machine, initial, length);
+  if (!scene.run.last_period || period_of_loads(machine) > 0. || !slowest.rotor || !run.failure.empty() ||
+      run.interrupted || run.end_state.size() != machine.size())
+    return {};
+  const int    i    = slowest.rotor->coordinate;
+  const double mean = (run.end_state[i] - initial.q[i]) / length;
+  if (std::abs(mean - slowest.speed) <= equal_speeds * std::abs(slowest.speed))
+    return {};
+  return {scene.run.place + ": output.from = \"last period\" takes a revolution at the speed that \"" +
+          slowest.rotor->name + "\" starts with, " + short_text(slowest.speed) + " rad/s, but its mean speed is " +
+          short_text(mean) + " rad/s, so that the window is no revolution; " + give_time};
 }
 
 } // namespace gestell::apps

@@ -33,12 +33,10 @@ constexpr double least_gyration = 0.01, most_gyration = 1.; ///< of a body's ext
 constexpr double highest_hz  = 50e3;                        ///< structure-borne sound of machines ends at some 20 kHz
 constexpr double most_damped = 10.;                ///< spring-dampers have ratios up to 1; with 10 nothing swings
 constexpr double quickest = 5e-3, slowest = 1000.; ///< [s] bare servo motors take some 10 ms, centrifuges some minutes
-constexpr double most_sag           = 0.05; ///< of the machine: air springs, which are softest, sag by a few hundredths
-constexpr double most_frame_damping = 0.7;  ///< with 1 a frame does not vibrate
-constexpr double most_spring_sag    = 0.1;  ///< of the machine: soft suspensions of vehicles sag by some 0.05
-constexpr double hardest_push       = 1e4;  ///< [m/s^2] valve springs accelerate their valves by up to 5000
+constexpr double most_frame_damping = 0.7;         ///< with 1 a frame does not vibrate
+constexpr double hardest_push       = 1e4;         ///< [m/s^2] valve springs accelerate their valves by up to 5000
 
-using Warnings = std::vector<std::string>;
+using Warnings = std::vector<UnexpectedValue>;
 
 std::string size_text(double metres)
 {
@@ -57,9 +55,11 @@ void judge_play(const Scene &scene, const ElementRequest &element, const std::st
                 double size, const std::string &of_what, Warnings &warnings)
 {
   if (size > 0. && std::abs(play) > most * size)
-    warnings.push_back(key_place(scene, element.name, key) + "is " + size_text(play) + "; expected: at most " +
-                       size_text(most * size) + ", " + short_text(most) + " of " + of_what + " (" + size_text(size) +
-                       "), for more is no play; check the unit");
+    warnings.push_back({key_place(scene, element.name, key),
+                        "is " + size_text(play) + "; expected: at most " + size_text(most * size) + ", " +
+                            short_text(most) + " of " + of_what + " (" + size_text(size) +
+                            "), for more is no play; check the unit",
+                        std::abs(play) / (most * size)});
 }
 
 void judge_plays(const Scene &scene, double size, Warnings &warnings)
@@ -102,19 +102,24 @@ void judge_bodies(const Scene &scene, const coupling::MachineModel &machine, dou
   for (const BodyRequest &body : scene.bodies)
   {
     const double arm  = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 0.;
-    const bool   told = arm < 1e-4 || arm > 20.; // implausible_numbers() has a warning then
+    const bool   told = arm < 1e-4 || arm > 20.; // warn_of_implausible_numbers() has one then
     if (!told && body.kind == coupling::BodyKind::planar)
     {
-      const double own = extent_of(machine.body(body.name));
-      if ((own > 0. && arm < least_gyration * own) || (size > 0. && arm > most_gyration * size))
-        warnings.push_back(body.place + ".inertia: with its mass gives a radius of gyration of " + size_text(arm) +
-                           "; expected: " + size_text(least_gyration * own) + " to " + size_text(most_gyration * size) +
-                           " for the points of the body and the size of the machine; check the units of both");
+      const double own    = extent_of(machine.body(body.name));
+      const double excess = std::max(least_gyration * own / arm, size > 0. ? arm / (most_gyration * size) : 0.);
+      if (excess > 1.)
+        warnings.push_back({body.place + ".inertia",
+                            "with its mass gives a radius of gyration of " + size_text(arm) + "; expected: " +
+                                size_text(least_gyration * own) + " to " + size_text(most_gyration * size) +
+                                " for the points of the body and the size of the machine; check the units of both",
+                            excess});
     }
     if (body.unbalance && body.radius > 0. && body.unbalance->amount * body.radius > body.inertia)
-      warnings.push_back(body.place + ".unbalance: is " + short_text(body.unbalance->amount) +
-                         " kg m; expected: at most " + short_text(body.inertia / body.radius) +
-                         " kg m, with which a mass at the rim alone has the inertia of the rotor; check the unit");
+      warnings.push_back({body.place + ".unbalance",
+                          "is " + short_text(body.unbalance->amount) + " kg m; expected: at most " +
+                              short_text(body.inertia / body.radius) +
+                              " kg m, with which a mass at the rim alone has the inertia of the rotor; check the unit",
+                          body.unbalance->amount * body.radius / body.inertia});
   }
 }
 
@@ -134,16 +139,18 @@ void judge_elements(const Scene &scene, const coupling::Machine &machine, Warnin
   for (const coupling::ElementScale &scale : all_scales(scene, machine))
   {
     if (scale.frequency_hz() > highest_hz)
-      warnings.push_back(key_place(scene, scale.name, "stiffness") + "with the masses it acts on alone vibrates at " +
-                         short_text(scale.frequency_hz()) + " Hz; expected: at most " + short_text(highest_hz) +
-                         " Hz, as parts of machines vibrate below 20 kHz; check the units of stiffness and masses");
+      warnings.push_back({key_place(scene, scale.name, "stiffness"),
+                          "with the masses it acts on alone vibrates at " + short_text(scale.frequency_hz()) +
+                              " Hz; expected: at most " + short_text(highest_hz) +
+                              " Hz, as parts of machines vibrate below 20 kHz; check the units of stiffness and masses",
+                          scale.frequency_hz() / highest_hz});
     if (scale.ratio() > most_damped)
-      warnings.push_back(key_place(scene, scale.name, "damping") +
-                         "with the stiffness and the masses gives a damping "
-                         "ratio of " +
-                         short_text(scale.ratio()) + "; expected: at most " + short_text(most_damped) +
-                         ", as springs and dampers of machines have 0.001 to 1; check the units of stiffness, damping "
-                         "and masses");
+      warnings.push_back({key_place(scene, scale.name, "damping"),
+                          "with the stiffness and the masses gives a damping ratio of " + short_text(scale.ratio()) +
+                              "; expected: at most " + short_text(most_damped) +
+                              ", as springs and dampers of machines have 0.001 to 1; check the units of stiffness, "
+                              "damping and masses",
+                          scale.ratio() / most_damped});
   }
 }
 
@@ -160,17 +167,18 @@ void judge_springs(const Scene &scene, const coupling::Machine &machine, double 
     if (motion.rotation || !(mass > 0.))
       continue;
     if (const double push = std::abs(spring.preload) / mass; push > hardest_push)
-      warnings.push_back(key_place(scene, spring.name, "preload") + "accelerates the " + short_text(mass) +
-                         " kg that it acts on by " + short_text(push) + " m/s^2; expected: at most " +
-                         short_text(hardest_push) +
-                         " m/s^2, twice as much as valve springs do; check the units of preload and mass");
+      warnings.push_back({key_place(scene, spring.name, "preload"),
+                          "accelerates the " + short_text(mass) + " kg that it acts on by " + short_text(push) +
+                              " m/s^2; expected: at most " + short_text(hardest_push) +
+                              " m/s^2, twice as much as valve springs do; check the units of preload and mass",
+                          push / hardest_push});
     const double weight = mass * std::abs(g.dot(vector(motion.axis)));
     if (const double sag = spring.stiffness > 0. && spring.preload == 0. ? weight / spring.stiffness : 0.;
-        size > 0. && sag > most_spring_sag * size)
-      warnings.push_back(key_place(scene, spring.name, "stiffness") + "yields by " + size_text(sag) +
-                         " under the weight of " + short_text(mass) + " kg; expected: at most " +
-                         size_text(most_spring_sag * size) + ", " + short_text(most_spring_sag) +
-                         " of the size of the machine; check the units of stiffness and mass");
+        size > 0. && sag > most_yielding * size)
+      warnings.push_back({key_place(scene, spring.name, "stiffness"),
+                          "yields by " + size_text(sag) + " under the weight of " + short_text(mass) +
+                              " kg; expected: " + yielding_text(size) + "; check the units of stiffness and mass",
+                          sag / (most_yielding * size)});
   }
 }
 
@@ -192,11 +200,13 @@ void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings
         const double J    = coupling::mass_on(machine, placement.measures.front());
         const double time = J * std::abs(own.synchronous_speed) / (own.ratio * own.ratio * own.breakdown_torque);
         if (J > 0. && ((time < quickest && !coupling::has_joints(machine)) || time > slowest))
-          warnings.push_back(key_place(scene, element.name, "breakdown_torque") + "with ratio " +
-                             short_text(own.ratio) + " accelerates the " + short_text(J) +
-                             " kg m^2 of its shaft to the synchronous speed within " + short_text(time) +
-                             " s; expected: " + short_text(quickest) + " s to " + short_text(slowest) +
-                             " s, as motors alone take 10 ms and centrifuges minutes; check torque, ratio, inertia");
+          warnings.push_back(
+              {key_place(scene, element.name, "breakdown_torque"),
+               "with ratio " + short_text(own.ratio) + " accelerates the " + short_text(J) +
+                   " kg m^2 of its shaft to the synchronous speed within " + short_text(time) +
+                   " s; expected: " + short_text(quickest) + " s to " + short_text(slowest) +
+                   " s, as motors alone take 10 ms and centrifuges minutes; check torque, ratio, inertia",
+               std::max(quickest / time, time / slowest)});
       }
 }
 
@@ -211,11 +221,12 @@ void judge_frame(const Scene &scene, const coupling::MachineModel &machine, doub
     if (hz > 0.)
     {
       const double weight = g > 0. ? g : 9.81, sag = weight / std::pow(2. * M_PI * hz, 2);
-      if (sag > most_sag * size)
-        warnings.push_back(scene.frame.place + ": the lowest frequency of the frame on its supports is " +
-                           short_text(hz) + " Hz: its weight along that motion deflects it by " + size_text(sag) +
-                           "; expected: at most " + size_text(most_sag * size) + ", " + short_text(most_sag) +
-                           " of the size of the machine, as air springs do; check stiffness, supports and masses");
+      if (sag > most_yielding * size)
+        warnings.push_back({scene.frame.place,
+                            "the lowest frequency of the frame on its supports is " + short_text(hz) +
+                                " Hz: its weight along that motion deflects it by " + size_text(sag) +
+                                "; expected: " + yielding_text(size) + "; check stiffness, supports and masses",
+                            sag / (most_yielding * size)});
       return;
     }
 }
@@ -258,10 +269,16 @@ double machine_size(const Scene &scene, const coupling::MachineModel &machine)
 std::string key_place(const Scene &scene, const std::string &object, const std::string &key)
 {
   const auto place = scene.element_places.find(object);
-  return (place == scene.element_places.end() ? object : place->second) + "." + key + ": ";
+  return (place == scene.element_places.end() ? object : place->second) + "." + key;
 }
 
-std::vector<std::string> scene_magnitudes(const Scene &scene, const coupling::Machine &machine, Masses masses)
+std::string yielding_text(double size)
+{
+  return "at most " + size_text(most_yielding * size) + ", " + short_text(most_yielding) +
+         " of the size of the machine, as suspensions of vehicles and air springs do";
+}
+
+std::vector<UnexpectedValue> scene_magnitudes(const Scene &scene, const coupling::Machine &machine, Masses masses)
 {
   Warnings     warnings;
   const double size = machine_size(scene, machine.model());
@@ -276,16 +293,20 @@ std::vector<std::string> scene_magnitudes(const Scene &scene, const coupling::Ma
   return warnings;
 }
 
-std::vector<std::string> magnitudes_of_modes(const Scene &scene, const std::vector<coupling::Mode> &of_frame)
+std::vector<UnexpectedValue> magnitudes_of_modes(const Scene &scene, const std::vector<coupling::Mode> &of_frame)
 {
   Warnings warnings;
   for (const coupling::Mode &mode : of_frame)
     if (mode.frequency_hz > 0. && !(mode.damping_ratio < most_frame_damping)) // nan: it does not vibrate
     {
-      warnings.push_back(scene.frame.place + ".damping: damps the mode of the frame at " +
-                         short_text(mode.frequency_hz) + " Hz by a ratio of " + short_text(mode.damping_ratio) +
-                         "; expected: at most " + short_text(most_frame_damping) +
-                         ", as foundations on viscous dampers have 0.3; check the units of damping and stiffness");
+      const bool   creeps = std::isnan(mode.damping_ratio);
+      const double ratio  = creeps ? 1. : mode.damping_ratio; // or more
+      warnings.push_back({scene.frame.place + ".damping",
+                          "damps the mode of the frame at " + short_text(mode.frequency_hz) + " Hz by a ratio of " +
+                              short_text(ratio) + (creeps ? " or more" : "") + "; expected: at most " +
+                              short_text(most_frame_damping) +
+                              ", as foundations on viscous dampers have 0.3; check the units of damping and stiffness",
+                          ratio / most_frame_damping});
       break;
     }
   return warnings;

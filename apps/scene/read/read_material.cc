@@ -72,18 +72,19 @@ std::string suspicion(const Plausible &range, double value, double common_low, d
 }
 
 /// Plain numbers no solid has, or hardly any and a common one in another unit, are refused as a mistaken unit; with a
-/// unit beside them they are meant, and only warned of.
-void check_plausible(const SceneTable &table, const std::string &key, const Plausible &range, double value,
+/// unit beside them they are meant, and only warned of.  @return whether nothing speaks against the value
+bool check_plausible(const SceneTable &table, const std::string &key, const Plausible &range, double value,
                      double common_low, double common_high)
 {
   const std::string text = suspicion(range, value, common_low, common_high);
   if (text.empty())
-    return;
+    return true;
   const bool mistaken =
       value < range.least || value > range.most || !likely_unit(range, value, common_low, common_high).empty();
   if (mistaken && !table.is_text(key))
     throw table.error(key, text + "; numbers without unit are SI");
-  table.warn(key, text);
+  table.warn(key, text + "; expected: " + short_text(range.low) + " to " + short_text(range.high) + ' ' + range.unit);
+  return false;
 }
 
 constexpr double lightest_common = 400., heaviest_common = 20000.; // [kg/m^3]
@@ -110,9 +111,9 @@ fem::Material material_from(const SceneTable &any)
   material.place = table.place();
   if (material.nu <= -1. || material.nu >= 0.5)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
-  check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
-  check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common);
-  check_speed_of_waves(table, material);
+  const bool E_plausible = check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
+  if (check_plausible(table, "rho", plausible_density(), material.rho, lightest_common, heaviest_common) && E_plausible)
+    check_speed_of_waves(table, material); // a second warning of one mistake otherwise
   return material;
 }
 

@@ -2,6 +2,8 @@
 
 #include "apps/scene/read/read_stages.h"
 #include "apps/scene/read/read_stress.h"
+#include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 namespace gestell::apps
 {
@@ -42,6 +44,21 @@ const std::vector<Key> &watched_signal_keys()
   return keys;
 }
 
+static void read_window(const SceneTable &table, Scene &result)
+{
+  const std::string     last_period = "last period", text = table.is_text("from") ? table.text("from") : "";
+  coupling::RunOptions &run = result.run.options;
+  result.run.last_period    = text == last_period;
+  if (result.run.last_period)
+    return;
+  if (!nearest_name(text, {last_period}).empty())
+    throw table.error("from", "there is no '" + text + "'; did you mean '" + last_period + "'?");
+  run.from = table.value_or("from", run.from);
+  if (table.has("from") && run.from < run.begin)
+    throw table.error("from", "is " + short_text(run.from) + " s, before the run begins at " + short_text(run.begin) +
+                                  " s; give a time within the run, or leave it out for the whole run");
+}
+
 void read_output(const SceneTable &scene, Scene &result)
 {
   coupling::RunOptions &run = result.run.options;
@@ -53,9 +70,7 @@ void read_output(const SceneTable &scene, Scene &result)
   run.output_step        = table.value_or("step", 0.);
   run.picture_step       = table.value_or("picture_step", run.picture_step);
   run.allow_large        = table.truth("allow_large");
-  result.run.last_period = table.is_text("from") && table.text("from") == "last period";
-  if (!result.run.last_period)
-    run.from = table.value_or("from", run.from);
+  read_window(table, result);
   if (table.is_array("signals"))
     for (const auto &path : table.texts("signals"))
     {

@@ -1,5 +1,6 @@
 #include "apps/session/sensitivity/scene_twins.h"
 
+#include "apps/scene/build/result_window.h"
 #include "apps/scene/file/idle_parameter.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"

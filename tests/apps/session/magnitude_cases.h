@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/scene/build/build_machine.h"
+#include "apps/scene/file/unexpected_values.h"
 #include "apps/session/session.h"
 #include "apps/templates/scene_templates.h"
 #include "tests/support/scene_run.h"
@@ -12,6 +13,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -23,8 +25,21 @@ namespace gestell::tests
 struct TypicalMistake
 {
   std::string              line, command, scene;
+  std::vector<std::string> keys;    ///< of which a warning has to name one
   std::vector<std::string> entries; ///< as they are mistyped
 };
+
+inline std::vector<std::string> split(const std::string &text, const std::string &between)
+{
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from != std::string::npos;)
+  {
+    const auto to = text.find(between, from);
+    parts.push_back(text.substr(from, to == std::string::npos ? to : to - from));
+    from = to == std::string::npos ? to : to + between.size();
+  }
+  return parts;
+}
 
 inline std::vector<TypicalMistake> typical_mistakes()
 {
@@ -34,47 +49,54 @@ inline std::vector<TypicalMistake> typical_mistakes()
   {
     if (line.empty() || line[0] == '#')
       continue;
-    std::vector<std::string> parts;
-    for (std::size_t from = 0; from != std::string::npos;)
-    {
-      const auto to = line.find(" | ", from);
-      parts.push_back(line.substr(from, to == std::string::npos ? to : to - from));
-      from = to == std::string::npos ? to : to + 3;
-    }
-    mistakes.push_back({line, parts.at(0), parts.at(1) + ".toml", {parts.begin() + 3, parts.end()}});
+    const auto parts = split(line, " | ");
+    mistakes.push_back(
+        {line, parts.at(0), parts.at(1) + ".toml", split(parts.at(3), ", "), {parts.begin() + 4, parts.end()}});
   }
   return mistakes;
 }
 
-/// All that `check`, or `check` and `run`, say of a shipped scene with these entries; an error is one sentence, too.
+inline const std::string refused = "refused: ";
+
+/// All that `check`, or `run`, says of a shipped scene with these entries; an error is one sentence, too.
 inline std::vector<std::string> sentences_of(const std::string &scene, const std::vector<std::string> &entries,
                                              bool run)
 {
   try
   {
-    apps::Session            session(scene[0] == '/' ? scene : shipped(scene), entries);
-    std::vector<std::string> sentences = apps::check_scene(session.scene());
-    sentences.insert(sentences.end(), session.scene().warnings.begin(), session.scene().warnings.end());
-    if (!run)
-      return sentences;
-    const auto warnings = all_warnings(session.run({}, apps::SpectraAre::left_out));
-    sentences.insert(sentences.end(), warnings.begin(), warnings.end());
-    return sentences;
+    apps::Session session(scene[0] == '/' ? scene : shipped(scene), entries);
+    return run ? all_warnings(session.run({}, apps::SpectraAre::left_out)) : apps::check_scene(session.scene());
   }
   catch (const std::exception &error)
   {
-    return {error.what()};
+    return {refused + error.what()};
   }
 }
 
-/// Whether a mistake leads to a sentence that the scene itself does not lead to.
-inline bool is_caught(const TypicalMistake &mistake, bool run)
+/// What is said of a mistake that is not said of the scene itself.
+inline std::vector<std::string> answer_to(const TypicalMistake &mistake, bool run)
 {
-  const auto usual = sentences_of(mistake.scene, {}, run);
+  const auto               usual = sentences_of(mistake.scene, {}, run);
+  std::vector<std::string> answer;
   for (const std::string &sentence : sentences_of(mistake.scene, mistake.entries, run))
     if (std::find(usual.begin(), usual.end(), sentence) == usual.end())
-      return true;
-  return false;
+      answer.push_back(sentence);
+  return answer;
+}
+
+/// A refusal, or a warning that gives a value and the range expected of it; it names a key of the mistake.
+inline bool is_answered(const TypicalMistake &mistake, const std::vector<std::string> &answer)
+{
+  const auto names_key = [&](const std::string &sentence)
+  {
+    return std::any_of(mistake.keys.begin(), mistake.keys.end(),
+                       [&](const std::string &key) { return sentence.find(key) != std::string::npos; });
+  };
+  return std::any_of(answer.begin(), answer.end(),
+                     [&](const std::string &sentence) {
+                       return names_key(sentence) &&
+                              (apps::compares_magnitudes(sentence) || sentence.rfind(refused, 0) == 0);
+                     });
 }
 
 /// Scenes of the tutorials, written as their readers write them, and the templates beside them.
@@ -154,14 +176,10 @@ inline std::string name_of_scene(const testing::TestParamInfo<std::string> &info
   return name;
 }
 
-/// Sentences that compare magnitudes.
 inline std::vector<std::string> magnitudes_of(const std::vector<std::string> &sentences)
 {
   std::vector<std::string> found;
-  for (const std::string &sentence : sentences)
-    if (sentence.find("; expected: ") != std::string::npos || sentence.find("never acts") != std::string::npos ||
-        sentence.find(" gives with rho") != std::string::npos)
-      found.push_back(sentence);
+  std::copy_if(sentences.begin(), sentences.end(), std::back_inserter(found), apps::compares_magnitudes);
   return found;
 }
 

@@ -21,6 +21,7 @@ using apps::Result;
 using apps::Session;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// x = x_0 exp(-delta t) cos(omega t) but for terms of delta/omega; omega = 20 1/s, delta = 1 1/s.
 const char *const fading = R"(
@@ -148,6 +149,8 @@ direction = [1, 0, 0]
 harmonics = [{ amplitude = '1 N', frequency = '4 Hz' }, { amplitude = '1 N', frequency = '6 Hz' }]
 )";
 
+const std::string turning = std::string(fading) + "[body.shaft]\ntype = 'rotor'\naxis = [0, 0, 1]\ninertia = 1\n";
+
 TEST_F(Window, TheLastPeriodIsTheCommonOneOfTheLoads)
 {
   const Result part = run({"output.from=last period"}, shaken);
@@ -158,15 +161,65 @@ TEST_F(Window, TheLastPeriodIsTheCommonOneOfTheLoads)
 
 TEST_F(Window, TheLastPeriodIsARevolutionWhereNoLoadOscillates)
 {
-  const std::string turning = std::string(fading) + "[body.shaft]\ntype = 'rotor'\naxis = [0, 0, 1]\ninertia = 1\n";
   EXPECT_NEAR(run({"output.from=last period", "start.v.shaft=120 rpm"}, turning).run->from, 1.5, 1e-12);
   expect_refusal([&] { run({"output.from=last period", "start.v.shaft=6 rpm"}, turning); }, "no period is known");
+}
+
+std::string formula(const std::string &body, const std::string &motion, const std::string &force)
+{
+  return "[element.formula]\ntype = 'formula force'\nfrom = '" + body + "'\n" + motion + " = [0, 0, 1]\nforce = '" +
+         force + "'\n";
+}
+
+/// What depends on the time without repeating leaves no period: a ramp in the window, one before it, another period.
+TEST_F(Window, WhatDoesNotRepeatLeavesNoLastPeriod)
+{
+  const auto with = [&](const std::string &force)
+  {
+    std::string text = shaken;
+    return text + "[body.other]\ntype = 'slider'\naxis = [0, 0, 1]\nmass = 1\n" + formula("other", "direction", force);
+  };
+  expect_refusal([&] { run({"output.from=last period"}, with("1 N/s*t")); },
+                 "\"formula\" depends on the time and does not repeat with the period of 0.5 s that the loads have");
+  EXPECT_EQ(run({"output.from=last period"}, with("1 N/s*min(t, 0.9 s)")).run->from, 1.5);
+  EXPECT_EQ(run({"output.from=last period"}, with("1 N*sin(8*pi/(1 s)*t)")).run->from, 1.5);
+  expect_refusal(
+      [&]
+      {
+        run({"output.from=last period", "start.v.shaft=120 rpm"},
+            turning + formula("shaft", "about", "1 N*m*sin(7/(1 s)*t)"));
+      },
+      "0.5 s that the rotor starts with");
+}
+
+/// A motion that is a function of the time is known before the run, ramps and motors after it.
+TEST_F(Window, ARevolutionNeedsTheSpeedOfTheStart)
+{
+  const auto driven = [&](const std::string &motion)
+  { return turning + "[joint.drive]\ntype = 'prescribed motion'\non = 'shaft'\nmotion = { " + motion + " }\n"; };
+  const std::vector<std::string> last = {"output.from=last period", "start.v.shaft=120 rpm"};
+  expect_refusal([&] { run(last, driven("function = '4*pi*t/(1 s) + t*t/(1 s^2)'")); },
+                 "\"drive\" depends on the time");
+  EXPECT_EQ(run(last, driven("function = '4*pi*t/(1 s)'")).run->from, 1.5);
+  EXPECT_THAT(
+      run(last, driven("speed = [{ at = '0.5 s', to = '240 rpm', acceleration = '50 rad/s^2' }], initial_speed = "
+                       "'120 rpm'"))
+          .run->warnings,
+      Contains(HasSubstr("but its mean speed is 21.2 rad/s")));
+  const std::string torque =
+      turning + "[element.torque]\ntype = 'force'\nfrom = 'shaft'\nabout = [0, 0, 1]\nconstant = '1 N m'\n";
+  const Result result = run(last, torque);
+  EXPECT_THAT(result.run->warnings, Contains(HasSubstr("but its mean speed is 13.57 rad/s"))); // 4 pi + 1 rad/s
+  EXPECT_THAT(run(last, turning).run->warnings, Not(Contains(HasSubstr("mean speed"))));
 }
 
 TEST_F(Window, WhatMakesNoSenseIsRefused)
 {
   expect_refusal([&] { run({"output.from=2 s"}); }, "must lie before run.end");
+  expect_refusal([&] { run({"output.from=-0.1 s"}); }, "before the run begins at 0 s");
+  expect_refusal([&] { run({"run.begin=1 s", "output.from=0.9 s"}); }, "output.from: is 0.9 s, before the run begins");
   expect_refusal([&] { run({"output.from=last turn"}); }, "output.from");
+  expect_refusal([&] { run({"output.from=last perod"}); }, "did you mean 'last period'?");
   expect_refusal([&] { run({"output.from=last period"}); }, "no period is known");
   expect_refusal([&] { run({"output.from=last period", "run.end=0.4 s"}, shaken); }, "longer than the run");
 }
