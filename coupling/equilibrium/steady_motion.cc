@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 namespace gestell::coupling
@@ -162,17 +163,29 @@ Demands chain_demands(const Machine &machine, const VectorXd &q, const VectorXd 
   return {chain.J, sides(VectorXd::Zero(chain.g.size()), -chain.curvature, n_held)};
 }
 
-/// Both sides of plays move together, and what presses on a stop stays there.  @return those that something free closes
-std::vector<int> satisfy_plays(const Machine &machine, const VectorXd &q, const VectorXd &v, const VectorXd &scale,
-                               Freedom &freedom, Eigen::Index n_held)
+/// First measures of plays that something free closes, and plays that nothing free has a part in.
+struct SatisfiedPlays
 {
-  std::vector<int> closed;
+  std::vector<int>        closed;
+  std::vector<PlacedPlay> determined;
+};
+
+/// Both sides of plays move together, and what presses on a stop stays there.
+SatisfiedPlays satisfy_plays(const Machine &machine, const VectorXd &q, const VectorXd &v, const VectorXd &scale,
+                             Freedom &freedom, Eigen::Index n_held)
+{
+  SatisfiedPlays result;
   for (const PlacedPlay &own : plays(machine, q, v))
-    if ((own.play.both || own.play.presses()) &&
-        (own.chain || freedom.satisfy({own.G, sides(VectorXd::Zero(own.play.n), -own.bias(), n_held)},
-                                      (own.G * scale.asDiagonal()).norm())))
-      closed.push_back(own.first_measure);
-  return closed;
+  {
+    if (!own.play.both && !own.play.presses())
+      continue;
+    if (own.chain || freedom.satisfy({own.G, sides(VectorXd::Zero(own.play.n), -own.bias(), n_held)},
+                                     (own.G * scale.asDiagonal()).norm()))
+      result.closed.push_back(own.first_measure);
+    else if (own.play.both)
+      result.determined.push_back(own);
+  }
+  return result;
 }
 
 /// Stationary elastic energy 1/2 x^T K x in what is free, Z^T K x = 0.
@@ -201,6 +214,32 @@ void require_closed(const Demands &demands, const MatrixXd &X, const VectorXd &s
     refuse_speeds();
 }
 
+/// A play of which both sides follow from given speeds and prescribed motions closes at once if these contradict each
+/// other.  Where one of them determines both sides, the play is a stop that the machine drives past.
+void require_agreement(const Machine &machine, const SatisfiedPlays &plays, const KnownStart &known, const VectorXd &q,
+                       const MatrixXd &X)
+{
+  const VectorXd     speeds    = given_demands(machine, known, q, X.col(0)).b.col(0);
+  const Eigen::Index n_held    = speeds.size();
+  const MatrixXd     of_speeds = X.rightCols(n_held) * speeds.asDiagonal();
+  for (const PlacedPlay &own : plays.determined)
+  {
+    MatrixXd shares(own.play.n, 1 + n_held); // of prescribed motions and of each speed
+    shares << own.G * (X.col(0) - of_speeds.rowwise().sum()), own.G * of_speeds;
+    const VectorXd sizes = shares.colwise().norm();
+    const double   part = torn * sizes.maxCoeff(), rate = shares.rowwise().sum().norm();
+    if (rate > part && (sizes.array() > part).count() > 1)
+    {
+      std::ostringstream text;
+      text << "the speeds given in start.v contradict each other across the play of \"" << own.name
+           << "\", which closes at " << rate
+           << " m/s (or rad/s); a steady start takes those of the drives alone, and plays give the others; for an "
+              "impact take rule = \"given\"";
+      throw std::invalid_argument(text.str());
+    }
+  }
+}
+
 /// One pass: v is right whatever `v_before`, a and its curvatures if that was v.
 SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v_before)
 {
@@ -218,12 +257,13 @@ SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const 
                 chain     = chain_demands(machine, q, v_before, n_held);
   freedom.satisfy(compliant);
   freedom.satisfy(chain);
-  std::vector<int> closed_plays = satisfy_plays(machine, q, v_before, scale, freedom, n_held);
+  SatisfiedPlays plays = satisfy_plays(machine, q, v_before, scale, freedom, n_held);
   freedom.satisfy(elastic_demands(machine, q, freedom.free(), 2 + n_held));
   const MatrixXd &X = freedom.motions();
   require_closed(compliant, X, scale);
   require_closed(chain, X, scale);
-  return {X.col(0), X.col(1), X.rightCols(n_held), std::move(closed_plays)};
+  require_agreement(machine, plays, known, q, X);
+  return {X.col(0), X.col(1), X.rightCols(n_held), std::move(plays.closed)};
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace gestell::coupling
@@ -124,14 +125,22 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd> &rows, Eigen::Inde
   return matrix;
 }
 
-/// omega^2 [modes] with the sign of a motion that vibrates or grows.
+constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
+
+/// Its energies grow or fall while it vibrates, and its springs and masses have them at different times.
+bool flutters(const Mode &mode)
+{
+  return mode.frequency_hz > 0. && mode.growth != 0.;
+}
+
+/// omega^2 [modes] with the sign of a motion that vibrates or grows; nan of one that flutters.
 Eigen::RowVectorXd stiffnesses(const std::vector<Mode> &modes)
 {
   Eigen::RowVectorXd result(Eigen::Index(modes.size()));
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
     const double omega = two_pi * modes[j].frequency_hz, fall = modes[j].growth * modes[j].growth;
-    result[Eigen::Index(j)] = omega > no_motion ? omega * omega - fall : -fall; // Re omega^2 of a flutter
+    result[Eigen::Index(j)] = flutters(modes[j]) ? not_defined : omega > no_motion ? omega * omega : -fall;
   }
   return result;
 }
@@ -175,7 +184,7 @@ EnergyShares energy_shares(const Machine &machine, const Eigen::VectorXd &q, con
     Eigen::RowVectorXd share = strain.rows[i].cwiseQuotient(total);
     for (Eigen::Index j = 0; j < share.size(); ++j)
       if (total[j] == 0.)
-        share[j] = std::numeric_limits<double>::quiet_NaN();
+        share[j] = not_defined;
     const bool any = (share.array().isFinite() && share.array().abs() > no_share).any();
     if (!any)
       continue;
@@ -185,6 +194,9 @@ EnergyShares energy_shares(const Machine &machine, const Eigen::VectorXd &q, con
   shares.strain  = stacked(kept, V.cols());
   shares.masses  = kinetic.names;
   shares.kinetic = stacked(kinetic.rows, V.cols());
+  for (std::size_t j = 0; j < modes.size(); ++j)
+    if (flutters(modes[j]))
+      shares.kinetic.col(Eigen::Index(j)).setConstant(not_defined);
   return shares;
 }
 

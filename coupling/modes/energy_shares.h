@@ -14,7 +14,7 @@ namespace gestell::coupling
  * each of which sums up to 1.  Springs are the frame on its supports, linear elements, and nonlinear ones as they are
  * engaged; what forces that turn with the motion do (geometric stiffness) is one more and may be negative.  The mass of
  * a body that moves with a marker of the frame counts as the frame's.  Strain shares of a mode without frequency are
- * nan.
+ * nan, and all shares of one that flutters, whose energies are no constants.
  */
 struct EnergyShares
 {

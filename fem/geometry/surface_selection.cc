@@ -208,11 +208,16 @@ std::vector<std::size_t> pieces_of(const std::vector<const Face *> &faces)
   return piece;
 }
 
+std::size_t n_pieces(const std::vector<const Face *> &faces)
+{
+  const std::vector<std::size_t> piece = pieces_of(faces);
+  return std::set<std::size_t>(piece.begin(), piece.end()).size();
+}
+
 /// Whether there are so many faces, or so many pieces of them.
 bool are_as_many(const std::vector<const Face *> &faces, std::size_t wanted)
 {
-  const std::vector<std::size_t> piece = pieces_of(faces);
-  return faces.size() == wanted || std::set<std::size_t>(piece.begin(), piece.end()).size() == wanted;
+  return faces.size() == wanted || n_pieces(faces) == wanted;
 }
 
 /// The pieces that the point of the selector lies beside, whole.
@@ -229,6 +234,19 @@ std::vector<const Face *> pieces_at(const std::vector<const Face *> &faces, cons
     if (here.count(piece[i]) > 0)
       result.push_back(faces[i]);
   return result;
+}
+
+/// The number is that of the faces at the point of the selector, and that of all pieces that fit.
+[[noreturn]] void refuse_two_meanings(const SurfaceSelector &selector, const std::vector<const Face *> &here,
+                                      const std::vector<const Face *> &all)
+{
+  const auto of = [](const std::vector<const Face *> &faces)
+  { return std::to_string(n_pieces(faces)) + (n_pieces(faces) == 1 ? " piece" : " pieces"); };
+  throw std::invalid_argument(selector.place + ": faces = " + std::to_string(selector.faces) + " may mean the " +
+                              std::to_string(here.size()) + " faces at 'through', which make " + of(here) + ", or " +
+                              of(all) + " of " + std::to_string(all.size()) +
+                              " faces; write faces = " + std::to_string(n_pieces(here)) +
+                              " for the former, faces = " + std::to_string(all.size()) + " for the latter.");
 }
 
 /// Faces the box cuts through, though they meet all other conditions.
@@ -267,9 +285,14 @@ std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelec
       fitting.push_back(&face);
 
   const std::size_t wanted = selector.faces;
-  if (wanted > 0 && fitting.size() > wanted && !are_as_many(fitting, wanted))
-    if (const std::vector<const Face *> here = pieces_at(fitting, selector, tolerance); are_as_many(here, wanted))
+  if (wanted > 0 && fitting.size() > wanted)
+    if (const std::vector<const Face *> here = pieces_at(fitting, selector, tolerance);
+        here.size() < fitting.size() && are_as_many(here, wanted))
+    {
+      if (are_as_many(fitting, wanted))
+        refuse_two_meanings(selector, here, fitting);
       fitting = here;
+    }
 
   if (fitting.empty())
     throw std::invalid_argument(selector.place + ": no face fits (" + wish(selector) + ") within " +

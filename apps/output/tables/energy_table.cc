@@ -26,7 +26,9 @@ Json shares_of(const std::vector<std::string> &names, const Eigen::MatrixXd &sha
 
 std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, std::size_t mode)
 {
-  const Eigen::VectorXd    own = shares.col(Eigen::Index(mode));
+  const Eigen::VectorXd own = shares.col(Eigen::Index(mode));
+  if (own.array().isNaN().all()) // or there is no spring
+    return "not defined";
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), 0);
   const auto size = [&](std::size_t i) { return std::abs(own[Eigen::Index(i)]); };

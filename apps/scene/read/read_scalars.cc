@@ -3,6 +3,12 @@
 #include "apps/scene/read/read_function.h"
 #include "fem/values/nearest_name.h"
 
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 namespace gestell::apps
 {
 namespace
@@ -114,6 +120,28 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
   return measure;
 }
 
+/// Terms of one motion count together: of each marker the sum of weight * axis, of a measure of two places its weight.
+static bool cancel(const std::vector<TermRequest> &terms)
+{
+  constexpr double                                        rounding = 1e-14; // of factors that are written by decimals
+  std::map<std::pair<std::string, bool>, Eigen::Vector3d> motions;
+  std::map<std::string, double>                           scalars;
+  double                                                  whole = 0.;
+  for (const TermRequest &term : terms)
+  {
+    whole += std::abs(term.weight);
+    if (term.placed)
+      scalars[term.placed->name] += term.weight;
+    for (const MotionTerm &motion : term.motion)
+      motions.try_emplace({motion.marker, motion.rotation}, Eigen::Vector3d::Zero()).first->second +=
+          term.weight * motion.weight * Eigen::Map<const Eigen::Vector3d>(motion.axis.data());
+  }
+  return std::all_of(motions.begin(), motions.end(),
+                     [&](const auto &motion) { return motion.second.norm() <= rounding * whole; }) &&
+         std::all_of(scalars.begin(), scalars.end(),
+                     [&](const auto &scalar) { return std::abs(scalar.second) <= rounding * whole; });
+}
+
 MeasureRequest read_sum(const SceneTable &table, const Names &names)
 {
   struct Part
@@ -159,6 +187,9 @@ MeasureRequest read_sum(const SceneTable &table, const Names &names)
   }
   if (measure.terms.empty())
     throw table.error("needs 'terms' such as [{ of = \"rack\" }, { of = \"pinion\", factor = \"-40 mm\" }]");
+  if (cancel(measure.terms))
+    throw table.error("terms",
+                      "cancel each other: the sum is zero whatever moves; check the motions and their factors");
   return measure;
 }
 

@@ -44,6 +44,21 @@ TEST(Messages, PlainFactorsOfASumFit)
   expect_complaint(sum("[{ of = \"a\" }, { of = \"w\", factor = \"2 kg\" }]"), "all terms must be lengths");
 }
 
+// Factors of one motion count together, under each of its names and through other measures.
+TEST(Messages, ASumThatIsZeroWhateverMovesIsRefused)
+{
+  const std::string zero = "measure.s.terms: cancel each other: the sum is zero whatever moves";
+  expect_complaint(sum("[{ of = \"a\" }, { of = \"a\", factor = -1 }]"), zero);
+  expect_complaint(sum("[{ of = \"a\", factor = 0 }]"), zero);
+  expect_complaint(sum("[{ of = \"w\", factor = 0.3 }, { of = \"w.angle\", factor = -0.1 }, { of = \"w\", "
+                       "factor = -0.2 }]"),
+                   zero);
+  EXPECT_EQ(complaint(sum("[{ of = \"a\" }, { of = \"b\", factor = -1 }]")), "");
+  const std::string way  = measure("d", "along", {{"from", "b"}, {"to", "a"}, {"direction", "[1, 0, 0]"}}),
+                    half = measure("h", "sum", {{"terms", "[{ of = \"d\", factor = 0.5 }]"}});
+  expect_complaint(way + half + sum("[{ of = \"d\" }, { of = \"h\", factor = -2 }]"), zero);
+}
+
 // A table of TOML has no order: a measure may name one that stands below it.
 TEST(Messages, TheOrderOfMeasuresDoesNotMatter)
 {

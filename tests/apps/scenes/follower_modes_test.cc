@@ -1,7 +1,9 @@
 // Columns under loads that follow their motion: modes, frequency responses and derivatives against closed
 // forms.
 
+#include "apps/output/tables/energy_table.h"
 #include "apps/scene/build/build_machine.h"
+#include "coupling/modes/energy_shares.h"
 #include "coupling/modes/modes.h"
 #include "coupling/modes/operating_point.h"
 #include "coupling/sensitivity/frequency_sensitivities.h"
@@ -117,6 +119,21 @@ TEST(FollowerModes, FlutterWithTheGrowthOfTheClosedForm)
     EXPECT_NEAR(modes[0].damping_ratio, -std::abs(s.real()) / std::abs(s), 1e-8);
   }
   EXPECT_NEAR(Column(ziegler(2.3)).modes()[0].growth, 2.31, 0.005);
+}
+
+// Energies of a flutter are no constants: their shares are not defined, those below the limit are.
+TEST(FollowerModes, HaveEnergySharesUnlessTheyFlutter)
+{
+  for (const double kappa : {1.9, 2.3})
+  {
+    const Column column(ziegler(kappa));
+    const auto   shares = coupling::energy_shares(column.machine, column.q, {}, column.modes());
+    EXPECT_EQ(shares.strain.array().isNaN().all(), kappa > 2.);
+    EXPECT_EQ(shares.kinetic.array().isNaN().all(), kappa > 2.);
+    EXPECT_EQ(apps::kinetic_text(shares, 0) == "not defined", kappa > 2.) << apps::kinetic_text(shares, 0);
+    if (kappa < 2.)
+      EXPECT_NEAR(shares.kinetic.col(0).sum(), 1., 1e-9);
+  }
 }
 
 // H. Ziegler, Die Stabilitaetskriterien der Elastomechanik, Ingenieur-Archiv 20 (1952): equal small dampers in both

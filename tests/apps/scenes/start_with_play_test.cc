@@ -216,6 +216,27 @@ TEST(StartWithPlay, ASlideRestsOnItsGuide)
   }
 }
 
+// Speeds of both sides that do not fit together make no steady motion; one that drives past stops does.
+TEST(StartWithPlay, SpeedsThatContradictEachOtherAcrossAPlayAreRefused)
+{
+  const auto claws = [](const std::string &speeds)
+  {
+    return rotor_body("flywheel", "200 kg m^2", "[0, 0, 1]") + rotor_body("shaft", "0.5 kg m^2", "[0, 0, 1]") +
+           element("claws", "clearance",
+                   {{"from", "flywheel"}, {"to", "shaft"}, {"gap", "0.5 deg"}, {"stiffness", "1e5 N m/rad"}}) +
+           start("rule = 'steady'\nv = { " + speeds + " }") + steps("0.1 ms", "1 ms") + signals("w = 'shaft.speed'");
+  };
+  expect_refusal([&] { run(claws("flywheel = '10 rad/s', shaft = '12 rad/s'")); },
+                 "contradict each other across the play of \"claws\", which closes at 2 m/s (or rad/s)");
+  EXPECT_NEAR(run(claws("flywheel = '10 rad/s', shaft = '10 rad/s'")).signal("w").max, 10., 1e-9);
+  const SceneRun passing =
+      run(rotor_body("wheel", "1 kg m^2", "[0, 0, 1]") + slider_body("mass", "2 kg", "[0, 0, 1]") +
+          element("stops", "clearance", {{"from", "mass"}, {"gap", "20 mm"}, {"stiffness", "1 kN/mm"}}) +
+          start("rule = 'steady'\nv = { wheel = '1 rad/s', mass = '0.1 m/s' }") + steps("0.1 ms", "1 ms") +
+          signals("v = 'mass.velocity'"));
+  EXPECT_NEAR(passing.signal("v").min, 0.1, 1e-12);
+}
+
 // A body that a spring holds between stops far away touches none of them.
 TEST(StartWithPlay, StopsFarAwayStayOpen)
 {

@@ -4,6 +4,7 @@
 #include "fem/geometry/surface_selection.h"
 #include "fem/values/vector3.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +123,23 @@ TEST(Selection, DoesNotDependOnWhereThePointLiesAlongThePiecesItTakes)
     EXPECT_EQ(select_faces(faces, cylinder(x, {at, 1., 2.}, 0.12, 1), 1.), std::vector<int>{7}) << at;
   for (const double at : {-3., 0.7, 2.})
     EXPECT_THROW(select_faces(faces, cylinder(x, {at, 1., 2.}, 0.12, 1), 1.), std::invalid_argument) << at;
+}
+
+/// Two bores of two halves each: the two faces of the one with the point, or two bores?
+TEST(Selection, RefusesANumberOfTwoMeanings)
+{
+  std::vector<Face> faces = {arc(4, -1., 0., 0.1), arc(5, -1., 0., 0.1), arc(7, -1., 0.9, 1.), arc(8, -1., 0.9, 1.)};
+  faces[0].edges = faces[1].edges = {1, 2};
+  faces[2].edges = faces[3].edges = {3, 4};
+  const auto taken                = [&](double at, int n) {
+    return select_faces(faces, cylinder({1., 0., 0.}, {at, 1., 2.}, 0.12, n), 1.);
+  };
+  gestell::tests::expect_refusal([&] { taken(0.05, 2); },
+                                 "faces = 2 may mean the 2 faces at 'through', which make 1 piece, or 2 pieces "
+                                 "of 4 faces; write faces = 1 for the former, faces = 4 for the latter");
+  EXPECT_EQ(taken(0.05, 1), (std::vector<int>{4, 5}));
+  EXPECT_EQ(taken(0.05, 4), (std::vector<int>{4, 5, 7, 8}));
+  EXPECT_EQ(taken(0.5, 2), (std::vector<int>{4, 5, 7, 8})); // no face there: the pieces are meant
 }
 
 TEST(Selection, NamesCoaxialFacesThatItDoesNotTake)
