@@ -21,6 +21,9 @@ constexpr double rounding = 1e-9; ///< of the largest value of a signal: what is
 constexpr double located = 1e-6;
 constexpr double level   = 1e-4; ///< of the largest value, what y' or y'' make of a step: flat to first order
 
+constexpr double known_share = 1e-4; ///< of a derivative of an instant, its error: it has no more figures than its y''
+constexpr double known_time = 1e-6; ///< or of the run's length, what the whole value of a parameter may move it wrongly
+
 const double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
@@ -145,18 +148,36 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
 {
   const double second = (extreme.largest ? -1. : 1.) * turn.second; // > 0 where it turns
   const double shift  = -turn.rate / turn.second;
+  if (getenv("DERIV_DEBUG"))
+  {
+    fprintf(stderr, "TURN %s t %.12g rate %g second %g off %g shift %g step %g size %g kink %d",
+            outputs_[5 * extreme.signal + (extreme.largest ? 3 : 1)].output.c_str(), extreme.t, turn.rate, turn.second,
+            turn.off, shift, step, sizes_[extreme.signal], int(turn.kink));
+    for (Index k = 0; k < turn.dy.size(); ++k)
+      fprintf(stderr, " %.10g", -turn.d_rate[k] / turn.second * std::abs(twins_[size_t(k)].value));
+    fprintf(stderr, "\n");
+  }
   if (!turn.known() || !(second > 0.) || !(std::abs(shift) < step))
   {
     set(extreme, turn.dy, VectorXd::Constant(turn.dy.size(), none));
     const std::string why  = no_turn(extreme, turn, step);
-    const bool        flat = second * step * step < level * sizes_[extreme.signal];
-    leave_out(output(extreme, true), !why.empty() ? why : flat ? "the peak is flat" : "its curvature is not known");
+    const bool        flat = std::abs(turn.second) * length_ * length_ < level * sizes_[extreme.signal];
+    leave_out(output(extreme, true), !why.empty() ? why
+                                     : flat       ? "the peak is flat"
+                                            : "where the signal turns is lost in rounding, or farther than a step");
     if (!why.empty())
       leave_out(output(extreme, false), why);
     return;
   }
   VectorXd dt  = -turn.d_rate / turn.second;
-  bool     far = false;
+  bool     far = false, lost = false;
+  for (Index k = 0; k < turn.d_off.size(); ++k)
+    if (const double off = std::abs(turn.d_off[k] / turn.second);
+        off > known_share * std::abs(dt[k]) && off * std::abs(twins_[std::size_t(k)].value) > known_time * length_)
+    {
+      dt[k] = none;
+      lost  = true;
+    }
   for (Index k = 0; k < dt.size(); ++k)
     if (std::abs(one_percent * twins_[std::size_t(k)].value * dt[k]) > length_)
     {
@@ -164,6 +185,8 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
       far   = true;
     }
   set(extreme, turn.dy + shift * turn.d_rate, dt);
+  if (lost)
+    output(extreme, true).note = "no derivative where the change of its rate is lost in rounding";
   if (far)
     output(extreme, true).note = "no derivative where one percent would move it by more than the run: the peak is flat";
 }

@@ -18,7 +18,7 @@ namespace gestell::coupling
  * is the derivative of the one nearest to the extreme.  None have, and their notes tell why: extremes that are zero but
  * for rounding; those at a corner or a jump that is no event, and all others whose y' does not vanish; instants of a
  * peak that is flat, whose y'' is not known to a ten thousandth, whose slope asks for more than a step to where it
- * turns, or which one percent of a parameter moves by more than the run lasts.
+ * turns, whose change is lost in rounding, or which one percent of a parameter moves by more than the run lasts.
  *
  * Source: docs/sensitivities.md (9) to (11).
  */

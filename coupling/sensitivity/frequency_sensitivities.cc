@@ -2,6 +2,7 @@
 
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
+#include "coupling/machine/configuration/local_stiffness.h"
 
 #include <cmath>
 #include <limits>
@@ -20,17 +21,25 @@ constexpr double rest = 1e-6; ///< of the highest frequency: it is zero
 
 struct Matrices
 {
-  MatrixXd M, K, G;
+  MatrixXd                    M, K, G;
+  MatrixXd                    frame, of_measures; ///< K = frame + W of_measures W^T
+  Eigen::SparseMatrix<double> W;
+
+  /// w^T K v, of elements by what they are compressed: where a motion moves their ends nearly alike, it is not what is
+  /// left of the large terms of K, and quotients of it do not lose their digits.
+  double stiffness(const VectorXd &w, const VectorXd &v) const
+  {
+    return w.dot(frame * v) + (W.transpose() * w).dot(of_measures * (W.transpose() * v));
+  }
 };
 
 Matrices matrices(const LinearisedAt &at)
 {
   const Machine &machine = *at.machine;
   Matrices       found;
-  MatrixXd       B;
-  engaged_matrices(machine, at.q, *at.open, found.K, B);
-  found.M = dense_mass(machine);
-  found.K += dense_stiffness(machine);
+  found.M             = dense_mass(machine);
+  found.frame         = dense_stiffness(machine);
+  found.W             = machine.forces().directions();
   const VectorXd zero = VectorXd::Zero(machine.size());
   LocalState     local;
   local.resize(machine);
@@ -44,13 +53,15 @@ Matrices matrices(const LinearisedAt &at)
     machine.joints().constraints(local, g, G);
     found.G = joint_jacobian(machine, G);
   }
-  found.K += geometric_stiffness(machine, local);
+  found.of_measures = stiffness_of_measures(machine, local, *at.open);
+  found.K           = found.frame + found.W * found.of_measures * found.W.transpose();
   return found;
 }
 
+/// Of M, K and G.
 Matrices mean(const Matrices &a, const Matrices &b)
 {
-  return {0.5 * (a.M + b.M), 0.5 * (a.K + b.K), 0.5 * (a.G + b.G)};
+  return {0.5 * (a.M + b.M), 0.5 * (a.K + b.K), 0.5 * (a.G + b.G), {}, {}, {}};
 }
 
 /// A mode with its left eigenvector, and what joints have to hold of both.
@@ -138,7 +149,7 @@ MatrixXd frequency_sensitivities(const std::vector<Mode> &modes, const std::vect
       if (v.size() == 0)
         continue;
       const double omega = 2. * M_PI * modes[j].frequency_hz;
-      double       slope = w.dot((above.K - below.K) * v) - omega * omega * w.dot((above.M - below.M) * v);
+      double slope = above.stiffness(w, v) - below.stiffness(w, v) - omega * omega * w.dot((above.M - below.M) * v);
       if (mu.size() > 0)
         slope += mu.dot((above.G - below.G) * w) + mu_w.dot((above.G - below.G) * v);
       found(Index(j), Index(k)) = quotient * slope / (4. * M_PI * omega);

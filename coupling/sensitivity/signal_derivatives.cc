@@ -1,7 +1,9 @@
 #include "coupling/sensitivity/signal_derivatives.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -16,6 +18,8 @@ using Eigen::VectorXd;
 
 constexpr double      longest = 0.32, shorter = 0.25; ///< ways of rates: of a step, and from one to the next
 constexpr std::size_t ways      = 8;
+constexpr double      epsilon   = std::numeric_limits<double>::epsilon();
+constexpr std::size_t stretches = 8;     ///< of sigma, each four times as long as the one before
 constexpr double      accurate  = 1e-4;  ///< of y'', its error
 constexpr int         most      = 3;     ///< of Newton's steps to where a signal turns
 constexpr double      arrived   = 1e-3;  ///< of a way: no step is needed
@@ -27,6 +31,76 @@ constexpr double      distinct  = 30.;   ///< times its rounding is a jump at le
 bool jumps(double at_far, double at_near, double rounding)
 {
   return std::abs(at_near) > distinct * rounding && std::abs(at_far - at_near) < same * std::abs(at_near);
+}
+
+/// Quotients of order 4 over distances 1 and 2.
+constexpr std::array<std::pair<double, double>, 4> of_rate = {
+    {{1., 8. / 12.}, {-1., -8. / 12.}, {2., -1. / 12.}, {-2., 1. / 12.}}};
+
+/// z += by * rate
+void add(double by, const MotionState &rate, MotionState &z)
+{
+  z.t += by * rate.t;
+  z.q += by * rate.q;
+  z.v += by * rate.v;
+  z.a += by * rate.a;
+  z.local.t += by * rate.local.t;
+  z.local.u += by * rate.local.u;
+  z.local.v += by * rate.local.v;
+  z.local.a += by * rate.local.a;
+  z.local.p += by * rate.local.p;
+  z.local.lambda += by * rate.local.lambda;
+}
+
+MotionState zero_like(const MotionState &z)
+{
+  MotionState zero = z;
+  add(-1., z, zero);
+  return zero;
+}
+
+/// Of one parameter, at a fixed time.
+MotionState of_column(const MotionColumns &columns, int k, const MotionState &like)
+{
+  MotionState z  = zero_like(like);
+  z.q            = columns.q.col(k);
+  z.v            = columns.v.col(k);
+  z.a            = columns.a.col(k);
+  z.local.u      = columns.u.col(k);
+  z.local.v      = columns.u_rate.col(k);
+  z.local.a      = columns.u_acc.col(k);
+  z.local.p      = columns.p.col(k);
+  z.local.lambda = columns.lambda.col(k);
+  return z;
+}
+
+/// y' over stretches of the motion along its rates: 2^2i times `way`.
+VectorXd along(const Machine &machine, const Signal &signal, const Moving &z, double way)
+{
+  VectorXd rates = VectorXd::Zero(Index(stretches));
+  for (Index i = 0; i < rates.size(); ++i)
+  {
+    const double sigma = way * std::exp2(2. * double(i));
+    for (const auto &[by, weight] : of_rate)
+    {
+      MotionState there = z.at;
+      add(by * sigma, z.rate, there);
+      rates[i] += weight / sigma * machine.evaluate(signal, there.q, there.v, there.a, there.local);
+    }
+  }
+  return rates;
+}
+
+/// The first of the two neighbours that agree best, but for the rounding of the first value, a quarter of it of the
+/// next.
+Index best_of(const VectorXd &values, double rounding)
+{
+  const auto differ = [&](Index i)
+  { return std::max(std::abs(values[i + 1] - values[i]), rounding * std::exp2(-2. * double(i))); };
+  Index best = 0;
+  for (Index i = 1; i + 1 < values.size(); ++i)
+    best = differ(i) < differ(best) ? i : best;
+  return best;
 }
 } // namespace
 
@@ -164,8 +238,13 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
                     (16. * (near[0] + near[1]) - (far[0] + far[1])) / (12. * way * way),
                     (far[0] - 4. * near[0]) / (2. * way), (4. * near[1] - far[1]) / (2. * way), near[1] - near[0]});
   }
-  const auto  differ = [&](std::size_t j) { return std::abs(over[j].second - over[j + 1].second); };
-  std::size_t best   = 0;
+  // Zeros agree where the signal changes by less than the rounding of its value.
+  const auto differ = [&](std::size_t j)
+  {
+    return std::max(std::abs(over[j].second - over[j + 1].second),
+                    epsilon * std::abs(here) / (over[j].way * over[j].way));
+  };
+  std::size_t best = 0;
   for (std::size_t j = 1; j + 1 < ways; ++j)
     best = differ(j) < differ(best) ? j : best;
   // Where rounding, which grows by the square of the ways, is less than what they differ by, the next is better.
@@ -181,20 +260,96 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   found.kink            = jumps(but_one.jump, last.jump, rounding) ? Kink::jump
                           : jumps(but_one.behind - but_one.before, last.behind - last.before, rounding / last.way) ? Kink::corner
                                                                                                                    : Kink::none;
-  return over[best].way;
+  const bool slow = !found.known() && found.kink == Kink::none && find_slow_turn(signal, at, longest * step, found);
+  return slow ? longest * step : over[best].way;
 }
 
-VectorXd SignalDerivatives::d_rates(std::size_t signal, const MotionState &at, const MotionColumns &columns, double way)
+/// With the rates of all that signals read: those of q, q', u and u' as they are known, of others by quotients over
+/// `way`.
+Moving SignalDerivatives::moving(const MotionState &at, double way)
 {
-  const Course on    = course(at, way);
-  VectorXd     found = VectorXd::Zero(Index(twins_.size()));
-  for (const auto &[by, weight] : {std::pair(way, 8. / 12.), std::pair(2. * way, -1. / 12.)})
-    for (const double sign : {1., -1.})
-    {
-      const MotionState there = moved(at, on, sign * by);
-      found += sign * weight / way * tell(there, moved(there, columns, sign * by)).dy.row(Index(signal)).transpose();
-    }
+  const Course on = course(at, way);
+  Moving       z{at, zero_like(at)};
+  for (const auto &[by, weight] : of_rate)
+    add(weight / way, moved(at, on, by * way), z.rate);
+  z.rate.t = z.rate.local.t = 1.;
+  z.rate.q                  = at.v;
+  z.rate.v                  = on.second;
+  z.rate.a                  = on.third;
+  z.rate.local.u            = at.local.v;
+  z.rate.local.v            = machine_.forces().directions().transpose() * on.second;
+  return z;
+}
+
+/// The same of the derivatives by each parameter.
+std::vector<Moving> SignalDerivatives::moving(const MotionState &at, const MotionColumns &columns, double way)
+{
+  const Course        on = course(at, way);
+  std::vector<Moving> found;
+  for (int k = 0; k < int(twins_.size()); ++k)
+    found.push_back({of_column(columns, k, at), zero_like(at)});
+  for (const auto &[by, weight] : of_rate)
+  {
+    const MotionColumns there = moved(moved(at, on, by * way), columns, by * way);
+    for (int k = 0; k < int(twins_.size()); ++k)
+      add(weight / way, of_column(there, k, at), found[std::size_t(k)].rate);
+  }
+  for (Moving &z : found)
+  {
+    z.rate.t = z.rate.local.t = 0.;
+    z.rate.q                  = z.at.v;
+    z.rate.local.u            = z.at.local.v;
+  }
   return found;
+}
+
+/// Of signals that are slow beside the steps.  @return whether it is known
+bool SignalDerivatives::find_slow_turn(std::size_t signal, const MotionState &at, double way, Turn &found)
+{
+  VectorXd second[2];
+  for (int j = 0; j < 2; ++j)
+  {
+    const double over = j == 0 ? way : shorter * way;
+    const Course on   = course(at, over);
+    second[j]         = VectorXd::Zero(Index(stretches));
+    for (const auto &[by, weight] : of_rate)
+      second[j] += weight / over * along(machine_, signals_[signal], moving(moved(at, on, by * over), over), way);
+  }
+  const double y    = machine_.evaluate(signals_[signal], at.q, at.v, at.a, at.local);
+  const Index  best = best_of(second[0], epsilon * std::abs(y) / (way * way));
+  const double off =
+      std::max(std::abs(second[0][best + 1] - second[0][best]), std::abs(second[1][best] - second[0][best]));
+  if (!(off <= accurate * std::abs(second[0][best])))
+    return false;
+  found.second = second[0][best];
+  found.off    = off;
+  found.rate   = along(machine_, signals_[signal], moving(at, way), way)[best];
+  return true;
+}
+
+void SignalDerivatives::find_d_rates(std::size_t signal, const MotionState &at, const MotionColumns &columns,
+                                     double way, Turn &found)
+{
+  const Moving z = moving(at, way);
+  const double y = machine_.evaluate(signals_[signal], at.q, at.v, at.a, at.local);
+  found.d_rate.resize(Index(twins_.size()));
+  found.d_off.resize(Index(twins_.size()));
+  const std::vector<Moving> by = moving(at, columns, way);
+  for (std::size_t k = 0; k < twins_.size(); ++k)
+  {
+    const ParameterTwins &twins = twins_[k];
+    VectorXd              rates = VectorXd::Zero(Index(stretches));
+    for (const auto &[twin, sign] : {std::pair(&twins.minus, -1.), std::pair(&twins.plus, 1.)})
+    {
+      Moving there = z;
+      add(sign * twins.step, by[k].at, there.at);
+      add(sign * twins.step, by[k].rate, there.rate);
+      rates += 0.5 * sign / twins.step * along(*twin->machine, twin->signals[signal], there, way);
+    }
+    const Index best       = best_of(rates, epsilon * std::abs(y) / (twins.step * way));
+    found.d_rate[Index(k)] = rates[best];
+    found.d_off[Index(k)]  = std::abs(rates[best + 1] - rates[best]);
+  }
 }
 
 Turn SignalDerivatives::turn(std::size_t signal, MotionState at, MotionColumns columns, double step, double size)
@@ -210,8 +365,8 @@ Turn SignalDerivatives::turn(std::size_t signal, MotionState at, MotionColumns c
     columns = moved(at, columns, by);
     way     = find_turn(signal, at, step, size, found);
   }
-  found.dy     = tell(at, columns).dy.row(Index(signal)).transpose();
-  found.d_rate = d_rates(signal, at, columns, way);
+  found.dy = tell(at, columns).dy.row(Index(signal)).transpose();
+  find_d_rates(signal, at, columns, way, found);
   return found;
 }
 

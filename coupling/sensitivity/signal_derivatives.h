@@ -29,6 +29,7 @@ struct Turn
   Eigen::VectorXd dy, d_rate;                       ///< dy/dx, dy'/dx [K]
   Kink            kink   = Kink::none;
   double          before = 0., behind = 0.; ///< y' of either side
+  Eigen::VectorXd d_off{};                  ///< error of d_rate [K]; empty: none
 
   /// y'' is known to a ten thousandth: changes of instants are told to as many figures.
   bool known() const;
@@ -41,6 +42,12 @@ struct Course
   Eigen::VectorXd second, third; // [n]
 };
 
+/// A motion, or its derivative by a parameter, and the rate of all that signals read of it.
+struct Moving
+{
+  MotionState at, rate;
+};
+
 /**
  * Signals of a run along a motion, and their derivatives: by parameters at a fixed time, from the two machines of each
  * parameter at the motion moved by as much of its derivative; in time, by quotients over a little of the smooth motion
@@ -49,6 +56,11 @@ struct Course
  * Over which way: the shorter, the less the quotients err and the more does rounding.  turn() goes through ways of
  * 1/3 of a step to 1/50000 and takes the first of two neighbours whose y'' agree best; what they differ by is the
  * error. At a corner y'' grows as the way shortens, and neighbours never agree.
+ *
+ * A signal that is slow beside what the steps follow changes by less than its rounding over such ways.  Its rate is
+ * then found along the rates of the motion, y'(t) = (y(z + sigma z') - y(z - sigma z'))/2 sigma with z all that it
+ * reads, where sigma may be as long as the signal's own law is smooth, up to 5000 steps; y'' and dy'/dx are quotients
+ * of these rates. Again the two neighbours that agree best count, of y'' over two ways.
  */
 class SignalDerivatives
 {
@@ -74,9 +86,12 @@ public:
   Turn turn(std::size_t signal, MotionState at, MotionColumns columns, double step, double size);
 
 private:
-  double          find_turn(std::size_t signal, const MotionState &at, double step, double size, Turn &found);
-  Eigen::VectorXd d_rates(std::size_t signal, const MotionState &at, const MotionColumns &columns, double way);
-  MotionColumns   moved(const MotionState &at, const MotionColumns &columns, double by);
+  double find_turn(std::size_t signal, const MotionState &at, double step, double size, Turn &found);
+  bool   find_slow_turn(std::size_t signal, const MotionState &at, double way, Turn &found);
+  void   find_d_rates(std::size_t signal, const MotionState &at, const MotionColumns &columns, double way, Turn &found);
+  Moving moving(const MotionState &at, double way);
+  std::vector<Moving> moving(const MotionState &at, const MotionColumns &columns, double way);
+  MotionColumns       moved(const MotionState &at, const MotionColumns &columns, double by);
 
   Machine                           &machine_;
   const std::vector<Signal>         &signals_;

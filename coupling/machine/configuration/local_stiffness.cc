@@ -48,6 +48,17 @@ void add_turning_closures(const Machine &machine, const LocalState &state, Eigen
   }
 }
 
+/// Stiffness [k x k] of an element that is engaged at u, or open if it is named there.
+Eigen::MatrixXd own_stiffness(const ElementPlacement &placement, const double *u, int k,
+                              const std::vector<std::string> &open)
+{
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
+  const bool      is_open  = std::find(open.begin(), open.end(), placement.name) != open.end();
+  const auto      matrices = is_open ? mechanism::open_branch : mechanism::engaged;
+  matrices(*placement.element, u, K.data(), D.data());
+  return K;
+}
+
 /// Calls look(element, its first measure, how many).
 template <typename Look>
 void for_elements(const Machine &machine, const Look &look)
@@ -68,6 +79,15 @@ Eigen::MatrixXd geometric_of_measures(const Machine &machine, const LocalState &
   Eigen::MatrixXd local;
   machine.geometric(state, local);
   add_turning_closures(machine, state, local);
+  return local;
+}
+
+Eigen::MatrixXd stiffness_of_measures(const Machine &machine, const LocalState &state,
+                                      const std::vector<std::string> &open)
+{
+  Eigen::MatrixXd local = geometric_of_measures(machine, state);
+  for_elements(machine, [&](const ElementPlacement &placement, int first, int k)
+               { local.block(first, first, k, k) += own_stiffness(placement, state.u.data() + first, k, open); });
   return local;
 }
 
@@ -99,11 +119,7 @@ Eigen::VectorXd stiffness_terms(const Machine &machine, const Eigen::VectorXd &q
   for_elements(machine,
                [&](const ElementPlacement &placement, int first, int k)
                {
-                 Eigen::MatrixXd K = Eigen::MatrixXd::Zero(k, k), D = K;
-                 const bool      is_open  = std::find(open.begin(), open.end(), placement.name) != open.end();
-                 const auto      matrices = is_open ? mechanism::open_branch : mechanism::engaged;
-                 matrices(*placement.element, u.data() + first, K.data(), D.data());
-                 K = K.cwiseAbs();
+                 Eigen::MatrixXd K = own_stiffness(placement, u.data() + first, k, open).cwiseAbs();
                  if (geometric)
                    K += local.block(first, first, k, k).cwiseAbs();
                  const auto own = moved.middleRows(first, k);

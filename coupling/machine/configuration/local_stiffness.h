@@ -9,7 +9,12 @@ namespace gestell::coupling
 /// of an element with a position function g(u), whose force is P grad g, it is -P g''.
 Eigen::MatrixXd geometric_of_measures(const Machine &machine, const LocalState &state);
 
-/// Whether it is not symmetric: a force follows the motion and has no potential (circulatory forces).
+/// The same and the stiffness of the elements engaged at q; of those named in `open` what acts while they are open.
+Eigen::MatrixXd stiffness_of_measures(const Machine &machine, const LocalState &state,
+                                      const std::vector<std::string> &open);
+
+/// Whether the geometric stiffness is not symmetric: a force follows the motion and has no potential (circulatory
+/// forces).
 /// @param acts  [n_u] 0 for the measures of elements that do not act
 bool is_circulatory(const Machine &machine, const LocalState &state, const Eigen::VectorXd &acts);
 
