@@ -110,18 +110,36 @@ TEST_F(Extremes, MoveByTheirSlopeOverTheirCurvature)
   EXPECT_DOUBLE_EQ(outputs[3].derivative[0], 2. / 50.);
 }
 
-TEST_F(Extremes, OfFlatPeaksHaveAValueButNoInstant)
+TEST_F(Extremes, WhoseCurvatureIsNotKnownHaveAValueButNoInstant)
 {
-  // y'' that is not known; a signal that turns the other way, or beyond a step, is no peak by its curvature.
-  for (const auto &[rate, second, off] :
-       {std::tuple(0., -50., 0.02), std::tuple(0., 50., 0.), std::tuple(0.2, -50., 0.)})
+  // y'' that is not known; a signal that turns the other way, or beyond a step, is no peak by its curvature; one is
+  // flat that its curvature changes by less than 1e-4 of its size, 9, over the whole run.
+  for (const auto &[rate, second, off, why] :
+       {std::tuple(0., -50., 0.02, "lost in rounding"), std::tuple(0., 50., 0., "lost in rounding"),
+        std::tuple(0.2, -50., 0., "farther than a step"), std::tuple(0., -8e-4, 1e-3, "flat")})
   {
     auto extremes = of(-3., 9.);
     extremes.at_turn(0.6, 0, turn(4., rate, second, 2., off), step);
     const auto outputs = extremes.take();
     EXPECT_EQ(outputs[2].derivative[0], 4.);
     EXPECT_TRUE(std::isnan(outputs[3].derivative[0]));
-    EXPECT_THAT(outputs[3].note, ::testing::HasSubstr("flat"));
+    EXPECT_THAT(outputs[3].note, ::testing::HasSubstr(why));
+  }
+}
+
+TEST_F(Extremes, WhoseRateChangesByRoundingHaveNoInstant)
+{
+  // Of dt = 2/50 an error of 1e-5 is 2.5e-4 of it, and 2e-5 of the run by the value of 2; of 1e-7 it is neither.
+  for (const double off : {50e-5, 50e-7})
+  {
+    auto extremes = of(-3., 9.);
+    Turn at       = turn(4., 0., -50., 2.);
+    at.d_off      = VectorXd::Constant(1, off);
+    extremes.at_turn(0.6, 0, at, step);
+    const auto outputs = extremes.take();
+    EXPECT_EQ(outputs[2].derivative[0], 4.);
+    EXPECT_EQ(std::isnan(outputs[3].derivative[0]), off > 1e-4);
+    EXPECT_EQ(outputs[3].note.empty(), off < 1e-4);
   }
 }
 

@@ -1,0 +1,283 @@
+#include "tests/apps/session/sensitivity_comparison.h"
+
+#include "apps/scene/build/build_machine.h"
+#include "apps/scene/file/scene_file.h"
+#include "apps/session/sensitivity/sensitivity_keys.h"
+#include "apps/session/session.h"
+#include "coupling/frame/frame_recipe.h"
+#include "fem/values/number_text.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <random>
+
+namespace gestell::tests
+{
+namespace
+{
+
+using apps::SensitivityOutput;
+using apps::Session;
+using apps::VariedKey;
+
+using Values = std::map<std::string, double>;
+using Runs   = std::vector<std::array<Values, 2>>; ///< with an entry less and more by h, 2 h, 4 h ...
+
+constexpr double of_limit = 0.1; ///< what a difference may be off by itself
+
+bool is_instant(const std::string &output)
+{
+  const std::string what = output.substr(output.rfind('.') + 1);
+  return what == "t" || what == "t_min" || what == "t_max";
+}
+
+bool is_frequency(const std::string &output)
+{
+  return output.compare(0, 6, "modes.") == 0;
+}
+
+/// What a run tells, under the names that its derivatives have.
+struct Told
+{
+  Values values;
+  double end = 0.; ///< [s]
+
+  explicit Told(const apps::Result &result)
+      : end(result.run->rows[result.run->rows.size() - result.run->columns.size()])
+  {
+    for (const auto &signal : result.run->signals)
+      for (const auto &[name, value] :
+           {std::pair(".min", signal.min), std::pair(".max", signal.max), std::pair(".final", signal.final),
+            std::pair(".t_min", signal.t_min), std::pair(".t_max", signal.t_max)})
+        values[signal.name + name] = value;
+    for (std::size_t i = 0; i < result.run->events.size(); ++i)
+      values["events." + std::to_string(i + 1) + ".t"] = result.run->events[i].t;
+    for (std::size_t i = 0; i < result.coupled_modes.size(); ++i)
+      values["modes." + std::to_string(i + 1)] = result.coupled_modes[i].frequency_hz;
+  }
+
+  /// What an output is compared with.
+  double scale(const std::string &output) const
+  {
+    if (is_frequency(output))
+      return std::abs(values.at(output));
+    if (is_instant(output))
+      return end;
+    const std::string signal = output.substr(0, output.rfind('.'));
+    return std::max(std::abs(values.at(signal + ".min")), std::abs(values.at(signal + ".max")));
+  }
+
+  /// Whether it depends on the motion behind the first event.
+  bool crosses_events(const std::string &output) const
+  {
+    const auto first = values.find("events.1.t");
+    if (first == values.end() || is_frequency(output) || output == "events.1.t")
+      return false;
+    const std::string signal = output.substr(0, output.rfind('.')), what = output.substr(output.rfind('.') + 1);
+    const double      t = what == "t"                        ? values.at(output)
+                          : what == "final"                  ? end
+                          : what == "min" || what == "t_min" ? values.at(signal + ".t_min")
+                                                             : values.at(signal + ".t_max");
+    return t >= first->second;
+  }
+};
+
+struct Difference
+{
+  double value = 0., off = std::numeric_limits<double>::infinity(); ///< |x| dy/dx and its error
+};
+
+/// (64 D(h) - 20 D(2 h) + D(4 h))/45 of the central differences D, and of all neighbours those that differ least.
+Difference converged_difference(const std::vector<std::array<double, 2>> &y, double h)
+{
+  std::vector<double> central, sixth;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    central.push_back((y[i][1] - y[i][0]) / (2. * h * std::exp2(double(i))));
+  for (std::size_t i = 0; i + 2 < central.size(); ++i)
+    sixth.push_back((64. * central[i] - 20. * central[i + 1] + central[i + 2]) / 45.);
+  Difference best;
+  for (std::size_t i = 0; i + 1 < sixth.size(); ++i)
+    if (const double off = std::abs(sixth[i] - sixth[i + 1]); off < best.off)
+      best = {sixth[i], off};
+  return best;
+}
+
+void add_numbers(const apps::SceneNode &table, const std::string &path, std::vector<std::string> &keys)
+{
+  for (const auto &[name, node] : table.entries)
+    if (const std::string key = path + "." + apps::written_key(name); node.type == apps::SceneNode::Type::table)
+      add_numbers(node, key, keys);
+    else if (node.type != apps::SceneNode::Type::array && node.type != apps::SceneNode::Type::boolean)
+      keys.push_back(key);
+}
+
+std::vector<std::string> with(std::vector<std::string> overrides, const VariedKey &key, double share)
+{
+  overrides.push_back(key.overridden(share * std::abs(key.told.value) / key.step));
+  return overrides;
+}
+
+/// Of a frame that is reduced.
+std::string frame_of(const apps::Scene &scene)
+{
+  return apps::frame_path(scene) == apps::FramePath::reduce ? coupling::content_key(apps::frame_origin(scene).recipe)
+                                                            : "";
+}
+
+/// Those that are numbers, matter, and move neither the end of the run nor a frame that is reduced, by their unit.
+std::map<std::string, std::vector<VariedKey>> by_unit(const std::string &path, const ComparedScene &compared,
+                                                      const apps::SceneNode          &root,
+                                                      const std::vector<std::string> &names)
+{
+  const Session                                 own(path, compared.overrides);
+  const std::string                             frame = frame_of(own.scene());
+  std::map<std::string, std::vector<VariedKey>> found;
+  for (const std::string &name : names)
+    try
+    {
+      VariedKey     key = apps::varied_keys(root, name).front();
+      const Session varied(path, with(compared.overrides, key, 1e-3));
+      if (varied.scene().run.options.end == own.scene().run.options.end && frame_of(varied.scene()) == frame)
+        found[key.told.unit].push_back(std::move(key));
+    }
+    catch (const std::invalid_argument &) // no number, or an expression of others, or nothing depends on it
+    {
+    }
+  return found;
+}
+
+/// Of parameters, and then of what stands at objects, one of each unit after the other.
+std::vector<VariedKey> drawn_keys(const std::string &path, const ComparedScene &compared)
+{
+  const apps::SceneNode    root = apps::read_scene_file(path, compared.overrides);
+  std::vector<std::string> parameters, objects;
+  if (const apps::SceneNode *table = root.find("parameters"))
+    add_numbers(*table, "parameters", parameters);
+  for (const std::string name : {"element", "body", "joint", "switch"})
+    if (const apps::SceneNode *table = root.find(name))
+      add_numbers(*table, name, objects);
+  std::mt19937           random(44);
+  std::vector<VariedKey> drawn;
+  for (std::vector<std::string> *names : {&parameters, &objects})
+  {
+    std::shuffle(names->begin(), names->end(), random);
+    const auto  keys = by_unit(path, compared, root, *names);
+    std::size_t most = 0;
+    for (const auto &[unit, of_unit] : keys)
+      most = std::max(most, of_unit.size());
+    for (std::size_t i = 0; i < most; ++i)
+      for (const auto &[unit, of_unit] : keys)
+        if (i < of_unit.size() && drawn.size() < compared.n_keys)
+          drawn.push_back(of_unit[i]);
+  }
+  return drawn;
+}
+
+Values varied_run(const std::string &path, const std::vector<std::string> &overrides)
+{
+  const apps::Result result = Session(path, overrides).run({}, apps::SpectraAre::left_out);
+  return result.run->failure.empty() ? Told(result).values : Values();
+}
+
+Difference difference_of(const std::string &output, const Runs &runs, double h)
+{
+  std::vector<std::array<double, 2>> y;
+  for (const auto &[below, above] : runs)
+    if (below.count(output) > 0 && above.count(output) > 0)
+      y.push_back({below.at(output), above.at(output)});
+    else // other events
+      break;
+  return converged_difference(y, h);
+}
+
+/// Of an output: `given` is |x| dy/dx.
+void compare(const SensitivityOutput &output, const std::string &by, double given, const Difference &of,
+             const Told &told, Comparison &found)
+{
+  const double scale = told.scale(output.output);
+  if (!(scale > 0.))
+    return;
+  ++found.n;
+  const bool        crosses = told.crosses_events(output.output);
+  const double      limit = crosses ? limit_events : limit_smooth, size = std::max(scale, std::abs(of.value));
+  const bool        converged = of.off <= of_limit * limit * size;
+  const std::string name      = output.output + " by " + by + (crosses ? ", behind events: " : ": ");
+  if (!std::isfinite(given))
+  {
+    ++found.none;
+    EXPECT_NE(output.note, "") << name;
+    if (converged && std::abs(of.value) > limit * size)
+      found.missing.push_back(name + short_text(of.value / size) + " +- " + short_text(of.off / size) + "; " +
+                              output.note);
+    return;
+  }
+  if (!converged)
+    return;
+  Comparison::Side &side = crosses ? found.events : found.smooth;
+  const double      off  = std::abs(given - of.value) / size;
+  ++side.converged;
+  side.within += off <= limit ? 1 : 0;
+  side.worst = std::max(side.worst, off);
+  if (off > limit)
+    found.beyond.push_back(name + short_text(off) + ", " + exact_text(given) + " for " + exact_text(of.value) + " +- " +
+                           short_text(of.off) + " of " + short_text(size) + ' ' + output.unit);
+}
+
+void print(const std::string &scene, const Comparison &found)
+{
+  std::cout << "  | `" << scene << "` | " << found.n << " | " << found.none << " | ";
+  for (const Comparison::Side &side : {found.smooth, found.events})
+    std::cout << side.converged << " | " << side.within << " | " << short_text(side.worst, 2) << " | ";
+  std::cout << found.beyond.size() << " | " << found.missing.size() << " |\n";
+  for (const std::string &one : found.beyond)
+    std::cout << "  beyond: " << one << '\n';
+  for (const std::string &one : found.missing)
+    std::cout << "  missing: " << one << '\n';
+}
+
+} // namespace
+
+Comparison compared_with_differences(const ComparedScene &compared)
+{
+  const std::string path = std::string(GESTELL_SOURCE_DIR "/apps/scenes/") + compared.scene;
+  const auto        keys = drawn_keys(path, compared);
+  std::string       list;
+  for (const VariedKey &key : keys)
+    list += (list.empty() ? "" : ",") + key.told.key;
+  const apps::Result base = Session(path, compared.overrides).run(list);
+  Comparison         found;
+  EXPECT_TRUE(base.sensitivities) << base.run->failure;
+  EXPECT_EQ(base.sensitivities ? base.sensitivities->failure : "", "") << compared.scene;
+  if (!base.sensitivities || !base.sensitivities->failure.empty())
+    return found;
+  const auto &all = *base.sensitivities;
+  std::cout << compared.scene << " by " << list << ": " << base.run->events.size() << " events, CPU time "
+            << short_text(all.run_cpu_s) << " s of the run, " << short_text(all.cpu_s) << " s of " << all.steps
+            << " steps of derivatives\n";
+  for (const std::string &warning : base.warnings)
+    std::cout << "  warning: " << warning << '\n';
+  const Told told(base);
+  for (std::size_t k = 0; k < keys.size(); ++k)
+  {
+    Runs runs;
+    for (int i = 0; i < compared.n_steps; ++i)
+    {
+      const double share = compared.h * std::exp2(double(i));
+      runs.push_back({varied_run(path, with(compared.overrides, keys[k], -share)),
+                      varied_run(path, with(compared.overrides, keys[k], share))});
+    }
+    for (const SensitivityOutput &output : all.outputs)
+      compare(output, keys[k].told.key, output.derivative[Eigen::Index(k)] * std::abs(keys[k].told.value),
+              difference_of(output.output, runs, compared.h), told, found);
+  }
+  print(compared.scene, found);
+  return found;
+}
+
+} // namespace gestell::tests
