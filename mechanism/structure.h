@@ -48,8 +48,8 @@ public:
   virtual bool stiffens() const { return false; }
 
   /// Geometric stiffness [k x k, column major]: of a force that turns with the motion, -d(G^T)/du P, at the forces of
-  /// `motion` (of a joint its multipliers), and of the rates G v it depends on.  At rest it is the tangent together with
-  /// engaged(); dp/du of ForceLaw::derivatives() less it is the whole derivative.
+  /// `motion` (of a joint its multipliers), and of the rates G v it depends on.  At rest it is the tangent together
+  /// with engaged(); dp/du of ForceLaw::derivatives() less it is the whole derivative.
   virtual void geometric(const LocalMotion &, const double *history, double *K) const { (void)history, (void)K; }
 
   /// Position function the element closes when it is engaged, g(u) = 0 (compression of a rod, twist of a coupling):

@@ -41,7 +41,6 @@ constexpr double cancelled  = 1e-10; ///< share of an energy that is rounding: m
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-
 class Equilibrium
 {
 public:

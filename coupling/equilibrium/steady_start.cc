@@ -35,9 +35,10 @@ void check_driver(const SteadyStart &start, const Kinematics &kinematics)
 {
   const long n_given = std::count(kinematics.given.begin(), kinematics.given.end(), true);
   if (n_given != (kinematics.driver >= 0 ? 1 : 0))
-    throw std::invalid_argument("start: " + std::to_string(n_given) + " angles are given and " +
-                                (start.driver.empty() ? "no driver" : "one driver") +
-                                "; each given angle replaces the balance of one driver, so give one of each, or neither");
+    throw std::invalid_argument(
+        "start: " + std::to_string(n_given) + " angles are given and " +
+        (start.driver.empty() ? "no driver" : "one driver") +
+        "; each given angle replaces the balance of one driver, so give one of each, or neither");
 }
 
 Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
@@ -197,8 +198,8 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     throw std::invalid_argument(
         "angles, speeds and driver do not close joints; give a steady start the position and the "
         "speed of what drives as q and v instead, and the joints make the rest");
-  const Kinematics  kinematics = kinematics_of(machine, start);
-  InitialState      state      = kinematics.state;
+  const Kinematics kinematics = kinematics_of(machine, start);
+  InitialState     state      = kinematics.state;
   if (std::count(kinematics.given.begin(), kinematics.given.end(), false) == 0)
     return state;
   DrivenEquilibrium equilibrium(machine, kinematics);

@@ -76,7 +76,7 @@ private:
     double s[max_equations], rate[max_equations], lambda[max_equations];
     double G[max_equations * PlacedMeasure::max_measures];
   };
-  void see(const double *u, const double *v, Seen &seen) const;
+  void   see(const double *u, const double *v, Seen &seen) const;
   double along_as_described(int i, const double *u, const Seen &seen) const;
   /// p = G^T lambda
   void spread(const Seen &seen, double *p) const;

@@ -198,8 +198,9 @@ inline std::vector<JointedMachine> jointed_machines()
        "apps/verification/scenes/slider_crank.toml",
        {"run.end=0.2 s", "run.tolerance=1e-11", "parameters.omega=30 rad/s"},
        0.5},
-      // Turned 1e-10; moved away as well 1.3e-8, ten times what rounding of its places makes where it stands, presumably
-      // as forces of joints are positions over the square of controlled steps, whose rounding grows with the distance.
+      // Turned 1e-10; moved away as well 1.3e-8, ten times what rounding of its places makes where it stands,
+      // presumably as forces of joints are positions over the square of controlled steps, whose rounding grows with the
+      // distance.
       {"andrews", "apps/verification/scenes/andrews.toml", {"run.end=10 ms", "run.tolerance=1e-11"}, 0.02, 3e-8},
       {"conical_pendulum", "apps/verification/scenes/conical_pendulum.toml", {"run.end=0.5 s"}},
       {"pendulum", "apps/verification/scenes/pendulum.toml", {"run.end=0.5 s", "start.v.\"bob.angle\"=2"}},

@@ -43,7 +43,8 @@ TEST(Magnitudes, NameValueRangeAndKeyInOneWarning)
   const auto found = magnitudes_of(sentences_of("press_minimal.toml", {"parameters.c_P=900 N/m"}, true));
   ASSERT_EQ(found.size(), 1u) << text_of(found);
   EXPECT_THAT(found[0], HasSubstr("press_minimal.toml:"));
-  EXPECT_THAT(found[0], HasSubstr("element.rod.damping: with the stiffness and the masses gives a damping ratio of 78.35"));
+  EXPECT_THAT(found[0],
+              HasSubstr("element.rod.damping: with the stiffness and the masses gives a damping ratio of 78.35"));
   EXPECT_THAT(found[0], HasSubstr("; expected: at most 10"));
   EXPECT_THAT(found[0], HasSubstr("; unexpected, too, perhaps by the same mistake: "));
   EXPECT_THAT(found[0], HasSubstr("element.rod.stiffness"));

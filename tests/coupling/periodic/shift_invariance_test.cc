@@ -1,5 +1,5 @@
-// Angles on which nothing depends are free in a period, all others advance by what leaves the equations as they are; and
-// a run finds out motions that close only because something else was assumed.
+// Angles on which nothing depends are free in a period, all others advance by what leaves the equations as they are;
+// and a run finds out motions that close only because something else was assumed.
 
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/turn_increments.h"
@@ -155,7 +155,7 @@ TEST_P(RatioOfBelt, LeavesRoundRotorsTheStretchOfTheirBalance)
 /// The wheel tells its turns now: in one of them the motor turns i times, no whole number.
 TEST_P(RatioOfBelt, IsHowFarTheMotorTurnsInATurnOfACrank)
 {
-  const double          i = GetParam();
+  const double          i      = GetParam();
   RotorTrain            system = belt_drive(i, 0.8);
   PeriodicGuess         guess;
   const PeriodicProblem problem = problem_of(system, {0, 1}, Eigen::Vector2d(28., 28. / i), guess);
@@ -247,8 +247,8 @@ TEST(VerifiedOrbit, RefutesAMotionThatIsOfItsSteps)
   EXPECT_EQ(true_one.verification.periods, verified_periods);
 }
 
-/// A base that a load shakes, and a motor on a round rotor: it slips, at the speed of its balance, while the base has the
-/// period of the load.
+/// A base that a load shakes, and a motor on a round rotor: it slips, at the speed of its balance, while the base has
+/// the period of the load.
 TEST(ShiftInvariance, ARoundRotorSlipsAgainstThePeriodOfALoad)
 {
   const Eigen::Vector2d m(2., 0.1);
@@ -286,13 +286,13 @@ TEST(ShiftInvariance, ARoundRotorSlipsAgainstThePeriodOfALoad)
 /// What is said of the angles: the belt never repeats, the crank after a turn, and nothing depends on the round rotor.
 TEST(ShiftInvariance, IsFoundFromTheEquations)
 {
-  MatrixXd C                = MatrixXd::Zero(4, 4);
-  C.topLeftCorner(2, 2)     = of_belt(80., 3.7);
-  const auto       of       = [](int i) { return VectorXd(VectorXd::Unit(4, i)); };
-  const auto       two_turn = [](double u, double, double &p, double &du, double &dv)
+  MatrixXd C            = MatrixXd::Zero(4, 4);
+  C.topLeftCorner(2, 2) = of_belt(80., 3.7);
+  const auto of         = [](int i) { return VectorXd(VectorXd::Unit(4, i)); };
+  const auto two_turn   = [](double u, double, double &p, double &du, double &dv)
   { p = std::cos(0.5 * u), du = -0.5 * std::sin(0.5 * u), dv = 0.; };
-  RotorTrain       system(VectorXd::Ones(4), MatrixXd::Zero(4, 4), C,
-                          {{of(0), motor()}, {of(1), weight(2.)}, {of(2), motor()}, {of(3), two_turn}});
+  RotorTrain            system(VectorXd::Ones(4), MatrixXd::Zero(4, 4), C,
+                               {{of(0), motor()}, {of(1), weight(2.)}, {of(2), motor()}, {of(3), two_turn}});
   const AngleInvariance invariance(system, {0, 1, 2, 3}, {VectorXd::Zero(4), VectorXd::Ones(4), 0.}, 0.);
   const MatrixXd        free = invariance.free();
   ASSERT_EQ(free.cols(), 1);
@@ -309,8 +309,8 @@ TEST(ShiftInvariance, IsFoundFromTheEquations)
 /// Cranks on both sides of an irrational ratio never come back together, with the true reason.
 TEST(ShiftInvariance, CranksWithoutACommonPeriodAreRefused)
 {
-  RotorTrain system(Eigen::Vector2d(0.02, 0.5), of_belt(0.3, M_SQRT2), of_belt(80., M_SQRT2),
-                    {{Eigen::Vector2d(1., 0.), weight(0.1)}, {Eigen::Vector2d(0., 1.), weight(0.8)}});
+  RotorTrain            system(Eigen::Vector2d(0.02, 0.5), of_belt(0.3, M_SQRT2), of_belt(80., M_SQRT2),
+                               {{Eigen::Vector2d(1., 0.), weight(0.1)}, {Eigen::Vector2d(0., 1.), weight(0.8)}});
   const VectorXd        speeds = Eigen::Vector2d(28., 28. / M_SQRT2);
   const AngleInvariance invariance(system, {0, 1}, {VectorXd::Zero(2), speeds, 0.}, 0.);
   EXPECT_THAT(increments_of(invariance, speeds, 0., 0.01, system).refusal, testing::HasSubstr("no common period"));
