@@ -148,20 +148,12 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
 {
   const double second = (extreme.largest ? -1. : 1.) * turn.second; // > 0 where it turns
   const double shift  = -turn.rate / turn.second;
-  if (getenv("DERIV_DEBUG"))
-  {
-    fprintf(stderr, "TURN %s t %.12g rate %g second %g off %g shift %g step %g size %g kink %d",
-            outputs_[5 * extreme.signal + (extreme.largest ? 3 : 1)].output.c_str(), extreme.t, turn.rate, turn.second,
-            turn.off, shift, step, sizes_[extreme.signal], int(turn.kink));
-    for (Index k = 0; k < turn.dy.size(); ++k)
-      fprintf(stderr, " %.10g", -turn.d_rate[k] / turn.second * std::abs(twins_[size_t(k)].value));
-    fprintf(stderr, "\n");
-  }
-  if (!turn.known() || !(second > 0.) || !(std::abs(shift) < step))
+  // What the curvature makes of the signal over the whole run.
+  const bool flat = std::abs(turn.second) * length_ * length_ < level * sizes_[extreme.signal];
+  if (!turn.known() || flat || !(second > 0.) || !(std::abs(shift) < step))
   {
     set(extreme, turn.dy, VectorXd::Constant(turn.dy.size(), none));
-    const std::string why  = no_turn(extreme, turn, step);
-    const bool        flat = std::abs(turn.second) * length_ * length_ < level * sizes_[extreme.signal];
+    const std::string why = no_turn(extreme, turn, step);
     leave_out(output(extreme, true), !why.empty() ? why
                                      : flat       ? "the peak is flat"
                                             : "where the signal turns is lost in rounding, or farther than a step");

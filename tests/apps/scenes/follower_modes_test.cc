@@ -132,7 +132,9 @@ TEST(FollowerModes, HaveEnergySharesUnlessTheyFlutter)
     EXPECT_EQ(shares.kinetic.array().isNaN().all(), kappa > 2.);
     EXPECT_EQ(apps::kinetic_text(shares, 0) == "not defined", kappa > 2.) << apps::kinetic_text(shares, 0);
     if (kappa < 2.)
+    {
       EXPECT_NEAR(shares.kinetic.col(0).sum(), 1., 1e-9);
+    }
   }
 }
 

@@ -138,7 +138,7 @@ TEST(AttachedMass, JoinsMassCentreAndInertiaOfTheFrame)
 /// A centre in millimetres without its unit is told.
 TEST(AttachedMass, FartherFromItsFacesThanTheFrameIsLargeIsTold)
 {
-  auto near               = cantilever();
+  auto near               = free_steel();
   near.masses             = {motor(2., {1., 0.5, 0.4})};
   near.masses[0].surfaces = {"y1"};
   near.masses[0].interface.clear();
