@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/text/json.h"
 #include "apps/output/values/stage_result.h"
 
 #include <string>
@@ -7,7 +8,12 @@
 namespace gestell::apps
 {
 
-/// For the terminal.
+/// Of summary.json: `stages`, `lift_off`, `ringing`.
+Json stages_json(const StageResult &result);
+Json lift_off_json(const StageResult &result);
+Json ringing_json(const StageResult &result);
+
+/// The same for the terminal.
 std::string stages_text(const StageResult &result);
 
 } // namespace gestell::apps
