@@ -32,14 +32,6 @@ double largest(const std::vector<Shares> &outputs, double Shares::*cause)
   return most_of_all;
 }
 
-double without_modes(const std::vector<Shares> &outputs)
-{
-  double most_of_all = 0.;
-  for (const Shares &output : outputs)
-    most_of_all = std::max(most_of_all, output.mesh() + output.time);
-  return most_of_all;
-}
-
 std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> points, const std::vector<Shares> &others,
                                          double coarsest)
 {

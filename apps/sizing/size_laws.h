@@ -18,9 +18,6 @@ struct Shares
 /// The largest of all outputs, of one cause.
 double largest(const std::vector<Shares> &outputs, double Shares::*cause);
 
-/// The largest of all outputs, of mesh and time together.
-double without_modes(const std::vector<Shares> &outputs);
-
 /// A mesh that was judged.
 struct MeshPoint
 {
