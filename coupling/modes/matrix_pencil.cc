@@ -2,8 +2,6 @@
 
 #include "coupling/integration/system/dense_solvers.h"
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -43,15 +41,16 @@ MatrixXd hankel(const MatrixXd &y)
   return Y;
 }
 
-/// z of the exponentials z^k.
+/// z of the exponentials z^k.  Right singular vectors of Y are eigenvectors of Y^T Y: those kept lose eps / weakest^2, 2e-8.
 VectorXcd poles(const MatrixXd &y)
 {
-  const Eigen::BDCSVD<MatrixXd> svd(hankel(y), Eigen::ComputeThinV);
-  const VectorXd               &sigma = svd.singularValues();
-  Index                         r     = 0;
-  while (r < std::min(sigma.size() - 1, most_poles) && sigma[r] > weakest * sigma[0])
+  const MatrixXd                       Y = hankel(y);
+  const coupling::SymmetricEigenSolver squares(Y.transpose() * Y);
+  const VectorXd                       squared = squares.eigenvalues().reverse(); // of the singular values, largest first
+  Index                                r       = 0;
+  while (r < std::min(squared.size() - 1, most_poles) && squared[r] > weakest * weakest * squared[0])
     ++r;
-  const MatrixXd V = svd.matrixV().leftCols(r);
+  const MatrixXd V = squares.eigenvectors().rightCols(r);
   const MatrixXd A = coupling::LeastSquaresSolver(V.topRows(V.rows() - 1)).solve(V.bottomRows(V.rows() - 1));
   return coupling::GeneralEigenSolver(A, coupling::WithVectors::no).eigenvalues();
 }

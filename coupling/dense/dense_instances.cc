@@ -1,0 +1,3 @@
+#include "coupling/dense/dense_instances.h"
+
+GESTELL_DENSE_INSTANCES()
