@@ -1,6 +1,6 @@
 #include "apps/cli/command_answers.h"
 
-#include "apps/output/text/json.h"
+#include "apps/output/describe/described_json.h"
 #include "coupling/frame/cache_folder.h"
 #include "coupling/modes/modes.h"
 #include "fem/values/two_pi.h"
@@ -35,37 +35,9 @@ Json told(const coupling::SurfaceReport &surface)
           {"max_m", surface.max}, {"centre_m", surface.centre}, {"selector", surface.selector}};
 }
 
-Json told(const coupling::ModeAccuracy &mode)
-{
-  return {{"number", mode.number},
-          {"of", mode.origin == coupling::ModeOrigin::base ? "base" : "closed contacts"},
-          {"frequency_hz", mode.mode.omega / two_pi},
-          {"damping_ratio", mode.mode.zeta},
-          {"omega_h", mode.omega_h},
-          {"spectral_radius", mode.spectral_radius},
-          {"numerical_damping", mode.numerical_damping},
-          {"period_error", mode.period_error},
-          {"unstable", mode.unstable}};
-}
-
-Json told(const MethodVerdict &verdict)
-{
-  Json json = {{"method", verdict.method},
-               {"growing_modes", verdict.growing},
-               {"growth_per_step", verdict.growth},
-               {"lowest_period_error", verdict.lowest_period_error},
-               {"highest_period_error", verdict.highest_period_error}};
-  if (verdict.growing > 0)
-  {
-    json["worst_hz"]          = verdict.worst_hz;
-    json["step_that_works_s"] = verdict.step_that_works > 0. ? Json(verdict.step_that_works) : Json();
-  }
-  return json;
-}
-
 /// Values of a point by the names of what they are of.
 template <typename Named>
-Json by_name(const std::vector<Named> &names, const Eigen::VectorXd &values)
+Json values_of(const std::vector<Named> &names, const Eigen::VectorXd &values)
 {
   Json json = Json::object();
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -94,7 +66,7 @@ Json told_run(const StudyTable &table, int i)
                                                             : "waiting"},
                {"levels", levels}};
   if (run.status == RunStatus::done)
-    json["outputs"] = by_name(table.outputs, table.values.row(i));
+    json["outputs"] = values_of(table.outputs, table.values.row(i));
   if (run.status == RunStatus::failed)
     json["message"] = run.message;
   return json;
@@ -107,12 +79,12 @@ Json told(const StudyOptimum &optimum, const StudyTable &table)
     levels[k] = table.variables[std::size_t(k)].physical(optimum.found.coded[k]);
   Json json = {{"searched_on", optimum.source},
                {"feasible", optimum.found.feasible},
-               {"levels", by_name(table.variables, levels)},
-               {"outputs", by_name(table.outputs, optimum.found.values)}};
+               {"levels", values_of(table.variables, levels)},
+               {"outputs", values_of(table.outputs, optimum.found.values)}};
   if (optimum.verified)
-    json["verified"] = by_name(table.outputs, *optimum.verified);
+    json["verified"] = values_of(table.outputs, *optimum.verified);
   if (optimum.nominal)
-    json["middle"] = by_name(table.outputs, *optimum.nominal);
+    json["middle"] = values_of(table.outputs, *optimum.nominal);
   return json;
 }
 
@@ -248,27 +220,7 @@ std::string mesh_answer(const coupling::MeshReport &report)
 
 std::string stability_answer(const StabilityStudy &study)
 {
-  Json intervals = Json::array(), modes = Json::array(), verdicts = Json::array();
-  for (const auto &[method, zeta, interval] : study.intervals)
-    intervals.push_back({{"method", method},
-                         {"damping_ratio", zeta},
-                         {"from_omega_h", interval.from},
-                         {"to_omega_h", interval.to}, // null: without end
-                         {"growth_per_step", interval.growth},
-                         {"at_omega_h", interval.at_omega_h}});
-  for (const coupling::ModeAccuracy &mode : study.modes)
-    modes.push_back(told(mode));
-  for (const MethodVerdict &verdict : study.verdicts)
-    verdicts.push_back(told(verdict));
-  Json json = {{"damping_ratios", study.zetas}, {"unstable_intervals", intervals}};
-  if (!study.method.empty())
-  {
-    json["method"]  = study.method;
-    json["modes"]   = modes;
-    json["methods"] = verdicts;
-    json["notes"]   = study.notes;
-  }
-  return json_text(json);
+  return json_text(described_json(study));
 }
 
 std::string study_answer(const StudyAnswer &answer, const StudyFindings *findings)

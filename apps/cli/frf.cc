@@ -5,7 +5,7 @@
 #include "apps/output/exchange/state_space_files.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/session/exchange/state_space_answer.h"
 #include "apps/session/session.h"
 #include "fem/values/nearest_name.h"

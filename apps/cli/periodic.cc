@@ -6,7 +6,7 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/noise.h"
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/output/tables/section_table.h"
 #include "apps/session/session.h"
 #include "coupling/periodic/verified_orbit.h"

@@ -8,7 +8,7 @@
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/noise.h"
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"

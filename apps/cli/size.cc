@@ -5,7 +5,7 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/session/session.h"
 #include "apps/sizing/size_search.h"

@@ -5,6 +5,7 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/describe/described_table.h"
 #include "apps/output/folder/writing.h"
 #include "apps/output/report/stability_report.h"
 #include "apps/output/result_folder.h"
@@ -96,9 +97,9 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
                   [&](Writing &writing)
                   {
                     writing.write("stability_maps.csv", maps_csv(maps));
-                    writing.write("unstable_intervals.csv", intervals_csv(study.intervals));
+                    writing.write("unstable_intervals.csv", table_of(study.intervals).csv());
                     if (with_scene)
-                      writing.write("stability_modes.csv", modes_csv(study.modes));
+                      writing.write("stability_modes.csv", table_of(study.modes).csv());
                     for (const auto &[zeta, charts] : study.charts)
                       for (const NamedSvg &chart : charts)
                         writing.write("charts/stability-" + chart.name + "-" + ratio_name(zeta) + ".svg", chart.svg);

@@ -7,7 +7,7 @@
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
 #include "apps/output/result_files.h"
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -3,6 +3,7 @@
 #include "apps/output/folder_lock.h"
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/python/answer_values.h"
 #include "apps/python/bind_scene.h"
 #include "apps/python/errors.h"

@@ -1,6 +1,7 @@
 #include "apps/reference/key_tables.h"
 
 #include "apps/output/result_files.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
 #include "apps/reference/json_schema.h"
@@ -106,14 +107,26 @@ std::string key_tables(const std::string &topic)
 namespace
 {
 
+std::string member_table(const std::vector<MemberLine> &members)
+{
+  std::string text = "| member | | unit | content |\n|---|---|---|---|\n";
+  for (const MemberLine &member : members)
+    text += "| `" + member.path + "` | " + member.type + (member.always ? "" : ", if any") + " | " + member.unit +
+            " | " + member.meaning + " |\n";
+  return text;
+}
+
 /// What stands behind a marker: "keys: run", "result files"; nothing behind other remarks.
 std::string generated(const std::string &marker)
 {
   const std::string keys = "keys: ";
   if (marker == "result files")
     return result_files_table();
+  if (marker == "members: summary.json")
+    return member_table(summary_members());
   if (marker.rfind(keys, 0) != 0)
-    throw std::invalid_argument("the marker '" + marker + "' is not known; there are 'keys: TABLE' and 'result files'");
+    throw std::invalid_argument("the marker '" + marker +
+                                "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");
   return key_tables(marker.substr(keys.size()));
 }
 
@@ -144,6 +157,7 @@ void renew_reference(const std::string &docs)
   for (const auto &document : documents)
     write_file(document.string(), renewed(content(document)));
   write_file((folder / "scene.schema.json").string(), json_schema());
+  write_file((folder / "summary.schema.json").string(), summary_schema());
 }
 
 } // namespace gestell::apps

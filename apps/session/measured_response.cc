@@ -255,6 +255,7 @@ std::vector<MeasuredResponse> measured_responses(const std::vector<std::string> 
       if (read.curve.pair >= int(response.pairs.size()))
         throw std::invalid_argument(read.place + "is one curve too many: --from and --to ask for " +
                                     std::to_string(response.pairs.size()) + "; name its pair by --measured PAIR=FILE");
+      read.curve.pair_name = response.pairs[std::size_t(read.curve.pair)].name();
       convert(read, response.pairs[std::size_t(read.curve.pair)]);
       measured.push_back(read.curve);
     }

@@ -158,27 +158,6 @@ std::string maps_csv(const std::vector<StabilityMap> &maps)
   return csv;
 }
 
-std::string intervals_csv(const std::vector<MappedInterval> &intervals)
-{
-  std::string csv = "method,damping ratio [1],unstable from omega h [1],to omega h [1],largest growth per step [1],"
-                    "at omega h [1]\n";
-  for (const MappedInterval &row : intervals)
-    append_row(csv, row.method,
-               {row.zeta, row.interval.from, row.interval.to, row.interval.growth, row.interval.at_omega_h});
-  return csv;
-}
-
-std::string modes_csv(const std::vector<coupling::ModeAccuracy> &modes)
-{
-  std::string csv = "kind,mode,frequency [Hz],damping ratio [1],omega h [1],spectral radius [1],numerical damping [1],"
-                    "period error [1],unstable\n";
-  for (const coupling::ModeAccuracy &mode : modes)
-    append_row(csv, mode.origin == coupling::ModeOrigin::base ? "frame" : "closed contacts",
-               {double(mode.number), mode.mode.omega / 6.283185307179586, mode.mode.zeta, mode.omega_h,
-                mode.spectral_radius, mode.numerical_damping, mode.period_error, mode.unstable ? 1. : 0.});
-  return csv;
-}
-
 std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families, const std::vector<StabilityMap> &maps,
                                        double zeta, const std::vector<coupling::ModeAccuracy> &modes)
 {

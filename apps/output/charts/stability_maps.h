@@ -48,12 +48,21 @@ struct MappedInterval
   double                     zeta;
   coupling::UnstableInterval interval;
 };
+
+template <class Visitor>
+void describe(Visitor &v, const MappedInterval &x)
+{
+  v("method", x.method, "", "with its parameters");
+  v("damping_ratio", x.zeta, "1", "of the mode");
+  v("from_omega_h", x.interval.from, "1", "begin of the interval; 0: grows however small the step");
+  v("to_omega_h", x.interval.to, "1", "its end; null: none");
+  v("growth_per_step", x.interval.growth, "1", "largest in the interval");
+  v("at_omega_h", x.interval.at_omega_h, "1", "where it is largest");
+}
 std::vector<MappedInterval> unstable_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas);
 
-/// stability_maps.csv, unstable_intervals.csv, stability_modes.csv
+/// stability_maps.csv
 std::string maps_csv(const std::vector<StabilityMap> &maps);
-std::string intervals_csv(const std::vector<MappedInterval> &intervals);
-std::string modes_csv(const std::vector<coupling::ModeAccuracy> &modes);
 
 struct NamedSvg
 {

@@ -72,7 +72,8 @@ std::string mac_html(const ComparedShapes &shapes)
 
 std::string extremes_html(const coupling::RunResult &run, const ComparedRun &other)
 {
-  HtmlTable table({"signal", "unit", "#largest", "#there", "#change of magnitude", "#smallest", "#there", "#change of magnitude"});
+  HtmlTable table(
+      {"signal", "unit", "#largest", "#there", "#change of magnitude", "#smallest", "#there", "#change of magnitude"});
   const Noise noise = noise_of(run.signals);
   for (const SharedSignal shared : shared_signals(run, other.run))
   {

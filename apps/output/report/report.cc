@@ -1,4 +1,5 @@
 #include "apps/output/report/report.h"
+#include "apps/output/describe/described_table.h"
 
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/charts/signal_charts.h"
@@ -299,28 +300,16 @@ std::string modes_section(const Result &result, Report &report)
   return section("modes", "Natural frequencies and modes", html);
 }
 
-/// Relative errors of modes that are slow beside the step.
-double without_rounding(double error)
-{
-  return std::abs(error) < 1e-9 ? 0. : error;
-}
-
 /// What the method makes of each mode, the lowest first; modes above them follow the motion of the drives only.
 std::string accuracy_table(const coupling::RunResult &run)
 {
   if (run.accuracy.empty())
     return "";
-  HtmlTable table({"modes of", "#f [Hz]", "#damping ratio", "#ω h", "#numerical damping ratio", "#period too long by",
-                   "#growth per step"});
-  std::size_t shown = 0;
+  std::vector<coupling::ModeAccuracy> shown;
   for (const coupling::ModeAccuracy &mode : run.accuracy)
-    if (++shown <= most_accuracy_rows || mode.unstable)
-      table.add({mode.origin == coupling::ModeOrigin::base ? "base system" : "closed elements",
-                 short_text(mode.mode.omega / (2. * M_PI)), short_text(mode.mode.zeta), short_text(mode.omega_h),
-                 short_text(without_rounding(mode.numerical_damping), 3),
-                 short_text(100. * without_rounding(mode.period_error), 3) + " %",
-                 peak(mode.unstable ? short_text(mode.spectral_radius, 6) : "stable", mode.unstable)});
-  return "<h3>Modes as " + escape_xml(run.method) + " carries them</h3>" + table.scrolled_html();
+    if (shown.size() < most_accuracy_rows || mode.unstable)
+      shown.push_back(mode);
+  return "<h3>Modes as " + escape_xml(run.method) + " carries them</h3>" + table_of(shown).html();
 }
 
 std::string numerics_section(const Result &result)

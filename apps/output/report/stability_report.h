@@ -1,7 +1,9 @@
 #pragma once
 
 #include "apps/output/charts/stability_maps.h"
+#include "apps/output/values/coupling_descriptions.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,25 @@ struct MethodVerdict
   double      highest_period_error = 0.; ///< of its highest
 };
 
+template <class Visitor>
+void describe(Visitor &v, const MethodVerdict &x)
+{
+  using Known = std::optional<double>;
+  v("method", x.method, "", "with its parameters");
+  v("verdict",
+    x.growing == 0  ? "stable"
+    : x.only_closed ? "grows while contacts are closed"
+                    : "unstable",
+    "", "of all modes");
+  v("growing_modes", x.growing, "", "modes that grow");
+  v("growth_per_step", x.growth, "1", "of the worst mode");
+  v("worst_hz", x.growing > 0 ? Known(x.worst_hz) : Known(), "Hz", "frequency of the worst mode; null: none grows");
+  v("step_that_works_s", x.growing > 0 && x.step_that_works > 0. ? Known(x.step_that_works) : Known(), "s",
+    "largest smaller step at which no mode grows; null: none, or not needed");
+  v("lowest_period_error", x.lowest_period_error, "1", "relative, of the frame's lowest mode; positive: too slow");
+  v("highest_period_error", x.highest_period_error, "1", "of its highest mode");
+}
+
 /// What `gestell stability` found.
 struct StabilityStudy
 {
@@ -36,6 +57,17 @@ struct StabilityStudy
   std::vector<MethodVerdict>          verdicts;
   std::vector<std::string>            notes;
 };
+
+template <class Visitor>
+void describe(Visitor &v, const StabilityStudy &x)
+{
+  v("damping_ratios", x.zetas, "1", "of the maps");
+  v("unstable_intervals", x.intervals, "", "where each method grows");
+  v("method", x.method, "", "of the scene, with its step; empty without a scene");
+  v("modes", x.modes, "", "of the scene under its method");
+  v("methods", x.verdicts, "", "at the scene's step");
+  v("notes", x.notes, "", "texts");
+}
 
 /// One self-contained page: the scene's modes, other methods at its step, maps, unstable intervals.
 std::string stability_page(const StabilityStudy &study);

@@ -1,5 +1,6 @@
 #include "apps/output/report/stage_report.h"
 
+#include "apps/output/describe/described_table.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
@@ -52,51 +53,18 @@ std::string stages_html(const std::vector<Stage> &stages)
   return text + table.scrolled_html();
 }
 
-std::string lift_off_html(const std::vector<LiftOff> &lift_offs)
-{
-  if (lift_offs.empty())
-    return "";
-  HtmlTable table({"off the ground", "#from t [s]", "#to t [s]", "#for [s]"});
-  for (const LiftOff &off : lift_offs)
-    table.add({off.wheel, short_text(off.begin, 6), short_text(off.end, 6), short_text(off.end - off.begin, 3)});
-  return table.html();
-}
-
-std::string percent_off(double found, double expected)
-{
-  return short_text(100. * (found / expected - 1.), 2) + " %";
-}
-
 /// Each mode beside the linearised one.
 std::string ringing_html(const Ringing &ringing)
 {
   if (ringing.modes.empty())
     return "";
-  std::vector<std::string> heads{"#frequency [Hz]", "#linearised [Hz]", "#off by",
-                                 "#damping ratio",  "#linearised",      "#mode"};
-  for (std::size_t s = 0; s < ringing.signals.size(); ++s)
-    heads.push_back("#amplitude of " + ringing.signals[s] + " [" + ringing.units[s] + "]");
-  HtmlTable table(heads);
-  for (const RingingMode &mode : ringing.modes)
-  {
-    const bool                   paired = mode.linearised >= 0;
-    std::vector<HtmlTable::Cell> row{short_text(mode.frequency_hz, 5),
-                                     paired ? short_text(mode.linearised_hz, 5) : "",
-                                     paired ? percent_off(mode.frequency_hz, mode.linearised_hz) : mode.combination,
-                                     short_text(mode.damping_ratio, 3),
-                                     paired ? short_text(mode.linearised_ratio, 3) : "",
-                                     paired ? std::to_string(mode.linearised + 1) : ""};
-    for (const double amplitude : mode.amplitudes)
-      row.push_back(short_text(amplitude, 3));
-    table.add(row);
-  }
   return "<p>What rings from " + seconds_text(ringing.begin) + " to " + seconds_text(ringing.end) +
          " s, behind the last contact: damped frequencies and damping found in the signals by the matrix pencil, which "
          "leaves " +
          short_text(100. * ringing.residual, 2) +
          " % of them, beside those of the machine linearised at rest. Large swings are slower than small ones, and "
          "make others: multiples and sums of their frequencies.</p>\n" +
-         table.scrolled_html();
+         table_of(ringing.modes).html();
 }
 
 } // namespace
@@ -105,10 +73,11 @@ std::string stage_section(const Result &result)
 {
   if (!result.stages)
     return "";
-  std::string html = stages_html(result.stages->stages) + lift_off_html(result.stages->lift_offs) +
+  std::string html = stages_html(result.stages->stages) +
+                     (result.stages->lift_offs.empty() ? "" : table_of(result.stages->lift_offs).html()) +
                      ringing_html(result.stages->ringing);
-  if (!result.stages->reason.empty())
-    html += "<p>" + escape_xml(result.stages->reason) + "</p>\n";
+  if (const std::string &note = result.stages->ringing.note; !note.empty())
+    html += "<p>" + escape_xml(note) + "</p>\n";
   return section("stages", result.stages->stages.empty() ? "Off the ground" : "Stages of the run", html);
 }
 

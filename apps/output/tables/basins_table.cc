@@ -50,19 +50,4 @@ std::string basins_csv(const PeriodicResult &result)
   return csv;
 }
 
-Json basins_json(const BasinMap &map)
-{
-  const Basins               &basins = map.basins;
-  const coupling::StartPlane &plane  = basins.plane;
-  Json                        shares = Json::object();
-  for (int number = 0; number <= basins.motion.maxCoeff(); ++number)
-    if (basins.share(number) > 0.)
-      shares[std::to_string(number)] = basins.share(number);
-  return {{"x", {{"name", map.x_name}, {"from", plane.x_begin}, {"to", plane.x_end}}},
-          {"y", {{"name", map.y_name}, {"from", plane.y_begin}, {"to", plane.y_end}}},
-          {"points", plane.points},
-          {"shares", shares},
-          {"complete", basins.is_complete()}};
-}
-
 } // namespace gestell::apps

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/periodic_result.h"
 
 #include <string>
@@ -14,8 +13,5 @@ std::string basins_text(const BasinMap &map);
 /// basins.csv: both coordinates of every start that was looked at, the solution it settles to (0: none) and after how
 /// many periods it was there.  Empty: there are no basins.
 std::string basins_csv(const PeriodicResult &result);
-
-/// The object `periodic.basins` of summary.json.
-Json basins_json(const BasinMap &map);
 
 } // namespace gestell::apps

@@ -12,49 +12,12 @@ namespace gestell::apps
 namespace
 {
 
-Json or_null(const std::optional<double> &value)
-{
-  return value ? Json(*value) : Json();
-}
-
 std::string cell(const std::optional<double> &error)
 {
   return error ? short_text(*error, 2) : "-";
 }
 
 } // namespace
-
-Json entry_json(const BudgetEntry &entry)
-{
-  return {{"value", entry.value},
-          {"unit", entry.unit},
-          {"mesh", or_null(entry.mesh.error)},
-          {"reduction", or_null(entry.reduction.error)},
-          {"time", or_null(entry.time.error)},
-          {"total", or_null(entry.total)}};
-}
-
-Json budget_json(const ErrorBudget &budget)
-{
-  Json json = Json::object();
-  for (const BudgetEntry &entry : budget.entries)
-  {
-    Json &one = json[entry.output];
-    one       = entry_json(entry);
-    if (entry.bracket)
-      one["bracket"] = {entry.bracket->first, entry.bracket->second};
-    one["reasons"] = {{"mesh", entry.mesh.reason}, {"reduction", entry.reduction.reason}, {"time", entry.time.reason}};
-  }
-  return json;
-}
-
-Json budget_cost_json(const ErrorBudget &budget)
-{
-  return {{"run", budget.run_cpu_s},
-          {"mesh", budget.mesh_cpu_s},
-          {"reduction", budget.reduction_cpu_s},
-          {"time", budget.time_cpu_s}};
-}
 
 std::string budget_text(const ErrorBudget &budget)
 {

@@ -41,17 +41,6 @@ std::string row_of(const ComparedShapes &shapes, std::size_t i)
          exact_text(pair->assurance) + ',' + seen + ',' + exact_text(shapes.match.seen_b[pair->b]) + '\n';
 }
 
-Json pair_json(const ComparedShapes &shapes, const coupling::ModePair &pair)
-{
-  return {{"mode", pair.a + 1},
-          {"frequency_hz", shapes.a.modes[std::size_t(pair.a)].frequency_hz},
-          {"other_mode", pair.b + 1},
-          {"other_frequency_hz", shapes.b.modes[std::size_t(pair.b)].frequency_hz},
-          {"mac", pair.assurance},
-          {"seen", shapes.match.seen_a[pair.a]},
-          {"other_seen", shapes.match.seen_b[pair.b]}};
-}
-
 /// An extreme of a signal in both runs.
 struct ComparedExtreme
 {
@@ -80,16 +69,6 @@ std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &
       csv += '\n';
     }
   return csv;
-}
-
-Json compared_run_json(const coupling::RunResult &run, const ComparedRun &other)
-{
-  Json json = {{"other", other.scene}, {"signals", Json::object()}};
-  for (const SharedSignal shared : shared_signals(run, other.run))
-    for (const ComparedExtreme &own : extremes_of(run.signals[shared.a], other.run.signals[shared.b]))
-      json["signals"][run.signals[shared.a].name][own.which] = {
-          {"value", own.value}, {"t", own.t}, {"other", own.other}, {"other_t", own.other_t}, {"ratio", own.ratio()}};
-  return json;
 }
 
 std::string compared_run_text(const coupling::RunResult &run, const ComparedRun &other)
@@ -139,18 +118,6 @@ std::string mac_csv(const ComparedShapes &shapes)
     csv += '\n';
   }
   return csv;
-}
-
-Json compared_modes_json(const ComparedShapes &shapes)
-{
-  Json json = {{"other", shapes.b.scene}, {"measures", Json::array()}, {"pairs", Json::array()}};
-  for (std::size_t k = 0; k < shapes.measures.size(); ++k)
-    json["measures"].push_back({{"name", shapes.measures[k].path},
-                                {"unit", shapes.measures[k].unit},
-                                {"apparent_mass", shapes.match.mass[Eigen::Index(k)]}});
-  for (const coupling::ModePair &pair : shapes.match.pairs)
-    json["pairs"].push_back(pair_json(shapes, pair));
-  return json;
 }
 
 std::string compared_modes_text(const ComparedShapes &shapes)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/mode_comparison.h"
 #include "apps/output/values/run_comparison.h"
 
@@ -16,18 +15,12 @@ std::string compared_modes_csv(const ComparedShapes &shapes);
 /// The whole matrix: a row for each mode of the scene, a column for each of the other one.
 std::string mac_csv(const ComparedShapes &shapes);
 
-/// Of summary.json: `other`, `measures`, `pairs`.
-Json compared_modes_json(const ComparedShapes &shapes);
-
 /// For a terminal.
 std::string compared_modes_text(const ComparedShapes &shapes);
 
 /// `signal, unit, extreme, value, t [s], other value, other t [s], ratio`: two rows for each signal that both runs
 /// have.
 std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &other);
-
-/// Of summary.json: `other` and by signal both extremes of both, with their ratio.
-Json compared_run_json(const coupling::RunResult &run, const ComparedRun &other);
 
 /// For a terminal.
 std::string compared_run_text(const coupling::RunResult &run, const ComparedRun &other);

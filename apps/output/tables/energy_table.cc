@@ -16,14 +16,6 @@ namespace
 constexpr double      told       = 0.01; ///< share from which on words tell it
 constexpr std::size_t most_parts = 4;
 
-Json shares_of(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, Eigen::Index mode)
-{
-  Json json = Json::object();
-  for (std::size_t i = 0; i < names.size(); ++i)
-    json[names[i]] = shares(Eigen::Index(i), mode);
-  return json;
-}
-
 std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, std::size_t mode)
 {
   const Eigen::VectorXd own = shares.col(Eigen::Index(mode));
@@ -61,15 +53,6 @@ std::string mode_energies_csv(const Result &result)
     append_rows(csv, head, "kinetic", shares.masses, shares.kinetic, Eigen::Index(j));
   }
   return csv;
-}
-
-Json mode_energies_json(const coupling::EnergyShares &shares)
-{
-  Json json = Json::array();
-  for (Eigen::Index j = 0; j < shares.kinetic.cols(); ++j)
-    json.push_back({{"strain", shares_of(shares.springs, shares.strain, j)},
-                    {"kinetic", shares_of(shares.masses, shares.kinetic, j)}});
-  return json;
 }
 
 std::string strain_text(const coupling::EnergyShares &shares, std::size_t mode)

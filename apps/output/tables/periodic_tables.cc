@@ -31,60 +31,6 @@ void append_parameter(const PeriodicResult &result, double value, std::string &c
     append_exact(csv, value);
 }
 
-Json signal_json(const SignalOrbit &signal)
-{
-  return {{"unit", signal.unit},
-          {"max", signal.max},
-          {"min", signal.min},
-          {"mean", signal.mean},
-          {"amplitudes", signal.amplitude},
-          {"phases", signal.phase}};
-}
-
-Json entry_json(const PeriodicResult &result, const PeriodicEntry &entry)
-{
-  const coupling::PeriodicSolution &s = entry.solution;
-  Json json      = {{"period", s.period}, {"ratio", s.ratio},   {"residual", s.residual},    {"branch", entry.branch},
-                    {"kind", kind_of(s)}, {"method", s.method}, {"events", s.events.size()}, {"notes", s.notes}};
-  json["stable"] = s.stability_is_known() ? Json(s.stable()) : Json();
-  if (s.verification.periods > 0)
-    json["verification"] = {{"periods", s.verification.periods},
-                            {"departure", s.verification.departure},
-                            {"starts_anew", s.verification.starts_anew}};
-  if (!result.parameter.empty())
-    json["parameter"] = entry.parameter;
-  if (!std::isnan(s.share))
-    json["share"] = s.share;
-  json["multipliers"] = Json::array();
-  for (const auto &mu : s.multipliers)
-    json["multipliers"].push_back(std::vector<double>{mu.real(), mu.imag()});
-  json["signals"] = Json::object();
-  for (const SignalOrbit &signal : entry.signals)
-    json["signals"][signal.name] = signal_json(signal);
-  json["initial"] = Json::object();
-  for (Eigen::Index i = 0; i < s.q.size(); ++i)
-  {
-    const auto &[name, sign] = result.coordinates[std::size_t(i)];
-    json["initial"][name]    = std::vector<double>{sign * s.q[i], sign * s.v[i]};
-  }
-  return json;
-}
-
-Json backbone_json(const std::vector<PeriodicEntry> &backbone)
-{
-  Json points = Json::array();
-  for (const PeriodicEntry &entry : backbone)
-  {
-    Json amplitudes = Json::object();
-    for (const SignalOrbit &signal : entry.signals)
-      amplitudes[signal.name] = signal.amplitude.at(0);
-    points.push_back({{"parameter", entry.parameter},
-                      {"frequency_hz", 1. / entry.solution.period},
-                      {"amplitudes", std::move(amplitudes)}});
-  }
-  return points;
-}
-
 } // namespace
 
 std::string kind_of(const coupling::PeriodicSolution &solution)
@@ -183,48 +129,6 @@ std::vector<std::pair<std::string, std::string>> orbit_files(const PeriodicResul
     files.emplace_back("orbit_" + std::to_string(number) + ".csv", csv);
   }
   return files;
-}
-
-Json periodic_json(const PeriodicResult &result)
-{
-  Json json = {{"method", result.method},
-               {"reason", result.reason},
-               {"notes", result.notes},
-               {"interrupted", result.interrupted},
-               {"failure", result.failure.empty() ? Json() : Json(result.failure)}};
-  if (!result.parameter.empty())
-    json["parameter"] = {{"key", result.parameter}, {"unit", result.parameter_unit}};
-  json["solutions"] = Json::array();
-  for (const PeriodicEntry &entry : result.entries)
-    json["solutions"].push_back(entry_json(result, entry));
-  json["special_points"] = Json::array();
-  for (const SpecialPoint &point : result.special_points)
-    json["special_points"].push_back(
-        {{"kind", point.kind}, {"parameter", point.parameter}, {"period", point.period}, {"solution", point.solution}});
-  if (result.long_run)
-    json["recurrence"] = long_run_json(*result.long_run);
-  if (result.basins)
-    json["basins"] = basins_json(*result.basins);
-  if (!result.backbone.empty())
-    json["backbone"] = backbone_json(result.backbone);
-  json["checks"] = Json::array();
-  for (const PeriodicCheck &check : result.checks)
-  {
-    Json distances = Json::object();
-    for (const auto &[name, distance] : check.distances)
-      distances[name] = distance;
-    json["checks"].push_back({{"method", check.method},
-                              {"distances", distances},
-                              {"failure", check.failure.empty() ? Json() : Json(check.failure)}});
-  }
-  const coupling::IntegrationWork &work = result.work.integration;
-  json["work"]                          = {{"iterations", result.work.iterations},
-                                           {"periods", result.work.periods},
-                                           {"steps", work.steps},
-                                           {"newton", work.newton},
-                                           {"factorisations", work.factorisations},
-                                           {"evaluations", work.evaluations}};
-  return json;
 }
 
 } // namespace gestell::apps

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/periodic_result.h"
 
 #include <string>
@@ -15,7 +14,4 @@ std::string multipliers_csv(const PeriodicResult &result);
 std::string special_points_csv(const PeriodicResult &result);
 /// orbit_1.csv ... of all solutions: names and contents.
 std::vector<std::pair<std::string, std::string>> orbit_files(const PeriodicResult &result);
-/// The object `periodic` of summary.json.
-Json periodic_json(const PeriodicResult &result);
-
 } // namespace gestell::apps

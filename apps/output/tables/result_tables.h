@@ -7,9 +7,6 @@
 namespace gestell::apps
 {
 
-/// summary.json: the whole result in numbers; docs/results.md describes every member.
-std::string summary_json(const Result &result);
-
 /// history.csv: one row per output instant, header "name [unit]", full precision.
 std::string history_csv(const coupling::RunResult &run);
 

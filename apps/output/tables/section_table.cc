@@ -64,14 +64,4 @@ std::string section_csv(const PeriodicResult &result)
   return csv;
 }
 
-Json long_run_json(const LongRun &run)
-{
-  const coupling::Recurrence &motion = run.motion;
-  return {{"kind", motion.kind},
-          {"repeats", motion.repeats},
-          {"exponent", motion.exponent},
-          {"error", motion.error},
-          {"periods", motion.periods}};
-}
-
 } // namespace gestell::apps

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/periodic_result.h"
 
 #include <string>
@@ -14,8 +13,5 @@ std::string long_run_text(const LongRun &run);
 /// section.csv: `period`, every coordinate and its rate ("NAME", "NAME'"), every signal; a row at the begin of each
 /// period.  Empty: the motion was not followed.
 std::string section_csv(const PeriodicResult &result);
-
-/// The object `periodic.recurrence` of summary.json.
-Json long_run_json(const LongRun &run);
 
 } // namespace gestell::apps

@@ -63,37 +63,6 @@ std::string sensitivities_csv(const SensitivityResult &result)
   return csv;
 }
 
-Json sensitivities_json(const SensitivityResult &result)
-{
-  Json json = {{"keys", Json::array()}, {"outputs", Json::object()}};
-  for (const SensitivityKey &key : result.keys)
-  {
-    json["keys"].push_back({{"key", key.key}, {"value", key.value}, {"unit", key.unit}});
-    if (!key.frame.empty())
-      json["keys"].back()["frame"] = key.frame;
-  }
-  for (const SensitivityOutput &output : result.outputs)
-  {
-    Json &one = json["outputs"][output.output];
-    one       = {{"value", output.value}, {"unit", output.unit}, {"derivatives", Json::array()}};
-    if (!output.note.empty())
-      one["note"] = output.note;
-    for (Eigen::Index k = 0; k < output.derivative.size(); ++k)
-    {
-      const SensitivityKey &key = result.keys[std::size_t(k)];
-      one["derivatives"].push_back({{"key", key.key},
-                                    {"derivative", output.derivative[k]},
-                                    {"unit", derivative_unit(output, key)},
-                                    {"change_by_1_percent", output.percent(key, k)}});
-    }
-  }
-  if (!result.failure.empty())
-    json["failure"] = result.failure;
-  json["steps"] = result.steps;
-  json["cpu_s"] = {{"run", result.run_cpu_s}, {"sensitivities", result.cpu_s}};
-  return json;
-}
-
 std::string sensitivities_text(const SensitivityResult &result)
 {
   std::ostringstream text;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/sensitivity_result.h"
 
 #include <string>
@@ -12,10 +11,6 @@ namespace gestell::apps
 /// change of the output in percent, empty where it is zero; derivatives that do not exist are empty; `note` tells why,
 /// or how the frame's share was found where a key changes it.
 std::string sensitivities_csv(const SensitivityResult &result);
-
-/// Of summary.json: `keys` with `key`, `value`, `unit`, `frame` where the key changes it; `outputs` by name with
-/// `value`, `unit`, `note`, `derivatives`.
-Json sensitivities_json(const SensitivityResult &result);
 
 /// For a terminal: what moves each largest and smallest value most.
 std::string sensitivities_text(const SensitivityResult &result);

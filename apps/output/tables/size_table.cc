@@ -22,39 +22,6 @@ std::string field(const std::optional<double> &value)
 
 } // namespace
 
-Json size_json(const SizeResult &size)
-{
-  const SizeRung &rung   = size.ladder.at(size.chosen);
-  Json            chosen = {{"rung", size.chosen + 1},
-                            {"mesh_size", rung.mesh_size > 0. ? Json(rung.mesh_size) : Json()},
-                            {"sides", rung.cells.empty() ? Json() : Json(rung.cells)},
-                            {"coordinates", rung.coordinates},
-                            {"interface", rung.interface},
-                            {"modes", rung.modes >= 0 ? Json(rung.modes) : Json()},
-                            {"reduction", rung.reduction.empty() ? Json() : Json(rung.reduction)},
-                            {"method", rung.method},
-                            {"step", rung.step},
-                            {"tolerance", rung.tolerance},
-                            {"cpu_s", rung.cpu_s},
-                            {"outputs", Json::object()}};
-  for (const BudgetEntry &entry : rung.entries)
-    chosen["outputs"][entry.output] = entry_json(entry);
-  Json json = {{"tolerance", size.tolerance},
-               {"met", size.met},
-               {"stopped", size.stopped.empty() ? Json() : Json(size.stopped)},
-               {"chosen", chosen},
-               {"proof", Json::object()},
-               {"finer", size.finer},
-               {"left_out", size.left_out},
-               {"missing", size.missing},
-               {"unasked", size.unasked},
-               {"cost", {{"cpu_s", size.cpu_s}, {"runs", size.runs()}, {"forecast_cpu_s", size.forecast.cpu_s}}}};
-  for (const SizeProof &proof : size.proof)
-    json["proof"][proof.output] = {
-        {"value", proof.value}, {"finer", proof.finer}, {"difference", std::abs(proof.finer - proof.value)}};
-  return json;
-}
-
 std::string size_csv(const SizeResult &size)
 {
   std::string csv = "rung,mesh size [m],coordinates,interface,modes,method,step [s],tolerance,cpu_s";

@@ -1,14 +1,9 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/size_result.h"
 
 namespace gestell::apps
 {
-
-/// Of summary.json: `tolerance`, `met`, `chosen` (the rung), `proof` by output, `left_out`, `missing`,
-/// `unasked`, `cost`.
-Json size_json(const SizeResult &size);
 
 /// size.csv: a row for each model that was tried.
 std::string size_csv(const SizeResult &size);

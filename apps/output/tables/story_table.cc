@@ -13,45 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-Json load_json(const LoadDuration &load)
-{
-  Json json = {{"signal", load.signal},
-               {"element", load.element},
-               {"begin", load.begin},
-               {"end", load.end},
-               {"peak", load.peak},
-               {"t_peak", load.t_peak},
-               {"rise", load.rise},
-               {"t_fall", load.t_fall},
-               {"fall", load.fall},
-               {"row_step", load.row_step},
-               {"is_coarse", load.is_coarse()},
-               {"t_modes", load.unknown.empty() ? Json(load.t_modes) : Json()},
-               {"place", load.place},
-               {"no_modes_because", load.unknown},
-               {"modes", Json::array()}};
-  for (const LoadOnMode &on : load.modes)
-    json["modes"].push_back({{"mode", on.mode < 0 ? Json() : Json(on.mode + 1)},
-                             {"frequency_hz", on.frequency_hz},
-                             {"duration_over_period", on.duration},
-                             {"rise_over_period", on.rise},
-                             {"fall_over_period", on.fall},
-                             {"fall_factor", on.fall_factor},
-                             {"energy", std::isfinite(on.energy) ? Json(on.energy) : Json()}});
-  return json;
-}
-
-Json play_json(const PlayEstimate &play)
-{
-  return {{"element", play.element}, {"signal", play.signal},
-          {"unit", play.unit},       {"begin", play.begin},
-          {"end", play.end},         {"amplitude", play.amplitude},
-          {"mean", play.mean},       {"stiffness_share", play.stiffness_share},
-          {"mode", play.mode + 1},   {"frequency_hz", play.frequency_hz},
-          {"seen_hz", play.seen_hz}, {"closed_hz", play.closed_hz},
-          {"limits", play.limits}};
-}
-
 void add_load(const LoadDuration &load, std::ostream &text)
 {
   text << load.signal << " acts from " << short_text(load.begin, 6) << " to " << short_text(load.end, 6)
@@ -91,18 +52,6 @@ std::string modes_place_words(const LoadDuration &load)
   const std::string where =
       "modes at " + short_text(load.t_modes, 6) + " s" + (load.place.empty() ? "" : ", " + load.place);
   return load.modes.empty() ? where + ": none with a period that the load could excite" : where;
-}
-
-Json story_json(const RunStory &story)
-{
-  Json json = {{"loads", Json::array()}, {"sentences", Json::array()}, {"plays", Json::array()}};
-  for (const LoadDuration &load : story.loads)
-    json["loads"].push_back(load_json(load));
-  for (const StorySentence &sentence : story.sentences)
-    json["sentences"].push_back({{"t", sentence.t}, {"text", sentence.text}});
-  for (const PlayEstimate &play : story.plays)
-    json["plays"].push_back(play_json(play));
-  return json;
 }
 
 std::string coarse_rows_words(const LoadDuration &load)

@@ -1,15 +1,11 @@
 #pragma once
 
-#include "apps/output/text/json.h"
 #include "apps/output/values/run_story.h"
 
 #include <string>
 
 namespace gestell::apps
 {
-
-/// Of summary.json: `loads`, `sentences`, `plays`.
-Json story_json(const RunStory &story);
 
 /// What a load does to a mode, in words: "acts like a step", "excites it by 60 %", "hardly excites it".
 std::string excitation_words(const LoadOnMode &on);

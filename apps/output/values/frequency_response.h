@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/periodic/response/response_peaks.h"
+#include "apps/output/values/coupling_descriptions.h"
 
 #include <complex>
 #include <string>
@@ -17,7 +17,17 @@ struct MeasuredResponse
   bool                              has_phase = true;
   std::vector<double>               frequencies_hz;
   std::vector<std::complex<double>> values;
+  std::string                       pair_name{}; ///< of the pair
 };
+
+template <class Visitor>
+void describe(Visitor &v, const MeasuredResponse &x)
+{
+  v("file", x.file, "", "of the measurement");
+  v("name", x.name, "", "in the file");
+  v("pair", x.pair_name, "", "pair it is drawn beside");
+  v("points", x.values.size(), "", "number of frequencies");
+}
 
 /// Answer of one place to a force at one place.
 struct ResponsePair
@@ -30,6 +40,16 @@ struct ResponsePair
 
   std::string name() const { return to + "/" + from; }
 };
+
+template <class Visitor>
+void describe(Visitor &v, const ResponsePair &x)
+{
+  v("name", x.name(), "", "answer over force");
+  v("from", x.from, "", "place of the force");
+  v("to", x.to, "", "place of the answer");
+  v("unit", x.unit, "", "of the amplitudes");
+  v("peaks", x.peaks, "", "largest amplitudes");
+}
 
 /// Vibration of the machine, linearised at an operating point, per harmonic force.
 struct FrequencyResponse
@@ -45,5 +65,19 @@ struct FrequencyResponse
   std::vector<ResponsePair>     pairs;
   std::vector<MeasuredResponse> measured;
 };
+
+template <class Visitor>
+void describe(Visitor &v, const FrequencyResponse &x)
+{
+  v("kind", x.kind, "", "receptance, mobility or accelerance");
+  v("at", x.at, "", "operating point");
+  v("t", x.t, "s", "its instant");
+  v("moves", x.moves, "", "it is a motion, not rest");
+  v("closed_contacts", x.closed_contacts, "", "elements with play that are engaged there");
+  v("open_contacts", x.open_contacts, "", "those that are not");
+  v("points", x.frequencies_hz.size(), "", "number of frequencies");
+  v("pairs", x.pairs, "", "pairs of places");
+  v("measured", x.measured, "", "measured curves");
+}
 
 } // namespace gestell::apps

@@ -87,23 +87,51 @@ struct BasinMap
 /// What `gestell periodic` finds.
 struct PeriodicResult
 {
-  std::string                method, reason;            ///< why this method
-  std::string                parameter, parameter_unit; ///< that is followed; empty: none
-  std::vector<NamedCoordinate> coordinates;             ///< of the machine
-  std::vector<PeriodicEntry> entries;
-  std::vector<SpecialPoint>  special_points;
-  std::vector<PeriodicCheck> checks;
-  std::vector<PeriodicEntry> backbone; ///< of free vibration, where the parameter is a load's frequency
-  std::vector<PhasePlane>    planes;   ///< the first solutions in some signals whose rates are known exactly
-  std::optional<LongRun>     long_run;
-  std::optional<BasinMap>    basins;
-  coupling::PeriodicWork     work;
-  std::vector<std::string>   notes;   ///< of branches
-  std::string                failure; ///< not empty: why it ended early
-  bool                       interrupted = false;
+  std::string                  method, reason;            ///< why this method
+  std::string                  parameter, parameter_unit; ///< that is followed; empty: none
+  std::vector<NamedCoordinate> coordinates;               ///< of the machine
+  std::vector<PeriodicEntry>   entries;
+  std::vector<SpecialPoint>    special_points;
+  std::vector<PeriodicCheck>   checks;
+  std::vector<PeriodicEntry>   backbone; ///< of free vibration, where the parameter is a load's frequency
+  std::vector<PhasePlane>      planes;   ///< the first solutions in some signals whose rates are known exactly
+  std::optional<LongRun>       long_run;
+  std::optional<BasinMap>      basins;
+  coupling::PeriodicWork       work;
+  std::vector<std::string>     notes;   ///< of branches
+  std::string                  failure; ///< not empty: why it ended early
+  bool                         interrupted = false;
 };
 
 /// "periodic", "sub-harmonic 1/2"
 std::string kind_of(const coupling::PeriodicSolution &solution);
+
+template <class Visitor>
+void describe(Visitor &v, const SignalOrbit &x)
+{
+  v("unit", x.unit, "", "of the signal");
+  v("max", x.max, x.unit, "largest value of a period");
+  v("min", x.min, x.unit, "smallest value");
+  v("mean", x.mean, x.unit, "mean value");
+  v("amplitudes", x.amplitude, x.unit, "of the harmonics of the drive");
+  v("phases", x.phase, "rad", "of the harmonics of the drive");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const SpecialPoint &x)
+{
+  v("kind", x.kind, "", "fold, period doubling, Neimark-Sacker, branch or grazing");
+  v("parameter", x.parameter, "", "value of the parameter");
+  v("period", x.period, "s", "of the motion");
+  v("solution", x.solution, "", "number of the nearest solution");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const PeriodicCheck &x)
+{
+  v("method", x.method, "", "of the check");
+  v("distances", x.distances, "1", "by signal: largest difference over its amplitude");
+  v("failure", x.failure.empty() ? std::nullopt : std::optional(x.failure), "", "why there is none; null: there is");
+}
 
 } // namespace gestell::apps

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,19 @@ struct LoadOnMode
   std::string strain{};                                               ///< where its strain energy lies
 };
 
+template <class Visitor>
+void describe(Visitor &v, const LoadOnMode &x)
+{
+  v("mode", x.mode < 0 ? std::nullopt : std::optional(x.mode + 1), "",
+    "number in the table of modes; null: none has its shape");
+  v("frequency_hz", x.frequency_hz, "Hz", "undamped, 1/T");
+  v("duration_over_period", x.duration, "1", "duration of the load over T");
+  v("rise_over_period", x.rise, "1", "its rise over T");
+  v("fall_over_period", x.fall, "1", "its fall over T");
+  v("fall_factor", x.fall_factor, "1", "amplitude that the fall leaves, over that of a sudden one");
+  v("energy", x.energy, "J", "energy that the fall leaves in the mode; null: not known");
+}
+
 /// A technological force from its first contact to its fall.
 struct LoadDuration
 {
@@ -34,6 +48,27 @@ struct LoadDuration
   bool is_coarse() const { return 10. * row_step > t_fall - begin || 4. * row_step > fall; }
 };
 
+template <class Visitor>
+void describe(Visitor &v, const LoadDuration &x)
+{
+  v("signal", x.signal, "", "of the force");
+  v("element", x.element, "", "that exerts it");
+  v("begin", x.begin, "s", "first instant above 1 % of the peak");
+  v("end", x.end, "s", "last instant above 1 % of the peak");
+  v("peak", x.peak, x.unit, "largest force, with its sign");
+  v("t_peak", x.t_peak, "s", "its instant");
+  v("rise", x.rise, "s", "from the begin to 90 % of the peak");
+  v("t_fall", x.t_fall, "s", "where the force begins to fall below 90 % of the peak");
+  v("fall", x.fall, "s", "from there to its end");
+  v("row_step", x.row_step, "s", "largest distance of the rows these times are read from");
+  v("is_coarse", x.is_coarse(), "", "rows are too far apart for these times");
+  v("t_modes", x.unknown.empty() ? std::optional(x.t_modes) : std::nullopt, "s",
+    "instant of the modes; null: no state was kept there");
+  v("place", x.place, "", "of the machine at that instant");
+  v("no_modes_because", x.unknown, "", "why there are no modes; empty: there are");
+  v("modes", x.modes, "", "modes of the machine as it stands there");
+}
+
 /// What happened at an instant.
 struct StorySentence
 {
@@ -41,6 +76,13 @@ struct StorySentence
   std::string text;
   bool        stands_out = false; ///< the largest or smallest value of the run
 };
+
+template <class Visitor>
+void describe(Visitor &v, const StorySentence &x)
+{
+  v("t", x.t, "s", "instant");
+  v("text", x.text, "", "what happened");
+}
 
 /// An element with play by its describing function, beside what the run shows.
 struct PlayEstimate
@@ -54,6 +96,24 @@ struct PlayEstimate
   std::string limits; ///< where it does not hold; empty: it does
 };
 
+template <class Visitor>
+void describe(Visitor &v, const PlayEstimate &x)
+{
+  v("element", x.element, "", "with play");
+  v("signal", x.signal, "", "of its measure");
+  v("unit", x.unit, "", "of `amplitude` and `mean`");
+  v("begin", x.begin, "s", "begin of the oscillation");
+  v("end", x.end, "s", "its end");
+  v("amplitude", x.amplitude, x.unit, "of the measure");
+  v("mean", x.mean, x.unit, "of the measure");
+  v("stiffness_share", x.stiffness_share, "1", "equivalent over engaged stiffness");
+  v("mode", x.mode + 1, "", "number of the mode");
+  v("frequency_hz", x.frequency_hz, "Hz", "by the describing function");
+  v("seen_hz", x.seen_hz, "Hz", "in the run");
+  v("closed_hz", x.closed_hz, "Hz", "with the play closed");
+  v("limits", x.limits, "", "where the estimate does not hold; empty: it does");
+}
+
 /// What a run tells beside its numbers.
 struct RunStory
 {
@@ -61,5 +121,13 @@ struct RunStory
   std::vector<StorySentence> sentences; ///< in the order of time
   std::vector<PlayEstimate>  plays;
 };
+
+template <class Visitor>
+void describe(Visitor &v, const RunStory &x)
+{
+  v("loads", x.loads, "", "forces that act for a time");
+  v("sentences", x.sentences, "", "what happened");
+  v("plays", x.plays, "", "oscillations of elements with play");
+}
 
 } // namespace gestell::apps

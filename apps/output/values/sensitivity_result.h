@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gestell::apps
@@ -16,6 +17,15 @@ struct SensitivityKey
   double      value = 0.;
   std::string frame{}; ///< how the frame's share is found, where the entry changes it; else empty
 };
+
+template <class Visitor>
+void describe(Visitor &v, const SensitivityKey &x)
+{
+  v("key", x.key, "", "of the scene");
+  v("value", x.value, x.unit, "its value");
+  v("unit", x.unit, "", "its unit; empty: a plain number, in SI");
+  v.maybe(!x.frame.empty(), "frame", x.frame, "", "how the frame's share is found");
+}
 
 /// A number of the run with its derivatives.
 struct SensitivityOutput
@@ -33,6 +43,29 @@ struct SensitivityOutput
   }
 };
 
+/// By one key.
+struct Derivative
+{
+  std::string key{}, unit{};
+  double      derivative = 0., percent = 0.;
+};
+
+template <class Visitor>
+void describe(Visitor &v, const Derivative &x)
+{
+  v("key", x.key, "", "of the scene");
+  v("derivative", x.derivative, x.unit, "of the output by the key; null: there is none");
+  v("unit", x.unit, "", "of the derivative");
+  v("change_by_1_percent", x.percent, "%", "relative change of the output by 1 % more of the key");
+}
+
+/// An output with its derivatives, for JSON.
+struct OutputDerivatives
+{
+  const SensitivityOutput *output = nullptr;
+  std::vector<Derivative>  derivatives{};
+};
+
 /// Derivatives of what a run tells.
 struct SensitivityResult
 {
@@ -43,5 +76,39 @@ struct SensitivityResult
   long                           steps       = 0;            ///< of the variational equations
   double                         run_cpu_s = 0., cpu_s = 0.; ///< of the run, and of all derivatives
 };
+
+std::string derivative_unit(const SensitivityOutput &output, const SensitivityKey &key);
+
+template <class Visitor>
+void describe(Visitor &v, const OutputDerivatives &x)
+{
+  const SensitivityOutput output = x.output ? *x.output : SensitivityOutput();
+  v("value", output.value, output.unit, "of the output");
+  v("unit", output.unit, "", "of the output");
+  v("derivatives", x.derivatives, "", "by each key");
+  v.maybe(!output.note.empty(), "note", output.note, "", "of an event what happens; or why there is no derivative");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const SensitivityResult &x)
+{
+  std::vector<std::pair<std::string, OutputDerivatives>> outputs;
+  for (const SensitivityOutput &output : x.outputs)
+  {
+    outputs.push_back({output.output, {&output}});
+    for (Eigen::Index k = 0; k < output.derivative.size(); ++k)
+    {
+      const SensitivityKey &key = x.keys[std::size_t(k)];
+      outputs.back().second.derivatives.push_back(
+          {key.key, derivative_unit(output, key), output.derivative[k], output.percent(key, k)});
+    }
+  }
+  v("keys", x.keys, "", "entries of the scene");
+  v("outputs", outputs, "", "of the run");
+  v.maybe(!x.failure.empty(), "failure", x.failure, "", "why there are no derivatives");
+  v("steps", x.steps, "", "of the variational equations");
+  v("cpu_s", std::vector<std::pair<std::string, double>>{{"run", x.run_cpu_s}, {"sensitivities", x.cpu_s}}, "s",
+    "of the run and of all derivatives");
+}
 
 } // namespace gestell::apps

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "apps/output/describe/described.h"
 #include "apps/output/values/error_budget.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -66,5 +68,72 @@ struct SizeResult
   /// Of the chosen model with its preparation, that the search took.
   double runs() const { return cpu_s / ladder.at(chosen).cpu_s; }
 };
+
+/// The chosen model.
+struct ChosenRung
+{
+  std::size_t number = 0; ///< from 1 on
+  SizeRung    rung{};
+};
+
+/// An output's errors without what they rest on.
+struct OutputErrors
+{
+  BudgetEntry entry{};
+};
+
+template <class Visitor>
+void describe(Visitor &v, const OutputErrors &x)
+{
+  describe_errors(v, x.entry);
+}
+
+template <class Visitor>
+void describe(Visitor &v, const ChosenRung &x)
+{
+  std::vector<std::pair<std::string, OutputErrors>> outputs;
+  for (const BudgetEntry &entry : x.rung.entries)
+    outputs.push_back({entry.output, {entry}});
+  v("rung", x.number, "", "number of the model");
+  v("mesh_size", x.rung.mesh_size > 0. ? std::optional(x.rung.mesh_size) : std::nullopt, "m", "null: not chosen");
+  v("sides", unless_empty(x.rung.cells), "", "kind of cells; null: not chosen");
+  v("coordinates", x.rung.coordinates, "", "of the unreduced frame");
+  v("interface", x.rung.interface, "", "coordinates q1 of the frame");
+  v("modes", x.rung.modes >= 0 ? std::optional(x.rung.modes) : std::nullopt, "", "null: not chosen");
+  v("reduction", x.rung.reduction.empty() ? std::nullopt : std::optional(x.rung.reduction), "", "null: none");
+  v("method", x.rung.method, "", "of integration");
+  v("step", x.rung.step, "s", "of the integration");
+  v("tolerance", x.rung.tolerance, "1", "of the step's control; 0: the step is fixed");
+  v("cpu_s", x.rung.cpu_s, "s", "from CAD to the end of the run");
+  v("outputs", outputs, "", "errors of each output");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const SizeProof &x)
+{
+  v("value", x.value, x.unit, "of the chosen model");
+  v("finer", x.finer, x.unit, "of the finer model");
+  v("difference", std::abs(x.finer - x.value), x.unit, "between them");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const SizeResult &x)
+{
+  v("tolerance", x.tolerance, "1", "relative, of each output");
+  v("met", x.met, "", "the chosen model stays within the tolerance");
+  v("stopped", unless_empty(x.stopped), "", "why nothing finer was tried; null: the tolerance is met");
+  v("chosen", x.ladder.empty() ? ChosenRung() : ChosenRung{x.chosen + 1, x.ladder.at(x.chosen)}, "",
+    "the chosen model");
+  v("proof", by_name(x.proof, &SizeProof::output), "", "outputs beside those of a model that is finer in everything");
+  v("finer", x.finer, "", "that model");
+  v("left_out", x.left_out, "", "what the scene could do without");
+  v("missing", x.missing, "", "what it may lack");
+  v("unasked", x.unasked, "", "questions that would have cost too much");
+  v("cost",
+    std::vector<std::pair<std::string, double>>{{"cpu_s", x.cpu_s},
+                                                {"runs", x.ladder.empty() ? 0. : x.runs()},
+                                                {"forecast_cpu_s", x.forecast.cpu_s}},
+    "", "of the search: CPU time [s], in runs of the chosen model, and as forecast [s]");
+}
 
 } // namespace gestell::apps

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "apps/output/describe/described.h"
+
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gestell::apps
@@ -13,6 +17,16 @@ struct StageExtremes
   double      min = 0., t_min = 0., max = 0., t_max = 0.;
 };
 
+template <class Visitor>
+void describe(Visitor &v, const StageExtremes &x)
+{
+  v("unit", x.unit, "", "of `min` and `max`");
+  v("min", x.min, x.unit, "smallest value, by the rows of history.csv");
+  v("t_min", x.t_min, "s", "its instant");
+  v("max", x.max, x.unit, "largest value");
+  v("t_max", x.t_max, "s", "its instant");
+}
+
 /// A part of a run between two events.
 struct Stage
 {
@@ -21,16 +35,49 @@ struct Stage
   std::vector<StageExtremes> extremes;             ///< by the rows of the history
 };
 
+template <class Visitor>
+void describe(Visitor &v, const Stage &x)
+{
+  v("name", x.name, "", "of the stage");
+  v("begin", x.begin, "s", "its first instant");
+  v("end", x.end, "s", "its last instant");
+  v("signals", by_name(x.extremes, &StageExtremes::signal), "", "extremes of each signal within the stage");
+}
+
 /// A damped oscillation found in the last stage, and the linearised mode nearest to it in frequency.
 struct RingingMode
 {
-  double              frequency_hz  = 0.; ///< damped
-  double              damping_ratio = 0.;
-  std::vector<double> amplitudes;         ///< by signal, at the begin of the window
-  std::string         combination;        ///< of stronger ones, "3 x 0.4026 Hz"; empty: it is a mode
-  int                 linearised    = -1; ///< number of the mode from 0 on; -1: none
-  double              linearised_hz = 0., linearised_ratio = 0.; ///< damped frequency
+  struct Linearised
+  {
+    int    mode          = 0; ///< its number, from 1 on
+    double frequency_hz  = 0.;
+    double damping_ratio = 0.;
+  };
+
+  double                                      frequency_hz  = 0.; ///< damped
+  double                                      damping_ratio = 0.;
+  std::vector<std::pair<std::string, double>> amplitudes;  ///< by signal, at the begin of the window
+  std::string                                 combination; ///< of stronger ones, "3 x 0.4026 Hz"; empty: it is a mode
+  std::optional<Linearised>                   linearised;  ///< damped, too
 };
+
+template <class Visitor>
+void describe(Visitor &v, const RingingMode::Linearised &x)
+{
+  v("mode", x.mode, "", "its number");
+  v("damped_frequency_hz", x.frequency_hz, "Hz", "damped frequency");
+  v("damping_ratio", x.damping_ratio, "1", "damping ratio");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const RingingMode &x)
+{
+  v("damped_frequency_hz", x.frequency_hz, "Hz", "damped frequency");
+  v("damping_ratio", x.damping_ratio, "1", "damping ratio");
+  v("amplitudes", x.amplitudes, "", "by signal, at the begin of the window");
+  v("combination", unless_empty(x.combination), "", "of stronger oscillations; null: it is a mode");
+  v("linearised", x.linearised, "", "nearest mode of the machine linearised at rest; null: none is near");
+}
 
 /// What rings in the last stage, from where no contact opens or closes any more.
 struct Ringing
@@ -39,7 +86,20 @@ struct Ringing
   std::vector<std::string> signals, units;
   double                   residual = 0.; ///< of the fit, relative to the signals
   std::vector<RingingMode> modes;         ///< ascending in frequency
+  std::string              note;          ///< what was left out, or why there are none
 };
+
+template <class Visitor>
+void describe(Visitor &v, const Ringing &x)
+{
+  v("begin", x.begin, "s", "begin of the window");
+  v("end", x.end, "s", "its end");
+  v("step", x.step, "s", "between samples");
+  v("signals", x.signals, "", "signals that were fitted");
+  v("residual", x.residual, "1", "of the fit, relative to the signals");
+  v("modes", x.modes, "", "oscillations found, ascending in frequency");
+  v("note", x.note, "", "what was left out, or why there are none");
+}
 
 /// A wheel is off the ground.
 struct LiftOff
@@ -48,12 +108,19 @@ struct LiftOff
   double      begin = 0., end = 0.; ///< [s]; the end of the run if it does not come down
 };
 
+template <class Visitor>
+void describe(Visitor &v, const LiftOff &x)
+{
+  v("wheel", x.wheel, "", "that is off the ground");
+  v("from", x.begin, "s", "begin");
+  v("to", x.end, "s", "end; that of the run if the wheel does not come down");
+}
+
 struct StageResult
 {
   std::vector<Stage>   stages; ///< as far as the run came
   std::vector<LiftOff> lift_offs;
   Ringing              ringing; ///< without modes: not asked for, or not found
-  std::string          reason;  ///< why nothing was found that was asked for; empty: it was
 };
 
 } // namespace gestell::apps

@@ -25,6 +25,17 @@ struct StressPlace
   std::string                 beside;            ///< support or interface that holds the surface there rigid, or ""
 };
 
+template <class Visitor>
+void describe(Visitor &v, const StressPlace &x)
+{
+  v("von_mises", x.von_mises, "Pa", "equivalent stress");
+  v("at", x.at, "m", "place x, y, z");
+  v("principal", x.principal.values, "Pa", "principal stresses, descending");
+  v("first_direction", x.principal.first, "1", "unit vector of the first");
+  v("disagreement", x.disagreement, "1", "of neighbouring cells, relative");
+  v("beside", x.beside, "", "support or interface that holds the surface rigid there; empty: none");
+}
+
 /// The stresses at one instant.
 struct StressAt
 {
@@ -36,6 +47,15 @@ struct StressAt
   std::optional<StressPlace> beside_rigid; ///< largest beside them
 };
 
+template <class Visitor>
+void describe(Visitor &v, const StressAt &x)
+{
+  v("label", x.label, "", "why this instant");
+  v("t", x.t, "s", "instant");
+  v.maybe(x.peak.has_value(), "largest", x.peak, "", "largest stress away from rigid surfaces");
+  v.maybe(x.beside_rigid.has_value(), "beside_rigid", x.beside_rigid, "", "largest stress beside them");
+}
+
 /// Stresses of a run at the skin of its frame.
 struct StressResult
 {
@@ -45,5 +65,14 @@ struct StressResult
   int                             n_states = 0;  ///< among which the largest stress was looked for; 0: it was not
   double                          step     = 0.; ///< [s] between them
 };
+
+template <class Visitor>
+void describe(Visitor &v, const StressResult &x)
+{
+  v("points", x.points.size(), "", "points of the skin");
+  v("states", x.n_states, "", "states among which the largest stress was looked for");
+  v("step", x.step, "s", "between these states");
+  v("instants", x.instants, "", "in the order of time");
+}
 
 } // namespace gestell::apps

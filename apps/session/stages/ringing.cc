@@ -92,10 +92,8 @@ void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
     if (modes[j].damped_frequency_hz > 0.)
       if (const double away = std::abs(modes[j].damped_frequency_hz / mode.frequency_hz - 1.); away < least)
       {
-        least                 = away;
-        mode.linearised       = int(j);
-        mode.linearised_hz    = modes[j].damped_frequency_hz;
-        mode.linearised_ratio = modes[j].damping_ratio;
+        least           = away;
+        mode.linearised = {int(j) + 1, modes[j].damped_frequency_hz, modes[j].damping_ratio};
       }
 }
 
@@ -119,13 +117,13 @@ std::string combination(const DampedOscillation &own, const std::vector<DampedOs
   return "";
 }
 
-RingingMode ringing_mode(const DampedOscillation &found)
+RingingMode ringing_mode(const DampedOscillation &found, const std::vector<std::string> &signals)
 {
   RingingMode mode;
   mode.frequency_hz  = found.frequency_hz();
   mode.damping_ratio = found.damping_ratio();
-  for (Eigen::Index s = 0; s < found.amplitudes.size(); ++s)
-    mode.amplitudes.push_back(std::abs(found.amplitudes[s]));
+  for (std::size_t s = 0; s < signals.size(); ++s)
+    mode.amplitudes.emplace_back(signals[s], std::abs(found.amplitudes[Eigen::Index(s)]));
   return mode;
 }
 
@@ -150,7 +148,7 @@ void tell_modes(std::vector<DampedOscillation> found, const std::vector<coupling
   std::vector<DampedOscillation> stronger;
   for (const DampedOscillation &own : found)
   {
-    RingingMode mode = ringing_mode(own);
+    RingingMode mode = ringing_mode(own, ringing.signals);
     mode.combination = combination(own, stronger);
     if (mode.combination.empty())
     {
@@ -178,14 +176,14 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
   const Eigen::MatrixXd samples = samples_of(rows, coupling::output_step(scene.run.options), ringing);
   if (samples.rows() < least_samples)
   {
-    result.reason = "too few rows of the history lie behind the last contact, at " + rounded(ringing.begin) +
-                    " s; modes need " + std::to_string(least_samples) + ", there are " +
-                    std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
+    result.ringing.note = "too few rows of the history lie behind the last contact, at " + rounded(ringing.begin) +
+                          " s; modes need " + std::to_string(least_samples) + ", there are " +
+                          std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
     return;
   }
   coupling::PencilFit fit = coupling::matrix_pencil(samples, ringing.step, scene.stages.modes);
   ringing.residual        = fit.residual;
-  result.reason           = leave_out_slow(fit.oscillations, ringing);
+  result.ringing.note     = leave_out_slow(fit.oscillations, ringing);
   std::vector<coupling::Mode> linearised;
   try
   {
@@ -193,7 +191,7 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
   }
   catch (const std::exception &none)
   {
-    result.reason = std::string("no modes to compare with: ") + none.what();
+    result.ringing.note = std::string("no modes to compare with: ") + none.what();
   }
   tell_modes(fit.oscillations, linearised, ringing);
 }

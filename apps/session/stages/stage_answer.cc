@@ -149,7 +149,7 @@ std::optional<StageResult> stage_answer(const Scene &scene, PreparedMachine &pre
   const std::string missing = add_stages(scene, run, result);
   if (!missing.empty())
   {
-    result.reason = missing;
+    result.ringing.note = missing;
     if (run.failure.empty() && !run.interrupted)
       run.failure = missing;
   }

@@ -1,6 +1,6 @@
 #include "apps/study/runs/answer_entries.h"
 
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/output/text/json.h"
 #include "apps/study/file/event_kinds.h"
 #include "fem/values/nearest_name.h"

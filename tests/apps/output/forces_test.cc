@@ -138,7 +138,7 @@ TEST_P(ForcesOnBodies, WithWeightAreMassTimesAcceleration)
   Session                  session(shipped(given.scene + ".toml"), given.overrides);
   const Result             result = session.run();
   std::vector<std::string> files;
-  OwnFolder own(folder);
+  OwnFolder                own(folder);
   write_force_files(own, result, files);
   ASSERT_GT(files.size(), 10u);
   ASSERT_EQ(files.size(), result.run->picture_times.size() + 1); // and forces.pvd
@@ -213,7 +213,7 @@ TEST_P(ForcesOnTheFrame, AreWhatItsMassesSpringsAndDampersAnswer)
   Session                  session(shipped(given.scene + ".toml"), given.overrides);
   const Result             result = session.run();
   std::vector<std::string> files;
-  OwnFolder own(folder);
+  OwnFolder                own(folder);
   write_force_files(own, result, files);
   const auto  smooth = smooth_pictures(result);
   const auto &scene  = session.scene();

@@ -2,6 +2,8 @@
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/section_table.h"
+#include "apps/output/tables/summary_json.h"
+#include "apps/output/text/json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,7 +56,9 @@ TEST(AmplitudeChart, ShowsUnstableMotionsDashedAndTheBackboneDotted)
   EXPECT_EQ(amplitude_chart(result, 0).panels[0].curves.size(), 2u);
   result.backbone                    = {result.entries[0]};
   result.backbone[0].solution.period = 4.;
-  const Json json                    = periodic_json(result)["backbone"][0];
+  Result all;
+  all.periodic    = result;
+  const Json json = Json::parse(summary_json(all))["periodic"]["backbone"][0];
   EXPECT_EQ(json["frequency_hz"], 0.25);
   EXPECT_EQ(json["amplitudes"]["F"], 1.);
   const Chart chart = amplitude_chart(result, 0);

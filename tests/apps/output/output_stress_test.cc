@@ -1,7 +1,7 @@
 #include "apps/output/pictures/skin_picture.h"
 #include "apps/output/report/report.h"
 #include "apps/output/report/stress_report.h"
-#include "apps/output/tables/result_tables.h"
+#include "apps/output/tables/summary_json.h"
 #include "tests/support/output_example.h"
 
 #include <gtest/gtest.h>

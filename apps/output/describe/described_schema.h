@@ -1,0 +1,62 @@
+#pragma once
+
+#include "apps/output/describe/described.h"
+#include "apps/output/text/json.h"
+
+namespace gestell::apps
+{
+
+template <class T>
+Json described_schema();
+
+/// Members as a JSON schema; for sources alone, as Json is.
+struct SchemaMembers
+{
+  Json properties = Json::object(), required = Json::array();
+
+  template <class T>
+  void operator()(const char *name, const T &value, const std::string &unit = "", const char *meaning = "")
+  {
+    required.push_back(name);
+    maybe(true, name, value, unit, meaning);
+  }
+  template <class T>
+  void maybe(bool, const char *name, const T &, const std::string &unit = "", const char *meaning = "")
+  {
+    Json &schema = properties[name] = described_schema<T>();
+    schema["description"]           = std::string(meaning) + (unit.empty() ? "" : " [" + unit + "]");
+  }
+};
+
+template <class T>
+Json described_schema()
+{
+  if constexpr (is_optional<T>)
+  {
+    Json schema = described_schema<typename T::value_type>();
+    if (!schema["type"].is_array())
+      schema["type"] = {schema["type"], "null"};
+    return schema;
+  }
+  else if constexpr (is_described<T>)
+  {
+    SchemaMembers members;
+    describe(members, T{});
+    return {{"type", "object"}, {"properties", members.properties}, {"required", members.required}};
+  }
+  else if constexpr (is_pairs<T>)
+    return {{"type", "object"}, {"additionalProperties", described_schema<typename T::value_type::second_type>()}};
+  else if constexpr (is_list<T>)
+    return {{"type", "array"},
+            {"items", described_schema<std::decay_t<decltype(*std::declval<const T &>().begin())>>()}};
+  else if constexpr (std::is_same_v<T, bool>)
+    return {{"type", "boolean"}};
+  else if constexpr (std::is_integral_v<T>)
+    return {{"type", "integer"}};
+  else if constexpr (std::is_arithmetic_v<T>)
+    return {{"type", {"number", "null"}}}; // null: not finite
+  else
+    return {{"type", "string"}};
+}
+
+} // namespace gestell::apps

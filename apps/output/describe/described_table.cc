@@ -1,0 +1,114 @@
+#include "apps/output/describe/described_table.h"
+
+#include "apps/output/text/csv.h"
+#include "apps/output/text/html.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+std::string cell_text(const DescribedTable::Cell &cell, std::string (*number)(double), const char *yes, const char *no)
+{
+  if (const double *x = std::get_if<double>(&cell))
+    return number(*x);
+  if (const long *n = std::get_if<long>(&cell))
+    return std::to_string(*n);
+  if (const bool *truth = std::get_if<bool>(&cell))
+    return *truth ? yes : no;
+  return std::get<std::string>(cell);
+}
+
+std::string short_number(double x)
+{
+  return std::isnan(x) ? "–" : short_text(x, 5);
+}
+
+} // namespace
+
+std::string DescribedTable::Column::head() const
+{
+  std::string text = name;
+  if (unit == "Hz" && text.size() > 3 && text.substr(text.size() - 3) == "_hz")
+    text.resize(text.size() - 3);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return unit.empty() ? text : text + " [" + unit + "]";
+}
+
+DescribedTable DescribedTable::renamed(const std::vector<std::pair<std::string, std::string>> &names) &&
+{
+  for (Column &column : columns)
+    for (const auto &[name, other] : names)
+      if (column.name == name)
+        column.name = other;
+  return std::move(*this);
+}
+
+std::string DescribedTable::csv() const
+{
+  std::string text;
+  for (const Column &column : columns)
+    text += (&column == &columns.front() ? "" : ",") + csv_field(column.head());
+  for (const auto &row : rows)
+    for (const Cell &cell : row)
+      text += (&cell == &row.front() ? '\n' : ',') + csv_field(cell_text(cell, exact_text, "1", "0"));
+  return text + '\n';
+}
+
+std::string DescribedTable::html() const
+{
+  std::vector<std::string> heads;
+  for (const Column &column : columns)
+    heads.push_back((column.numeric ? "#" : "") + column.head());
+  HtmlTable table(heads);
+  for (const auto &row : rows)
+  {
+    std::vector<HtmlTable::Cell> cells;
+    for (const Cell &cell : row)
+      cells.push_back(cell_text(cell, short_number, "yes", "no"));
+    table.add(cells);
+  }
+  return table.scrolled_html();
+}
+
+std::string DescribedTable::terminal() const
+{
+  std::vector<std::vector<std::string>> lines(1);
+  for (const Column &column : columns)
+    lines.front().push_back(column.head());
+  for (const auto &row : rows)
+  {
+    lines.emplace_back();
+    for (const Cell &cell : row)
+      lines.back().push_back(cell_text(cell, short_number, "yes", "no"));
+  }
+  std::vector<std::size_t> widths(columns.size(), 0);
+  for (const auto &line : lines)
+    for (std::size_t j = 0; j < line.size(); ++j)
+      widths[j] = std::max(widths[j], n_letters(line[j]));
+  std::string text;
+  for (const auto &line : lines)
+  {
+    for (std::size_t j = 0; j < line.size(); ++j)
+    {
+      const std::string space(widths[j] - n_letters(line[j]), ' ');
+      text += "  " + (columns[j].numeric ? space + line[j] : line[j] + space);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+void TableRow::add(const char *name, DescribedTable::Cell cell, const std::string &unit)
+{
+  if (first)
+    table.columns.push_back({prefix + name, unit, !std::holds_alternative<std::string>(cell)});
+  cells.push_back(blank ? DescribedTable::Cell() : std::move(cell));
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "apps/output/describe/described.h"
+
+#include <variant>
+
+namespace gestell::apps
+{
+
+/// Described values, one a row.  Members of described members have columns of their own, lists have none.
+struct DescribedTable
+{
+  using Cell = std::variant<std::string, double, long, bool>;
+  struct Column
+  {
+    std::string name, unit; ///< "frequency_hz", "Hz"
+    bool        numeric = true;
+    std::string head() const; ///< "frequency [Hz]"
+  };
+  std::vector<Column>            columns;
+  std::vector<std::vector<Cell>> rows;
+
+  /// Columns under the names that files have had for long.
+  DescribedTable renamed(const std::vector<std::pair<std::string, std::string>> &names) &&;
+
+  std::string csv() const;      ///< RFC 4180, numbers in full precision, truths as 1 and 0
+  std::string html() const;     ///< numbers to five digits
+  std::string terminal() const; ///< the same in columns
+};
+
+/// One row of a table.
+struct TableRow
+{
+  DescribedTable                   &table;
+  bool                              first;         ///< names the columns, too
+  bool                              blank = false; ///< there is no value
+  std::string                       prefix{};
+  std::vector<DescribedTable::Cell> cells{};
+
+  template <class T>
+  void operator()(const char *name, const T &value, const std::string &unit = "", const char * = "")
+  {
+    if constexpr (is_optional<T>)
+    {
+      const bool was = std::exchange(blank, blank || !value);
+      (*this)(name, value.value_or(typename T::value_type{}), unit);
+      blank = was;
+    }
+    else if constexpr (is_described<T>)
+    {
+      const std::string was = std::exchange(prefix, prefix + name + '_');
+      describe(*this, value);
+      prefix = was;
+    }
+    else if constexpr (is_pairs<T>)
+    {
+      const std::string was = std::exchange(prefix, prefix + name + ' ');
+      for (const auto &[key, own] : value)
+        (*this)(key.c_str(), own, unit);
+      prefix = was;
+    }
+    else if constexpr (!is_list<T>)
+      add(name, cell_of(value), unit);
+  }
+  template <class T>
+  void maybe(bool is, const char *name, const T &value, const std::string &unit = "", const char * = "")
+  {
+    const bool was = std::exchange(blank, blank || !is);
+    (*this)(name, value, unit);
+    blank = was;
+  }
+
+private:
+  template <class T>
+  static DescribedTable::Cell cell_of(const T &value)
+  {
+    if constexpr (std::is_same_v<T, bool>)
+      return value;
+    else if constexpr (std::is_integral_v<T>)
+      return long(value);
+    else if constexpr (std::is_floating_point_v<T>)
+      return double(value);
+    else
+      return std::string(value);
+  }
+  void add(const char *name, DescribedTable::Cell cell, const std::string &unit);
+};
+
+template <class T>
+DescribedTable table_of(const std::vector<T> &items)
+{
+  DescribedTable table;
+  T              none{};
+  TableRow       heads{table, true};
+  describe(heads, items.empty() ? none : items.front());
+  for (const T &item : items)
+  {
+    TableRow row{table, false};
+    describe(row, item);
+    table.rows.push_back(std::move(row.cells));
+  }
+  return table;
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,28 @@
+#include "apps/output/tables/summary_json.h"
+
+#include "apps/output/describe/described_json.h"
+#include "apps/output/describe/described_schema.h"
+#include "apps/output/values/result_description.h"
+
+namespace gestell::apps
+{
+
+std::string summary_json(const Result &result)
+{
+  return json_text(described_json(result));
+}
+
+std::vector<MemberLine> summary_members()
+{
+  return members_of<Result>();
+}
+
+std::string summary_schema()
+{
+  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "summary.json of gestell"}};
+  const Json result = described_schema<Result>();
+  schema.update(result);
+  return json_text(schema);
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "apps/output/describe/member_list.h"
+#include "apps/output/values/result.h"
+
+namespace gestell::apps
+{
+
+/// summary.json: the whole result in numbers, as describe() lists its members.
+std::string summary_json(const Result &result);
+
+/// Its members, for docs/results.md, and its JSON schema, docs/summary.schema.json.
+std::vector<MemberLine> summary_members();
+std::string             summary_schema();
+
+} // namespace gestell::apps

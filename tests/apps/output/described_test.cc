@@ -1,0 +1,150 @@
+// Members of results are listed once: JSON, its schema and the reference agree.
+
+#include "apps/output/describe/described_json.h"
+#include "apps/output/describe/described_schema.h"
+#include "apps/output/describe/described_table.h"
+#include "apps/output/tables/summary_json.h"
+#include "tests/support/output_example.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace gestell::apps
+{
+namespace
+{
+
+struct Inner
+{
+  double value = 2.5;
+};
+
+template <class Visitor>
+void describe(Visitor &v, const Inner &x)
+{
+  v("value_hz", x.value, "Hz", "a frequency");
+}
+
+struct Outer
+{
+  int                                         number = 3;
+  bool                                        flag   = true;
+  std::string                                 text   = "a, b";
+  std::optional<Inner>                        inner{};
+  std::vector<Inner>                          list{{1.}, {std::numeric_limits<double>::quiet_NaN()}};
+  std::vector<std::pair<std::string, double>> named{{"x", 1.}, {"y", 2.}};
+};
+
+template <class Visitor>
+void describe(Visitor &v, const Outer &x)
+{
+  v("number", x.number, "", "a number");
+  v("flag", x.flag, "", "a truth");
+  v("text", x.text, "", "a text");
+  v("inner", x.inner, "", "null: none");
+  v("list", x.list, "", "values");
+  v("named", x.named, "m", "by name");
+  v.maybe(x.number > 3, "more", 1., "s", "above three");
+}
+
+TEST(Described, JsonHasEveryMemberNullWhereThereIsNothing)
+{
+  Outer outer;
+  Json  json = Json::parse(json_text(described_json(outer)));
+  EXPECT_EQ(json.dump(),
+            R"({"number":3,"flag":true,"text":"a, b","inner":null,"list":[{"value_hz":1.0},{"value_hz":null}],)"
+            R"("named":{"x":1.0,"y":2.0}})");
+  outer.number = 4;
+  outer.inner  = Inner();
+  json         = described_json(outer);
+  EXPECT_EQ(json["more"], 1.);
+  EXPECT_EQ(json["inner"]["value_hz"], 2.5);
+}
+
+TEST(Described, TablesHaveAColumnForEachValue)
+{
+  Outer with, without;
+  with.inner                 = Inner();
+  with.number                = 4;
+  const DescribedTable table = table_of(std::vector<Outer>{without, with});
+  EXPECT_EQ(table.csv(), "number,flag,text,inner value [Hz],named x [m],named y [m],more [s]\n"
+                         "3,1,\"a, b\",,1,2,\n"
+                         "4,1,\"a, b\",2.5,1,2,1\n");
+  EXPECT_NE(table.html().find("inner value [Hz]"), std::string::npos);
+}
+
+TEST(Described, ReferenceListsWhatIsInside)
+{
+  std::set<std::string> paths;
+  for (const MemberLine &line : members_of<Outer>())
+    paths.insert(line.path + ": " + line.type + (line.always ? "" : "?"));
+  EXPECT_EQ(paths, (std::set<std::string>{"number: integer", "flag: boolean", "text: string", "inner: object or null",
+                                          "inner.value_hz: number", "list: array of objects", "list[].value_hz: number",
+                                          "named: object", "named.NAME: number", "more: number?"}));
+}
+
+/// Whether a document has the members and types of a schema; else where it does not.
+std::string mismatch(const Json &schema, const Json &value, const std::string &at)
+{
+  const Json &types = schema["type"];
+  const auto  is    = [&](const std::string &type)
+  {
+    return type == "object"    ? value.is_object()
+           : type == "array"   ? value.is_array()
+           : type == "string"  ? value.is_string()
+           : type == "boolean" ? value.is_boolean()
+           : type == "integer" ? value.is_number_integer()
+           : type == "number"  ? value.is_number()
+                               : value.is_null();
+  };
+  bool fits = types.is_string() && is(types);
+  if (types.is_array())
+    for (const Json &type : types)
+      fits = fits || is(type);
+  if (!fits)
+    return at + " is no " + types.dump();
+  if (value.is_object() && schema.contains("properties"))
+  {
+    for (const Json &name : schema["required"])
+      if (!value.contains(name.get<std::string>()))
+        return at + " lacks " + name.dump();
+    for (const auto &[name, own] : value.items())
+    {
+      if (!schema["properties"].contains(name))
+        return at + " has " + name + ", which the schema does not know";
+      if (const std::string wrong = mismatch(schema["properties"][name], own, at + '.' + name); !wrong.empty())
+        return wrong;
+    }
+  }
+  if (value.is_object() && schema.contains("additionalProperties"))
+    for (const auto &[name, own] : value.items())
+      if (const std::string wrong = mismatch(schema["additionalProperties"], own, at + '.' + name); !wrong.empty())
+        return wrong;
+  if (value.is_array())
+    for (const Json &own : value)
+      if (const std::string wrong = mismatch(schema["items"], own, at + "[]"); !wrong.empty())
+        return wrong;
+  return "";
+}
+
+TEST(SummaryJson, FitsItsSchema)
+{
+  const Json schema = Json::parse(summary_schema());
+  EXPECT_EQ(mismatch(schema, Json::parse(summary_json(Result())), "summary"), "");
+  EXPECT_EQ(mismatch(schema, Json::parse(summary_json(example_result())), "summary"), "");
+  Json wrong        = Json::parse(summary_json(Result()));
+  wrong["warnings"] = 1;
+  EXPECT_EQ(mismatch(schema, wrong, "summary"), "summary.warnings is no \"array\"");
+}
+
+TEST(SummaryJson, EveryMemberHasAMeaning)
+{
+  for (const MemberLine &line : summary_members())
+    EXPECT_FALSE(line.meaning.empty()) << line.path;
+}
+
+} // namespace
+} // namespace gestell::apps
