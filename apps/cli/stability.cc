@@ -97,9 +97,14 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
                   [&](Writing &writing)
                   {
                     writing.write("stability_maps.csv", maps_csv(maps));
-                    writing.write("unstable_intervals.csv", table_of(study.intervals).csv());
+                    writing.write("unstable_intervals.csv",
+                                  table_of(study.intervals)
+                                      .renamed({{"from_omega_h", "unstable_from_omega_h"},
+                                                {"growth_per_step", "largest_growth_per_step"}})
+                                      .csv());
                     if (with_scene)
-                      writing.write("stability_modes.csv", table_of(study.modes).csv());
+                      writing.write("stability_modes.csv",
+                                    table_of(study.modes).renamed({{"modes_of", "kind"}, {"number", "mode"}}).csv());
                     for (const auto &[zeta, charts] : study.charts)
                       for (const NamedSvg &chart : charts)
                         writing.write("charts/stability-" + chart.name + "-" + ratio_name(zeta) + ".svg", chart.svg);

@@ -12,7 +12,7 @@ namespace
 
 using namespace gestell::tests;
 
-const std::vector<SourceFile> &tree()
+const std::vector<SourceFile> &folders_and_files()
 {
   static const std::vector<SourceFile> files = read_source_tree(GESTELL_SOURCE_DIR);
   return files;
@@ -20,7 +20,7 @@ const std::vector<SourceFile> &tree()
 
 const RoomGraph &house()
 {
-  static const RoomGraph graph(tree(), {"fem", "mechanism", "coupling", "apps"});
+  static const RoomGraph graph(folders_and_files(), {"fem", "mechanism", "coupling", "apps"});
   return graph;
 }
 
@@ -39,8 +39,8 @@ const std::vector<std::vector<std::string>> directions = {
     {"coupling/integration", "coupling/frame", "coupling/algebra", "coupling/eigensolvers", "coupling/parallel",
      "coupling/reduction/shapes", "coupling/reduction/estimates", "coupling/reduction/methods", "coupling/reduction",
      "coupling/plugin/frame"},
-    {"coupling/integration", "coupling/frame", "coupling/exchange", "coupling/algebra", "coupling/machine", "coupling/equilibrium",
-     "coupling/modes", "coupling/simulation", "coupling/sensitivity"},
+    {"coupling/integration", "coupling/frame", "coupling/exchange", "coupling/algebra", "coupling/machine",
+     "coupling/equilibrium", "coupling/modes", "coupling/simulation", "coupling/sensitivity"},
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/elements", "apps/scene/build"},
     {"apps/scene", "apps/session", "apps/cli"},
     {"apps/study/values", "apps/study/designs", "apps/study/surface", "apps/study/optimum", "apps/study/report"},
@@ -91,9 +91,9 @@ TEST(Folders, SayWhatTheyHold)
   for (const auto &entry : house().folders())
   {
     const std::string readme = entry.first + "/README.md";
-    const auto        found =
-        std::find_if(tree().begin(), tree().end(), [&](const SourceFile &file) { return file.path == readme; });
-    ASSERT_NE(found, tree().end()) << readme;
+    const auto        found  = std::find_if(folders_and_files().begin(), folders_and_files().end(),
+                                            [&](const SourceFile &file) { return file.path == readme; });
+    ASSERT_NE(found, folders_and_files().end()) << readme;
     EXPECT_LE(found->lines.size(), 20u) << readme;
   }
 }
@@ -102,10 +102,12 @@ TEST(Libraries, AreIncludedWhereTheyBelong)
 {
   const std::vector<std::string> sources = {"fem/", "mechanism/", "coupling/", "apps/"};
 
-  EXPECT_EQ(
-      lines(includes_matching(tree(), sources, {"fem/assembly/", "fem/recovery/", "fem/parallel/"}, "deal\\.II/")), "");
-  EXPECT_EQ(lines(includes_matching(tree(), sources, {"fem/geometry/", "fem/mesh/"}, "gmsh")), "");
-  EXPECT_EQ(lines(includes_matching(tree(), {"apps/session/"}, {}, "iostream")), "");
-  EXPECT_EQ(lines(includes_matching(tree(), sources, {"apps/python/"}, "pybind11/")), "");
-  EXPECT_EQ(lines(includes_matching(tree(), sources, {"apps/output/exchange/"}, "matio\\.h|minizip/")), "");
+  EXPECT_EQ(lines(includes_matching(folders_and_files(), sources, {"fem/assembly/", "fem/recovery/", "fem/parallel/"},
+                                    "deal\\.II/")),
+            "");
+  EXPECT_EQ(lines(includes_matching(folders_and_files(), sources, {"fem/geometry/", "fem/mesh/"}, "gmsh")), "");
+  EXPECT_EQ(lines(includes_matching(folders_and_files(), {"apps/session/"}, {}, "iostream")), "");
+  EXPECT_EQ(lines(includes_matching(folders_and_files(), sources, {"apps/python/"}, "pybind11/")), "");
+  EXPECT_EQ(lines(includes_matching(folders_and_files(), sources, {"apps/output/exchange/"}, "matio\\.h|minizip/")),
+            "");
 }

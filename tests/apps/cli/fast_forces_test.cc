@@ -15,7 +15,7 @@ namespace
 {
 
 /// A steel plate of 0.8 x 0.6 x 0.01 m between two walls; 1 kN is set down in its middle within 1 ms.
-const std::string plate =
+const std::string plate_scene =
     "name = 'plate'\n" + cad_frame("plate.geo", "0.1 m", {{"damping", "{ ratio = 0.01 }"}}) +
     plane_surface("walls", "[1, 0, 0]", "[0.8, 0, 0]") + plane_surface("other", "[-1, 0, 0]", "[0, 0, 0]") +
     plane_surface("pad", "[0, 0, 1]", "[0, 0, 0.01]") +
@@ -65,8 +65,8 @@ protected:
     folder_.file("plate.geo", "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 0.8, 0.6, 0.01};\n"
                               "Rectangle(20) = {0.35, 0.25, 0.01, 0.1, 0.1};\n"
                               "BooleanFragments{ Volume{1}; Delete; }{ Surface{20}; Delete; }\n");
-    const Answer answer = gestell("run " + folder_.file("scene.toml", plate + GetParam().scene) + folder_.option() +
-                                  " --set reduction.frequency='\"" + frequency + "\"'");
+    const Answer answer = gestell("run " + folder_.file("scene.toml", plate_scene + GetParam().scene) +
+                                  folder_.option() + " --set reduction.frequency='\"" + frequency + "\"'");
     EXPECT_EQ(answer.exit_code, 0) << answer.text;
     return answer;
   }

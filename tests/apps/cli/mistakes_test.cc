@@ -149,7 +149,7 @@ const std::vector<Mistake> of_a_frame = {
      0},
 };
 
-std::string press()
+std::string press_scene()
 {
   return read(GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml");
 }
@@ -168,7 +168,7 @@ void expect_told(const Mistake &mistake, const std::string &scene, const Folder 
 TEST_P(MistakeInAScene, IsAnsweredWithPlaceValueAndWayOut)
 {
   const Folder folder("mistake");
-  expect_told(GetParam(), press(), folder);
+  expect_told(GetParam(), press_scene(), folder);
 }
 INSTANTIATE_TEST_SUITE_P(Press, MistakeInAScene, testing::ValuesIn(of_the_press), name_of);
 
@@ -190,18 +190,18 @@ TEST(MistakeInAFile, IsAnsweredWithItsLineAndWhatToSaveItAs)
   const Folder folder("mistake");
   const auto   check = [&](const std::string &text) { return gestell("check " + folder.file("scene.toml", text)); };
   std::string  wide;
-  for (const char c : press())
+  for (const char c : press_scene())
     wide += {c, '\0'};
   expect_answer(check("\xFF\xFE" + wide), 2, {"scene.toml:1: ", "save it as UTF-8"});
-  expect_answer(check(edited(press(), {{"# drive", "# Antrieb f\xFCr"}})), 2,
+  expect_answer(check(edited(press_scene(), {{"# drive", "# Antrieb f\xFCr"}})), 2,
                 {"scene.toml:17: ", "save the file as UTF-8"});
-  expect_answer(check(edited(press(), {{"step   = \"10 us\"", "step   = 1e400"}})), 2,
+  expect_answer(check(edited(press_scene(), {{"step   = \"10 us\"", "step   = 1e400"}})), 2,
                 {"scene.toml:196: ", "beyond 1.8e308"});
   expect_answer(check("ISO-10303-21;\n"), 2, {"scene.toml:1: ", "gestell mesh FILE", "frame.cad"});
   expect_answer(check(""), 2, {"has nothing that moves", "[body.NAME]"});
-  EXPECT_EQ(check("\xEF\xBB\xBF" + press()).exit_code, 0); // what editors of Windows put there
-  EXPECT_EQ(check(std::regex_replace(press(), std::regex("\n"), "\r\n")).exit_code, 0);
-  EXPECT_EQ(check(edited(press(), {{"method =", "\tmethod\t="}})).exit_code, 0);
+  EXPECT_EQ(check("\xEF\xBB\xBF" + press_scene()).exit_code, 0); // what editors of Windows put there
+  EXPECT_EQ(check(std::regex_replace(press_scene(), std::regex("\n"), "\r\n")).exit_code, 0);
+  EXPECT_EQ(check(edited(press_scene(), {{"method =", "\tmethod\t="}})).exit_code, 0);
 }
 
 TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
@@ -231,7 +231,7 @@ TEST(MistakeOnTheCommandLine, IsAnsweredWithTheOptionAndWhatItTakes)
 TEST(NameThatCannotBeReached, IsAnsweredWithItsPlaceAndTheReasonWhereverItStands)
 {
   const Folder      folder("mistake");
-  const std::string longer(300, 'x'), ring = (folder / "ring").string(), press = scene("press_minimal.toml");
+  const std::string longer(300, 'x'), ring = (folder / "ring").string(), press_scene = scene("press_minimal.toml");
   std::filesystem::create_symlink("ring", ring);
   for (const auto &[name, reason] :
        {std::pair<std::string, std::string>{longer, "File name too long"}, {ring, "Too many levels of symbolic links"}})
@@ -242,11 +242,11 @@ TEST(NameThatCannotBeReached, IsAnsweredWithItsPlaceAndTheReasonWhereverItStands
     { return gestell("check " + folder.file("scene.toml", std::regex_replace(text, std::regex("NAME"), key))); };
     expect_answer(check("extends = \"NAME\"\n"), 2, {"scene.toml:1: extends = ", name, reason});
     expect_answer(check("[frame]\ncad = \"NAME\"\n"), 2, {"scene.toml:2: frame.cad", name, reason});
-    expect_answer(gestell("run " + press + " -o " + name), 2, {name, reason, "name a folder"});
-    expect_answer(gestell("export " + press + " --fmu " + name + "/x.fmu"), 2, {name, reason});
+    expect_answer(gestell("run " + press_scene + " -o " + name), 2, {name, reason, "name a folder"});
+    expect_answer(gestell("export " + press_scene + " --fmu " + name + "/x.fmu"), 2, {name, reason});
     expect_answer(gestell("new crane " + name + "/x.toml"), 2, {name, reason});
   }
-  expect_answer(gestell("run " + press + " -o ''"), 2, {"--output", "is empty; give it a value"});
+  expect_answer(gestell("run " + press_scene + " -o ''"), 2, {"--output", "is empty; give it a value"});
 }
 
 // They have no end, and some of them no begin.

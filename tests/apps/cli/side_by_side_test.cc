@@ -11,7 +11,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-const std::string press = scene("press_minimal.toml") + " --quiet --set run.end=0.01 ";
+const std::string press_file = scene("press_minimal.toml") + " --quiet --set run.end=0.01 ";
 /// Takes longer than a process needs to see that it has begun; energy and pictures keep it busy.
 const std::string long_press = scene("press_minimal.toml") + " --quiet --set run.end=2 ";
 
@@ -25,7 +25,7 @@ bool is_whole(const fs::path &folder, const std::string &history)
 std::string alone()
 {
   const Folder folder("alone");
-  expect_answer(gestell("run " + press + folder.option()), 0, {"report: "});
+  expect_answer(gestell("run " + press_file + folder.option()), 0, {"report: "});
   return read(folder.results() / "history.csv");
 }
 
@@ -36,7 +36,7 @@ TEST(SideBySide, RunsBelowOneNewFolderAreAllWhole)
   const std::string history = alone();
   const Folder      folder("side_below");
   constexpr int     n = 8;
-  const auto answers  = side_by_side(folder, n, n, "run " + press + "-o " + (folder / "new/deep").string() + "/%1");
+  const auto answers = side_by_side(folder, n, n, "run " + press_file + "-o " + (folder / "new/deep").string() + "/%1");
   for (int i = 1; i <= n; ++i)
   {
     EXPECT_EQ(answers[i - 1].exit_code, 0) << answers[i - 1].text;
@@ -48,7 +48,7 @@ TEST(SideBySide, RunsIntoOneFolderLeaveAWholeOneAndRefuseTheRest)
 {
   const std::string history = alone();
   const Folder      folder("side_one");
-  const auto        answers = side_by_side(folder, 8, 8, "run " + press + folder.option());
+  const auto        answers = side_by_side(folder, 8, 8, "run " + press_file + folder.option());
   for (const Answer &answer : answers)
     if (answer.exit_code != 0)
       expect_answer(answer, 2,
@@ -78,7 +78,7 @@ TEST(SideBySide, TheProcessThatHoldsAFolderIsNamed)
   for (const std::string command : {"run ", "modes ", "periodic "})
   {
     const Folder      folder("side_named");
-    const Answer      both  = beside_a_stopped_one(folder, command + press + folder.option(), "CONT");
+    const Answer      both  = beside_a_stopped_one(folder, command + press_file + folder.option(), "CONT");
     const std::string first = both.text.substr(both.text.find("first is ") + 9);
     EXPECT_EQ(both.exit_code, 0) << both.text;
     EXPECT_TRUE(both.says("second: 2")) << both.text;
@@ -93,14 +93,15 @@ TEST(SideBySide, TheLockOfADeadProcessIsNone)
   const Answer dead = beside_a_stopped_one(folder, "--version", "KILL");
   EXPECT_EQ(dead.exit_code, 137) << dead.text;
   ASSERT_TRUE(fs::exists(folder.results() / ".gestell-lock"));
-  expect_answer(gestell("run " + press + folder.option()), 0, {"report: "});
+  expect_answer(gestell("run " + press_file + folder.option()), 0, {"report: "});
   EXPECT_FALSE(fs::exists(folder.results() / ".gestell-lock"));
 }
 
 TEST(SideBySide, ARunThatIsRefusedLeavesNoFolder)
 {
   const Folder folder("side_refused");
-  expect_answer(gestell("run " + press + "--set run.step=1 -o " + (folder / "new/deep").string()), 2, {"run.step"});
+  expect_answer(gestell("run " + press_file + "--set run.step=1 -o " + (folder / "new/deep").string()), 2,
+                {"run.step"});
   EXPECT_FALSE(fs::exists(folder / "new"));
 }
 

@@ -17,7 +17,7 @@ namespace
 {
 
 /// Volume enclosed by a surface of triangles; positive if their outside is counter-clockwise.
-double volume(const Shape &shape)
+double volume_of(const Shape &shape)
 {
   double v = 0.;
   for (const auto &t : shape.triangles)
@@ -52,7 +52,7 @@ Skin cube(int n)
   return skin;
 }
 
-const Shape &named(const std::vector<Shape> &shapes, const std::string &name)
+const Shape &shape_named(const std::vector<Shape> &shapes, const std::string &name)
 {
   return *std::find_if(shapes.begin(), shapes.end(), [&](const Shape &shape) { return shape.name == name; });
 }
@@ -94,9 +94,9 @@ TEST(MechanismShapes, AreClosedAndLookOutwards)
   ASSERT_EQ(shapes.size(), 3u);
   const double disc = 18. * std::sin(M_PI / 18.) * 0.3 * 0.3 * 0.25 * 0.3; // 36 corners, a quarter of the radius wide
   const double rib  = 0.3 * (0.18 * 0.3) * (2. * 0.25 * 0.3);
-  EXPECT_NEAR(volume(named(shapes, "crank")), disc + rib, 1e-12);
-  EXPECT_NEAR(volume(named(shapes, "slide")), 0.5 * 0.4 * 0.3, 1e-12);
-  EXPECT_GT(volume(named(shapes, "rod")), 0.);
+  EXPECT_NEAR(volume_of(shape_named(shapes, "crank")), disc + rib, 1e-12);
+  EXPECT_NEAR(volume_of(shape_named(shapes, "slide")), 0.5 * 0.4 * 0.3, 1e-12);
+  EXPECT_GT(volume_of(shape_named(shapes, "rod")), 0.);
 }
 
 TEST(MechanismShapes, SlideStandsWhereTheCrankDrivesItAndCarriesTheRestAsDisplacement)
@@ -107,11 +107,11 @@ TEST(MechanismShapes, SlideStandsWhereTheCrankDrivesItAndCarriesTheRestAsDisplac
   const double  play   = 3e-4;
   const auto    shapes = mechanism_shapes(scenery, state(1e-4, 2e-4, phi, u + play));
 
-  const Shape &slide = named(shapes, "slide");
+  const Shape &slide = shape_named(shapes, "slide");
   EXPECT_LT((centre(slide) - Vector3d(0.5, 0.5, 1.2 - u)).norm(), 1e-12);
   for (const Vector3d &d : slide.displacement)
     EXPECT_LT((d - Vector3d(0., 0., -play)).norm(), 1e-12);
-  for (const Vector3d &d : named(shapes, "crank").displacement)
+  for (const Vector3d &d : shape_named(shapes, "crank").displacement)
     EXPECT_LT((d - Vector3d(1e-4, 0., 2e-4)).norm(), 1e-12);
 }
 
@@ -120,7 +120,7 @@ TEST(MechanismShapes, RodKeepsItsLengthAndItsPinIsOnTopAtDeadCentre)
   const Scenery scenery = example_result().scenery;
   for (const double phi : {0., 0.5, M_PI / 2., 2., M_PI, 5.})
   {
-    const Shape rod    = named(mechanism_shapes(scenery, state(0., 0., phi, 0.)), "rod");
+    const Shape rod    = shape_named(mechanism_shapes(scenery, state(0., 0., phi, 0.)), "rod");
     const auto  middle = [&](std::vector<int> corners)
     {
       Vector3d sum = Vector3d::Zero();
@@ -170,7 +170,7 @@ TEST(Skin, RefinedHasShortEdgesAndTheSameVolume)
   for (const auto &t : fine.triangles)
     for (int i = 0; i < 3; ++i)
       EXPECT_LE((fine.points[t[i]] - fine.points[t[(i + 1) % 3]]).norm(), 0.21);
-  EXPECT_NEAR(volume({"", fine.points, {}, fine.triangles}), 1., 1e-12);
+  EXPECT_NEAR(volume_of({"", fine.points, {}, fine.triangles}), 1., 1e-12);
   EXPECT_EQ(fine.displacement.size(), fine.points.size());
 }
 

@@ -156,25 +156,26 @@ TEST(FormulaText, OfEverySizeIsReadOrRefused)
 
 // --- the element
 
-const std::string slider = "[parameters]\ngap = '10 mm'\nk   = '20 N/mm'\n" + slider_body("slide", "2", "[1, 0, 0]") +
-                           start("v = { slide = 1 }") + "[run]\nend = '0.2 s'\n" +
-                           signals("x = 'slide.displacement', v = 'slide.velocity', F = 'law.force'");
+const std::string formula_slider = "[parameters]\ngap = '10 mm'\nk   = '20 N/mm'\n" +
+                                   slider_body("slide", "2", "[1, 0, 0]") + start("v = { slide = 1 }") +
+                                   "[run]\nend = '0.2 s'\n" +
+                                   signals("x = 'slide.displacement', v = 'slide.velocity', F = 'law.force'");
 
 std::string law(const std::string &formula)
 {
   return "[element.law]\ntype = \"formula force\"\nfrom = \"slide\"\nforce = \"" + formula + "\"\n";
 }
 
-const Settings bdf = {"run.step=10 us"}, controlled = {"run.tolerance=1e-9"},
+const Settings bdf_20us = {"run.step=10 us"}, controlled = {"run.tolerance=1e-9"},
                exact = {"run.method=exact", "run.tolerance=1e-10"};
 
 using FormulaRun = ::testing::TestWithParam<Settings>;
 
 TEST_P(FormulaRun, OfACubicSpringIsThatOfTheElement)
 {
-  const SceneRun formula = run(slider + law("-k*u - 5e8 N/m^3 * u^3"), GetParam());
-  const SceneRun element = run(slider + "[element.law]\ntype = \"cubic spring\"\nfrom = \"slide\"\n"
-                                        "stiffness = \"k\"\ncubic = \"5e8 N/m^3\"\n",
+  const SceneRun formula = run(formula_slider + law("-k*u - 5e8 N/m^3 * u^3"), GetParam());
+  const SceneRun element = run(formula_slider + "[element.law]\ntype = \"cubic spring\"\nfrom = \"slide\"\n"
+                                                "stiffness = \"k\"\ncubic = \"5e8 N/m^3\"\n",
                                GetParam());
   ASSERT_EQ(formula.n_rows(), element.n_rows());
   // Two ways to sum up the same force; what Newton leaves, 1e-10 of a correction, is the same in both.
@@ -187,7 +188,7 @@ TEST_P(FormulaRun, OfACubicSpringIsThatOfTheElement)
 TEST_P(FormulaRun, LocatesItsKinks)
 {
   // Free to 10 mm at 1 m/s, there a spring: half a period of omega = 100 1/s, and back.
-  const SceneRun motion = run(slider + law("-k*max(u - gap, 0)"), GetParam());
+  const SceneRun motion = run(formula_slider + law("-k*max(u - gap, 0)"), GetParam());
   EXPECT_NEAR(time_of(motion, "max_1_rises"), 0.01, 1e-9);
   EXPECT_NEAR(time_of(motion, "max_1_falls"), 0.01 + M_PI / 100., 1e-7);
   EXPECT_EQ(motion.result.events.size(), 2u);
@@ -197,7 +198,7 @@ TEST_P(FormulaRun, LocatesItsKinks)
 
 TEST_P(FormulaRun, OfAContactAfterHertzGivesBackTheSpeed)
 {
-  const SceneRun motion = run(slider + law("-9 N * (max(u - gap, 0)/mm)^1.5"), GetParam());
+  const SceneRun motion = run(formula_slider + law("-9 N * (max(u - gap, 0)/mm)^1.5"), GetParam());
   EXPECT_NEAR(time_of(motion, "max_1_rises"), 0.01, 1e-9);
   EXPECT_NEAR(motion.signal("v").final, -1., 1e-5);
   // m v^2/2 = c/2.5 d^2.5 with c = 9 N/mm^1.5
@@ -206,21 +207,23 @@ TEST_P(FormulaRun, OfAContactAfterHertzGivesBackTheSpeed)
 
 TEST_P(FormulaRun, LocatesItsJumps)
 {
-  const SceneRun motion = run(slider + law("if(t < 20 ms, 0, if(t < 50 ms, -40 N, 10 N))"), GetParam());
+  const SceneRun motion = run(formula_slider + law("if(t < 20 ms, 0, if(t < 50 ms, -40 N, 10 N))"), GetParam());
   EXPECT_NEAR(time_of(motion, "if_1_rises"), 0.02, 1e-12);
   EXPECT_NEAR(time_of(motion, "if_2_rises"), 0.05, 1e-12);
   EXPECT_NEAR(motion.signal("v").final, 1. - 20. * 0.03 + 5. * 0.15, 1e-6);
   EXPECT_NEAR(motion.signal("x").final, 0.2 - 0.6 * (0.2 - 0.035) + 0.5 * 5. * 0.15 * 0.15, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, FormulaRun,
-                         ::testing::Values(bdf, controlled, exact, Settings{"run.method=newmark", "run.step=10 us"}));
+                         ::testing::Values(bdf_20us, controlled, exact,
+                                           Settings{"run.method=newmark", "run.step=10 us"}));
 
 TEST(FormulaForceElement, TellsItsEventsAfterwardsToo)
 {
-  const SceneRun motion = run(slider + law("-k*abs(u - gap)*step(u - gap) + 0*abs(v)*1 N s/m + 0*abs(u)*1 N/m + "
-                                           "0*abs(u - 5 mm)*1 N/m + 0*abs(u - 6 mm)*1 N/m + 0*abs(u - 7 mm)*1 N/m + "
-                                           "0*abs(u - 8 mm)*1 N/m + 0*abs(u - 9 mm)*1 N/m + 0*abs(u - 9.5 mm)*1 N/m"),
-                              {"run.step=10 us", "run.events=false"});
+  const SceneRun motion =
+      run(formula_slider + law("-k*abs(u - gap)*step(u - gap) + 0*abs(v)*1 N s/m + 0*abs(u)*1 N/m + "
+                               "0*abs(u - 5 mm)*1 N/m + 0*abs(u - 6 mm)*1 N/m + 0*abs(u - 7 mm)*1 N/m + "
+                               "0*abs(u - 8 mm)*1 N/m + 0*abs(u - 9 mm)*1 N/m + 0*abs(u - 9.5 mm)*1 N/m"),
+          {"run.step=10 us", "run.events=false"});
   EXPECT_NEAR(time_of(motion, "abs_5_rises"), 5e-3, 1e-9);
   EXPECT_NEAR(time_of(motion, "abs_10_rises"), 9.5e-3, 1e-9);
   EXPECT_NEAR(time_of(motion, "step_2_falls"), 0.01 + M_PI / 100., 1e-5);
@@ -254,23 +257,24 @@ TEST(FormulaForceElement, IsStructureByItsDerivatives)
 TEST(FormulaForceElement, RefusesWhatMakesNoSense)
 {
   const auto said = [](const std::string &formula)
-  { return test::complaint(slider + law(formula), {"run.step=1 ms"}); };
+  { return test::complaint(formula_slider + law(formula), {"run.step=1 ms"}); };
   EXPECT_EQ(said("-k*u"), "");
   EXPECT_EQ(said("-k*u + 3 mm").find("scene.toml:18: element.law.force: \"-k*u + 3 mm\" adds m to N"), 0u)
       << said("-k*u + 3 mm");
   EXPECT_NE(said("-k*u^2").find("needs a force such as"), std::string::npos);
   EXPECT_NE(said("-kk*u").find("did you mean 'k'"), std::string::npos) << said("-kk*u");
-  EXPECT_NE(test::complaint(slider + law("-k*u"), {"run.step=1 ms", "parameters.u=3"})
+  EXPECT_NE(test::complaint(formula_slider + law("-k*u"), {"run.step=1 ms", "parameters.u=3"})
                 .find("a variable of the formula and a parameter"),
             std::string::npos);
-  EXPECT_NE(test::complaint(slider + "[element.law]\ntype = \"formula force\"\nfrom = \"slide\"\n", {"run.step=1 ms"})
-                .find("the key 'force' is missing"),
-            std::string::npos);
+  EXPECT_NE(
+      test::complaint(formula_slider + "[element.law]\ntype = \"formula force\"\nfrom = \"slide\"\n", {"run.step=1 ms"})
+          .find("the key 'force' is missing"),
+      std::string::npos);
 }
 
 TEST(FormulaForceElement, ThatFallsOverTheRateIsDryFrictionThatChatters)
 {
-  const SceneRun motion = run(slider + law("-20 N*sign(v)"), {"run.step=0.1 ms"});
+  const SceneRun motion = run(formula_slider + law("-20 N*sign(v)"), {"run.step=0.1 ms"});
   EXPECT_NEAR(time_of(motion, "sign_1_falls"), 0.1, 1e-9);
   EXPECT_NEAR(motion.signal("v").final, 0., 2. * 10. * 1e-4); // to and fro within a step
   EXPECT_NEAR(motion.signal("x").final, 0.05, 1e-4);
@@ -280,7 +284,7 @@ TEST(FormulaForceElement, ThatIsNoNumberStopsTheRun)
 {
   for (const std::string formula : {"1 N*sqrt(0.1 - u/m)", "1 N*sqrt(0.1 - abs(u/m))"}) // u comes to 0.1 m at 1 m/s
   {
-    const SceneRun motion = stopped(slider + law(formula), {"run.step=1 ms"});
+    const SceneRun motion = stopped(formula_slider + law(formula), {"run.step=1 ms"});
     EXPECT_NE(motion.result.failure, "") << formula;
     EXPECT_NEAR(motion.at(motion.n_rows() - 1, 0), 0.1, 0.01) << formula;
   }

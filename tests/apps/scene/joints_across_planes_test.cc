@@ -11,7 +11,7 @@ namespace gestell::tests
 namespace
 {
 
-const std::string settings = "[run]\nmethod = \"bdf\"\nstep = \"5 ms\"\nend = \"50 ms\"\n[output]\npicture_step = 0\n";
+const std::string short_run = "[run]\nmethod = \"bdf\"\nstep = \"5 ms\"\nend = \"50 ms\"\n[output]\npicture_step = 0\n";
 
 struct Kind
 {
@@ -53,7 +53,7 @@ std::string pair_of(const Kind &a, const Kind &b, const std::string &type, doubl
   const bool  in_space = a.name == "rigid" || b.name == "rigid";
   std::string scene = body("a", a) + body("b", b) + "[joint.j]\ntype = \"" + type + "\"\nfrom = \"" + marker("a", a) +
                       "\"\nto = \"" + marker("b", b) + "\"\nat_from = " + place(at_a[1]) + "\nat_to = " + place(y_b) +
-                      "\n" + (type == "revolute" && in_space ? "axis = [0, 1, 0]\n" : "") + settings +
+                      "\n" + (type == "revolute" && in_space ? "axis = [0, 1, 0]\n" : "") + short_run +
                       "[output.signals]\n";
   std::string places;
   for (const auto &[name, kind, y] : {std::tuple{"a", a, at_a[1]}, std::tuple{"b", b, y_b}})
@@ -132,7 +132,7 @@ TEST(JointsAcrossPlanes, AScrewAskewToItsShaftIsRefused)
   expect_complaint(body("shaft", kinds[1]) + body("nut", kinds[3]) +
                        "[joint.j]\ntype = \"screw\"\nfrom = \"shaft\"\nto = \"nut\"\nat_from = [0, 0, 0]\n"
                        "at_to = [0.3, 0, 0]\naxis = [0.6, 0.8, 0]\npitch = \"10 mm\"\n" +
-                       settings + "signals = { }\n",
+                       short_run + "signals = { }\n",
                    "lies askew to the axis of 'shaft'");
 }
 
@@ -151,7 +151,7 @@ TEST(JointsAcrossPlanes, ADirectionThatIsIdleAsDescribedIsHeld)
 {
   const std::string crank = rotor_body("crank", "0.1", "[0, 1, 0]") + slider_body("slide", "1", "[1, 0, 0]") +
                             revolute("pin", "crank", "slide", "[0, 0, 0.1]");
-  expect_complaint(crank + start("v = { crank = 1 }") + settings + "signals = { x = \"slide.displacement\" }\n",
+  expect_complaint(crank + start("v = { crank = 1 }") + short_run + "signals = { x = \"slide.displacement\" }\n",
                    "holds nothing that could move");
 }
 
@@ -162,7 +162,7 @@ TEST(JointsAcrossPlanes, ALineAcrossThePlaneHoldsBothDirections)
   {
     const SceneRun motion = run("gravity = [1, 2, -3]\n" + body("bar", kinds[6]) + "[joint.j]\ntype = \"" + type +
                                 "\"\nfrom = \"ground\"\nto = \"bar\"\nat = [0.3, 0.05, 0.1]\naxis = [0, 1, 0]\n" +
-                                settings + "[output.signals]\nx = \"bar.ux\"\nz = \"bar.uz\"\n");
+                                short_run + "[output.signals]\nx = \"bar.ux\"\nz = \"bar.uz\"\n");
     EXPECT_NEAR(motion.signal("x").max, 0., 1e-9) << type;
     EXPECT_NEAR(motion.signal("z").min, 0., 1e-9) << type;
   }
@@ -175,7 +175,7 @@ TEST(JointsAcrossPlanes, AWeldHoldsBothAxes)
                      "type = \"planar\"\nnormal = [0, 0, 1]\nmass = 2\ninertia = 0.1\nposition = [0, 0, 0]\n"};
   const SceneRun motion =
       run(body("a", kinds[1]) + body("b", centred) + joint("j", "rigid", "a", "b", "[0, 0, 0]") +
-          element("torque", "force", {{"from", "a"}, {"about", "[0, 1, 0]"}, {"constant", "5 N m"}}) + settings +
+          element("torque", "force", {{"from", "a"}, {"about", "[0, 1, 0]"}, {"constant", "5 N m"}}) + short_run +
           "signals = { phi = \"a.angle\" }\n");
   EXPECT_NEAR(motion.signal("phi").max, 0., 1e-9);
 }

@@ -17,7 +17,7 @@ std::string reduced_by(const std::string &method, const std::string &lines = "")
   return test::small_scene("[run]", "[reduction]\nmethod = \"" + method + "\"\n" + lines + "[run]");
 }
 
-apps::ReductionRequest read(const std::string &text)
+apps::ReductionRequest request_of(const std::string &text)
 {
   const test::SceneFolder folder;
   return apps::read_scene(folder.write("scene.toml", text)).reduction;
@@ -27,7 +27,7 @@ TEST(ReductionMethods, OfTheTableAreThoseOfScenes)
 {
   for (const auto &entry : Reductions::entries())
   {
-    const auto request = read(reduced_by(entry.name));
+    const auto request = request_of(reduced_by(entry.name));
     EXPECT_EQ(request.method, entry.name);
     EXPECT_EQ(request.options.method, request.reduces() ? entry.name : "craig-bampton") << "of the companion";
   }
@@ -48,7 +48,7 @@ TEST(ReductionMethods, TakeTheirOwnKeysAndRefuseThoseOfOthers)
     {
       const std::string text = reduced_by(method.name, key + " = " + value + "\n");
       if (method.name == "modal" && method.takes(key))
-        EXPECT_NO_THROW(read(text)); // the motor of this machine is what it refuses
+        EXPECT_NO_THROW(request_of(text)); // the motor of this machine is what it refuses
       else if (method.takes(key))
         EXPECT_EQ(test::complaint(text), "") << method.name;
       else
@@ -63,8 +63,8 @@ TEST(ReductionMethods, TakeTheirOwnKeysAndRefuseThoseOfOthers)
 
 TEST(ReductionMethods, InsideFreeInterfaceIsTheMethodOfThatName)
 {
-  const auto inside = read(reduced_by("craig-bampton", "inside = \"free-interface\"\n"));
-  EXPECT_EQ(inside.options.method, read(reduced_by("free-interface")).options.method);
+  const auto inside = request_of(reduced_by("craig-bampton", "inside = \"free-interface\"\n"));
+  EXPECT_EQ(inside.options.method, request_of(reduced_by("free-interface")).options.method);
   EXPECT_TRUE(inside.reduces());
 }
 

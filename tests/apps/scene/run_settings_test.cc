@@ -17,7 +17,7 @@ namespace
 using test::complaint;
 using test::small_scene;
 
-coupling::RunOptions read(const std::string &run, const std::vector<std::string> &overrides = {})
+coupling::RunOptions options_of(const std::string &run, const std::vector<std::string> &overrides = {})
 {
   return test::scene_of(small_scene("step = \"10 us\"", run), overrides).run.options;
 }
@@ -34,34 +34,34 @@ std::string complaint_of(const std::string &run)
 
 TEST(RunSettings, NameEveryMethodWithItsParameters)
 {
-  const auto newmark = read("method = \"newmark\"\nbeta = 0.3\ngamma = 0.6\nstep = 1e-5").method;
+  const auto newmark = options_of("method = \"newmark\"\nbeta = 0.3\ngamma = 0.6\nstep = 1e-5").method;
   EXPECT_EQ(newmark.method, "newmark");
   EXPECT_EQ(number(newmark, "beta"), 0.3);
   EXPECT_EQ(number(newmark, "gamma"), 0.6);
-  EXPECT_EQ(number(read("method = \"wilson\"\ntheta = 1.5\nstep = 1e-5").method, "theta"), 1.5);
-  EXPECT_EQ(number(read("method = \"hht\"\nalpha = -0.1\nstep = 1e-5").method, "alpha"), -0.1);
-  EXPECT_EQ(number(read("method = \"generalised-alpha\"\nrho_inf = 0.6\nstep = 1e-5").method, "rho_inf"), 0.6);
-  EXPECT_EQ(read("method = \"central-difference\"\nstep = 1e-5").method.method, "central-difference");
-  const auto exact = read("method = \"exact\"\nforce = \"average\"\nstep = 1e-5").method;
+  EXPECT_EQ(number(options_of("method = \"wilson\"\ntheta = 1.5\nstep = 1e-5").method, "theta"), 1.5);
+  EXPECT_EQ(number(options_of("method = \"hht\"\nalpha = -0.1\nstep = 1e-5").method, "alpha"), -0.1);
+  EXPECT_EQ(number(options_of("method = \"generalised-alpha\"\nrho_inf = 0.6\nstep = 1e-5").method, "rho_inf"), 0.6);
+  EXPECT_EQ(options_of("method = \"central-difference\"\nstep = 1e-5").method.method, "central-difference");
+  const auto exact = options_of("method = \"exact\"\nforce = \"average\"\nstep = 1e-5").method;
   EXPECT_EQ(exact.method, "exact");
   EXPECT_EQ(coupling::method_of(exact).choice(exact, "force"), "average");
-  EXPECT_EQ(read("method = \"exact\"\norder = 6\nstep = 1e-5").method.order, 6);
+  EXPECT_EQ(options_of("method = \"exact\"\norder = 6\nstep = 1e-5").method.order, 6);
 }
 
 TEST(RunSettings, HaveTheirDefaults)
 {
-  const auto fixed = read("step = 1e-5");
+  const auto fixed = options_of("step = 1e-5");
   EXPECT_EQ(fixed.method.method, "bdf");
   EXPECT_EQ(fixed.method.order, 2);
   EXPECT_TRUE(fixed.events);
   EXPECT_FALSE(fixed.force_unstable);
   EXPECT_EQ(coupling::output_step(fixed), 1e-5);
-  const auto controlled = read("tolerance = 1e-6");
+  const auto controlled = options_of("tolerance = 1e-6");
   EXPECT_EQ(controlled.method.order, 5);
   EXPECT_EQ(controlled.method.step, 0.);
   EXPECT_DOUBLE_EQ(coupling::output_step(controlled), 0.1 / 2000.);
-  EXPECT_EQ(read("tolerance = 1e-6\nstep = \"1 ms\"").method.step, 1e-3);
-  const auto exact = read("method = \"exact\"\nstep = 1e-5").method;
+  EXPECT_EQ(options_of("tolerance = 1e-6\nstep = \"1 ms\"").method.step, 1e-3);
+  const auto exact = options_of("method = \"exact\"\nstep = 1e-5").method;
   EXPECT_EQ(coupling::method_of(exact).choice(exact, "force"), "collocation");
   EXPECT_EQ(exact.order, 4);
 }
@@ -145,7 +145,7 @@ TEST(RunSettings, AStepOfHalfTheLoadsPeriodIsToldByCheck)
 
 coupling::MethodOptions overridden(const std::string &run, const std::vector<std::string> &overrides)
 {
-  return read(run, overrides).method;
+  return options_of(run, overrides).method;
 }
 
 // The tolerance and its largest step belong to the method that controls its step.

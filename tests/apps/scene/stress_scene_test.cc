@@ -33,7 +33,7 @@ surface = "end"
          "[output.signals]\nu = 'frame.tip.uz'\nphi = 'frame.tip.ry'\n" + stress + more;
 }
 
-apps::Scene read(const std::string &text)
+apps::Scene scene_of(const std::string &text)
 {
   const SceneFolder folder;
   folder.write("beam.geo", "");
@@ -43,12 +43,12 @@ apps::Scene read(const std::string &text)
 /// What is said against a scene.
 std::string message(const std::string &text)
 {
-  return tests::refusal([&] { read(text); });
+  return tests::refusal([&] { scene_of(text); });
 }
 
 TEST(StressScene, AsksTheFrameAndTheRunForWhatItNeeds)
 {
-  const apps::Scene scene = read(scene_with(R"([output.stress]
+  const apps::Scene scene = scene_of(scene_with(R"([output.stress]
 at       = ["1.5 s", "0.5 s"]
 largest  = ["u", "stress"]
 smallest = "phi"
@@ -70,18 +70,18 @@ smallest = "phi"
 
 TEST(StressScene, MeansTheLargestStressIfNothingElseIsSaid)
 {
-  const apps::Scene scene = read(scene_with("[output.stress]\n"));
+  const apps::Scene scene = scene_of(scene_with("[output.stress]\n"));
   ASSERT_EQ(scene.stress.instants.size(), 1u);
   EXPECT_EQ(scene.stress.instants[0].when, StressInstant::largest_stress);
-  EXPECT_DOUBLE_EQ(read(scene_with("[output.stress]\nstep = \"4 ms\"\n")).run.options.states.step, 4e-3);
+  EXPECT_DOUBLE_EQ(scene_of(scene_with("[output.stress]\nstep = \"4 ms\"\n")).run.options.states.step, 4e-3);
 }
 
 TEST(StressScene, CostsNothingWhereItIsNotWanted)
 {
-  const apps::Scene without = read(scene_with(""));
+  const apps::Scene without = scene_of(scene_with(""));
   EXPECT_FALSE(without.frame.geometry.stress);
   EXPECT_TRUE(without.run.options.states.empty());
-  const apps::Scene at = read(scene_with("[output.stress]\nat = \"1 s\"\n"));
+  const apps::Scene at = scene_of(scene_with("[output.stress]\nat = \"1 s\"\n"));
   EXPECT_EQ(at.run.options.states.step, 0.) << "nothing is looked for";
 }
 

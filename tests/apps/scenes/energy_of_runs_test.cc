@@ -13,10 +13,10 @@ namespace
 {
 
 /// A bar of 1 m on a pin without friction, 0.1 rad from where it hangs.
-const std::string pendulum = "gravity = [0, 0, -9.81]\n" +
-                             planar_body("bar", "1 kg", "(1/12) kg m^2", "[0, 0, '-0.5 m']") +
-                             revolute("pin", "ground", "bar", "[0, 0, 0]") + start("q = { 'bar.angle' = 0.1 }") +
-                             steps("0.1 s", "60 s") + signals("phi = 'bar.angle'");
+const std::string driven_pendulum = "gravity = [0, 0, -9.81]\n" +
+                                    planar_body("bar", "1 kg", "(1/12) kg m^2", "[0, 0, '-0.5 m']") +
+                                    revolute("pin", "ground", "bar", "[0, 0, 0]") + start("q = { 'bar.angle' = 0.1 }") +
+                                    steps("0.1 s", "60 s") + signals("phi = 'bar.angle'");
 
 /// 1 kg at 10 m/s between two elastic stops, half a metre apart; flies over a contact in a step.
 const std::string ball = slider_body("ball", "1 kg", "[1, 0, 0]") +
@@ -39,7 +39,7 @@ TEST(EnergyOfRuns, AnIdealJointDissipatesNothingWhateverTheMethodErrs)
   for (const char *method :
        {"run.order=1", "run.order=2", "run.order=4", "run.method=generalised-alpha", "run.method=hht"})
   {
-    const SceneRun motion = run(pendulum, {method, "run.force_unstable=true"}); // BDF 4 grows
+    const SceneRun motion = run(driven_pendulum, {method, "run.force_unstable=true"}); // BDF 4 grows
     const auto    &energy = motion.result.energy;
     EXPECT_EQ(energy.input, 0.) << method;
     EXPECT_EQ(energy.dissipated, 0.) << method;
@@ -60,8 +60,8 @@ TEST(EnergyOfRuns, AMethodThatMakesEnergyEndsTheRunAndIsNamed)
 // A guide that is driven round: its joint feeds what the bob gains, m (omega r)^2/2 and the way up, and takes nothing.
 TEST(EnergyOfRuns, ADrivenJointFeedsWhatTheMotionGains)
 {
-  const SceneRun motion = run(pendulum + "[joint.drive]\ntype = \"prescribed motion\"\non = \"bar.angle\"\n"
-                                         "motion = { function = \"2*t^2/s^2\" }\n",
+  const SceneRun motion = run(driven_pendulum + "[joint.drive]\ntype = \"prescribed motion\"\non = \"bar.angle\"\n"
+                                                "motion = { function = \"2*t^2/s^2\" }\n",
                               {"run.step=1 ms", "run.end=2 s", "start.q={}"});
   const auto    &energy = motion.result.energy;
   EXPECT_EQ(energy.dissipated, 0.);
@@ -73,7 +73,7 @@ TEST(EnergyOfRuns, ADrivenJointFeedsWhatTheMotionGains)
 TEST(EnergyOfRuns, ADrivenJointFeedsTheSameWhetherItsTorqueIsReadOrNot)
 {
   const std::string driven =
-      pendulum +
+      driven_pendulum +
       "[joint.drive]\ntype = \"prescribed motion\"\non = \"bar.angle\"\n"
       "motion = { function = \"0.1*sin(6*t/s)\" }\n" +
       element("spring", "spring-damper",

@@ -15,7 +15,7 @@ using test::with;
 
 // --- a carriage on an inclined guide: tan(a) = 0.4
 
-const std::string incline =
+const std::string sticking_incline =
     "gravity = [0, 0, -10]\n[parameters]\na = 'atan(0.4)'\n" +
     planar_body("carriage", "3 kg", "0.02 kg m^2", "[0, 0, 0]") +
     joint("guide", "prismatic", "ground", "carriage", "[0, 0, 0]",
@@ -28,7 +28,7 @@ const Settings newmark = {"run.method=generalised-alpha", "run.rho_inf=0.8"};
 
 TEST(StickingGuide, HoldsABlockWhoseSlopeIsBelowTheStaticCoefficientExactly)
 {
-  const SceneRun motion = run(incline);
+  const SceneRun motion = run(sticking_incline);
   // Exactly, but for what rounding leaves where the guide is closed.
   EXPECT_LT(std::abs(motion.signal("x").max) + std::abs(motion.signal("x").min), 1e-18);
   EXPECT_LT(std::abs(motion.signal("v").max) + std::abs(motion.signal("v").min), 1e-15);
@@ -40,7 +40,7 @@ TEST(StickingGuide, HoldsABlockWhoseSlopeIsBelowTheStaticCoefficientExactly)
 
 TEST(StickingGuide, LetsGoAtOnceWhereTheSlopeIsSteeper)
 {
-  const SceneRun motion = run(with(incline, "static = 0.5", "static = 0.35"));
+  const SceneRun motion = run(with(sticking_incline, "static = 0.5", "static = 0.35"));
   ASSERT_EQ(motion.result.events.size(), 1u);
   EXPECT_EQ(time_of(motion, "slip_forward"), 0.);
   EXPECT_NEAR(motion.signal("v").final, 0.5 * 10. * (std::sin(a) - 0.3 * std::cos(a)), 1e-10);
@@ -54,11 +54,11 @@ TEST(StickingGuide, LetsGoAtOnceWhereTheSlopeIsSteeper)
 /// A pull that jumps from 0 to 40 N at 0.1 s: until then it holds 30 sin(a), from then on it slides.
 TEST(StickingGuide, NeverTellsAForceBeyondItsLimitWhereTheLoadJumps)
 {
-  const SceneRun motion = run(incline + element("pull", "table force",
-                                                {{"from", "carriage"},
-                                                 {"direction", "['cos(a)', 0, '-sin(a)']"},
-                                                 {"against", "time"},
-                                                 {"table", "[[0, 0], ['0.1 s', 0], ['0.1 s', '40 N']]"}}));
+  const SceneRun motion = run(sticking_incline + element("pull", "table force",
+                                                         {{"from", "carriage"},
+                                                          {"direction", "['cos(a)', 0, '-sin(a)']"},
+                                                          {"against", "time"},
+                                                          {"table", "[[0, 0], ['0.1 s', 0], ['0.1 s', '40 N']]"}}));
   EXPECT_NEAR(time_of(motion, "slip_forward"), 0.1, 1e-12);
   EXPECT_NEAR(motion.at(0, 3), -weight * std::sin(a), 1e-10);
   EXPECT_NEAR(motion.signal("F").min, -weight * std::sin(a), 1e-10);
@@ -68,7 +68,7 @@ TEST(StickingGuide, NeverTellsAForceBeyondItsLimitWhereTheLoadJumps)
 /// Thrown up the slope with v_0 it stops after v_0/(g (sin a + mu cos a)), and stays: mu < tan a < mu_s.
 TEST(StickingGuide, StopsABlockThrownUpTheSlopeThatThenStaysThere)
 {
-  const std::string thrown = incline + start("v = { 'carriage.ux' = '-2 m/s * cos(a)' }");
+  const std::string thrown = sticking_incline + start("v = { 'carriage.ux' = '-2 m/s * cos(a)' }");
   for (const auto &[method, error] : {std::pair{fixed, 1e-9}, {newmark, 1e-9}, {controlled, 1e-7}})
   {
     const SceneRun motion = run(thrown, method);
@@ -89,7 +89,7 @@ TEST(StickingGuide, BreaksAwayWhereTheForceReachesTheLimitOfItsOwnLoad)
 {
   // Pressed with 1 s^-1 t 12 N into the slope besides: the limit grows too.
   const std::string pulled =
-      incline +
+      sticking_incline +
       element("pull", "formula force",
               {{"from", "carriage"}, {"direction", "['cos(a)', 0, '-sin(a)']"}, {"force", "40 N/s*t"}}) +
       element("press", "formula force",
@@ -106,7 +106,7 @@ TEST(StickingGuide, BreaksAwayWhereTheForceReachesTheLimitOfItsOwnLoad)
 
 // --- a pendulum whose pin sticks
 
-const std::string pendulum =
+const std::string sticking_pendulum =
     "gravity = [0, 0, -10]\n" + planar_body("bar", "2 kg", "0.1 kg m^2", "[0, 0, '-0.5 m']") +
     revolute("pin", "ground", "bar", "[0, 0, 0]",
              {{"friction", "{ law = 'dry', coefficient = 0.3, static = 0.4, radius = '150 mm' }"}}) +
@@ -115,7 +115,7 @@ const std::string pendulum =
 
 TEST(StickingPin, APendulumComesToRestOffTheVerticalAndStays)
 {
-  const SceneRun motion = run(pendulum);
+  const SceneRun motion = run(sticking_pendulum);
   const double   rest   = motion.signal("angle").final;
   EXPECT_GT(std::abs(rest), 1e-3);
   // Held by the moment of its weight, which the pin can hold: r mu_s m g.
@@ -180,8 +180,8 @@ TEST(StickingJoints, ThatHoldOneMotionLetGoOneAfterTheOther)
 TEST(StickingJoints, ThatAreDrivenTurnAtTheirDeadPoints)
 {
   const SceneRun motion =
-      run(incline + joint("drive", "prescribed motion",
-                          {{"on", "carriage.ux"}, {"motion", "{ function = '0.1 m*sin(10 rad/s*t)' }"}}),
+      run(sticking_incline + joint("drive", "prescribed motion",
+                                   {{"on", "carriage.ux"}, {"motion", "{ function = '0.1 m*sin(10 rad/s*t)' }"}}),
           {"parameters.a=0", "output.signals.P=drive.force", "run.end=1 s"});
   EXPECT_EQ(count(motion, "stick"), 3);
   for (int n = 0; n < 3; ++n)
@@ -231,7 +231,7 @@ TEST(StickingJoints, OfASliderCrankBringItToRest)
 TEST(BristlesInJoints, GiveWayElasticallyBelowTheLimit)
 {
   const std::string bristles =
-      with(incline, "law = 'dry', coefficient = 0.3, static = 0.5",
+      with(sticking_incline, "law = 'dry', coefficient = 0.3, static = 0.5",
            "law = 'lugre', coefficient = 0.5, bristle_stiffness = '1 1/mm', bristle_damping = '100 s/m'");
   const SceneRun motion = run(bristles, {"run.end=4 s", "run.step=2 ms"});
   const double   x      = -0.5 / 1000. * std::log(1. - 0.4 / 0.5);
@@ -242,7 +242,7 @@ TEST(BristlesInJoints, GiveWayElasticallyBelowTheLimit)
 TEST(BristlesInJoints, SlideWithTheKineticCoefficientAboveIt)
 {
   const std::string bristles =
-      with(incline, "law = 'dry', coefficient = 0.3, static = 0.5",
+      with(sticking_incline, "law = 'dry', coefficient = 0.3, static = 0.5",
            "law = 'lugre', coefficient = 0.2, bristle_stiffness = '1 1/mm', bristle_damping = '10 s/m'");
   const SceneRun at_1 = run(bristles, {"run.end=1 s"}), at_2 = run(bristles, {"run.end=2 s"});
   EXPECT_NEAR(at_2.signal("F").final, -0.2 * weight * std::cos(a), 1e-8);
@@ -252,7 +252,7 @@ TEST(BristlesInJoints, SlideWithTheKineticCoefficientAboveIt)
 TEST(BristlesInJoints, OfAPinSlideAtItsRadius)
 {
   const std::string pin =
-      with(with(pendulum, "-0.5 m", "0 m"), "law = 'dry', coefficient = 0.3, static = 0.4",
+      with(with(sticking_pendulum, "-0.5 m", "0 m"), "law = 'dry', coefficient = 0.3, static = 0.4",
            "law = 'lugre', coefficient = 0.3, bristle_stiffness = '1 1/mm', bristle_damping = '100 s/m'");
   const SceneRun motion =
       run(pin + element("pull", "force", {{"from", "bar"}, {"about", "[0, 1, 0]"}, {"constant", "0.6 N m"}}),
@@ -266,7 +266,7 @@ TEST(BristlesInJoints, OfAPinSlideAtItsRadius)
 TEST(BristlesInJoints, CloseTheBalanceOfEnergyAtTheOrderOfTheMethod)
 {
   const std::string swings =
-      with(pendulum, "law = \"dry\", coefficient = 0.3, static = 0.4, radius = \"150 mm\"",
+      with(sticking_pendulum, "law = \"dry\", coefficient = 0.3, static = 0.4, radius = \"150 mm\"",
            "law = \"lugre\", coefficient = 0.3, static = 0.4, stribeck_speed = \"10 mm/s\", radius = \"20 mm\", "
            "bristle_stiffness = \"10 1/mm\", bristle_damping = \"10 s/m\"");
   const auto lack = [&](const std::string &step)
@@ -282,15 +282,15 @@ TEST(BristlesInJoints, CloseTheBalanceOfEnergyAtTheOrderOfTheMethod)
 
 TEST(StickingJoints, RefuseWhatMakesNoSense)
 {
-  EXPECT_EQ(test::complaint(incline), "");
-  expect_complaint(with(incline, "static = 0.5", "static = 0.2"), "is below 'coefficient'");
-  expect_complaint(with(incline, "law = \"dry\"", "law = \"drier\""), "dry");
-  expect_complaint(with(incline, "static = 0.5", "speed = \"1 mm/s\""), "speed");
-  expect_complaint(with(incline, "type = \"prismatic\"", "type = \"in-plane\""), "leave it out");
-  expect_complaint(with(incline, "law = \"dry\"", "law = \"lugre\""), "bristle_stiffness");
-  expect_complaint(with(incline, "law = \"dry\"", "law = \"lugre\", bristle_stiffness = \"1 1/mm\""),
+  EXPECT_EQ(test::complaint(sticking_incline), "");
+  expect_complaint(with(sticking_incline, "static = 0.5", "static = 0.2"), "is below 'coefficient'");
+  expect_complaint(with(sticking_incline, "law = \"dry\"", "law = \"drier\""), "dry");
+  expect_complaint(with(sticking_incline, "static = 0.5", "speed = \"1 mm/s\""), "speed");
+  expect_complaint(with(sticking_incline, "type = \"prismatic\"", "type = \"in-plane\""), "leave it out");
+  expect_complaint(with(sticking_incline, "law = \"dry\"", "law = \"lugre\""), "bristle_stiffness");
+  expect_complaint(with(sticking_incline, "law = \"dry\"", "law = \"lugre\", bristle_stiffness = \"1 1/mm\""),
                    "needs 'stribeck_speed'");
-  expect_complaint(with(pendulum, ", radius = \"150 mm\"", ""), "the key 'radius' is missing");
+  expect_complaint(with(sticking_pendulum, ", radius = \"150 mm\"", ""), "the key 'radius' is missing");
 }
 
 // What turns with both bodies cannot be held: told when the machine is built.
@@ -298,8 +298,9 @@ TEST(StickingJoints, RefuseWhatTheyCannotHold)
 {
   const auto refused = [](const std::string &scene, const std::string &words)
   { expect_refusal([&] { run(scene); }, words); };
-  refused(with(incline + planar_body("arm", "1 kg", "1 kg m^2", "[0, 0, 0]"), "from = 'ground'", "from = 'arm'"),
-          "here both bodies turn");
+  refused(
+      with(sticking_incline + planar_body("arm", "1 kg", "1 kg m^2", "[0, 0, 0]"), "from = 'ground'", "from = 'arm'"),
+      "here both bodies turn");
   refused("gravity = [0, 0, -10]\n" + rigid_body("bar", "2 kg", "[0.1, 0.1, 0.01]", "[0, 0, -0.5]") +
               revolute("pin", "ground", "bar", "[0, 0, 0]",
                        {{"axis", "[0, 1, 0]"}, {"friction", "{ law = 'dry', coefficient = 0.3, radius = '150 mm' }"}}) +

@@ -171,9 +171,9 @@ TEST(Journal, RestsInItsBearingAtTheAngleOfFriction)
 }
 
 /// A pendulum whose pin is a journal, or an ideal joint.
-const std::string pendulum = "gravity = [0, 0, -9.81]\n" +
-                             planar_body("bar", "2 kg", "0.05 kg m^2", "['0.4 m', 0, 0]") + steps("50 us", "0.4 s") +
-                             signals("angle = 'bar.angle'", {{"step", "1 ms"}});
+const std::string pendulum_with_play = "gravity = [0, 0, -9.81]\n" +
+                                       planar_body("bar", "2 kg", "0.05 kg m^2", "['0.4 m', 0, 0]") +
+                                       steps("50 us", "0.4 s") + signals("angle = 'bar.angle'", {{"step", "1 ms"}});
 const std::string journal_pin = element("pin", "journal bearing",
                                         {{"from", "ground"},
                                          {"to", "bar"},
@@ -190,7 +190,7 @@ TEST(Journal, OfABodyInSpaceIsThatOfOneInAPlane)
   const std::string journal =
       with(journal_pin, "radius", "friction = { coefficient = 0.2, speed = \"5 mm/s\" }\nradius");
   const std::string in_plane =
-      with(pendulum, "angle = \"bar.angle\"", "x = \"bar.ux\", z = \"bar.uz\", F = \"pin.force\"") + journal;
+      with(pendulum_with_play, "angle = \"bar.angle\"", "x = \"bar.ux\", z = \"bar.uz\", F = \"pin.force\"") + journal;
   const std::string in_space =
       with(with(in_plane, "\"planar\"\nnormal = [0, 1, 0]", "\"rigid\""), "\"0.05 kg m^2\"", "[0.05, 0.05, 0.03]");
   const std::vector<std::string> first_contacts{"run.step=10 us", "run.end=40 ms"};
@@ -205,10 +205,10 @@ TEST(Journal, OfABodyInSpaceIsThatOfOneInAPlane)
 // It falls through the play and hangs then: what differs is the play itself, and falls with it.
 TEST(Journal, BecomesAnIdealRevoluteJointAsThePlayVanishes)
 {
-  const double ideal     = run(pendulum + revolute("pin", "ground", "bar", "[0, 0, 0]")).signal("angle").final;
+  const double ideal = run(pendulum_with_play + revolute("pin", "ground", "bar", "[0, 0, 0]")).signal("angle").final;
   const auto   with_play = [&](const std::string &play)
   {
-    const SceneRun motion = run(pendulum + with(journal_pin, "0.1 mm", play));
+    const SceneRun motion = run(pendulum_with_play + with(journal_pin, "0.1 mm", play));
     return std::abs(motion.signal("angle").final - ideal);
   };
   const double large = with_play("1 mm"), small = with_play("10 um");
@@ -225,7 +225,7 @@ TEST(Journal, BalanceOfEnergyClosesByTheOrderOfTheMethod)
       with(journal_pin, "radius", "friction = { coefficient = 0.1, speed = \"5 mm/s\" }\nradius");
   const auto lack = [&](const std::string &step)
   {
-    const SceneRun motion = run(pendulum + rubbing, {"run.step=" + step, "run.end=0.1 s"});
+    const SceneRun motion = run(pendulum_with_play + rubbing, {"run.step=" + step, "run.end=0.1 s"});
     EXPECT_GT(motion.result.energy.dissipated, 1e-4);
     EXPECT_GT(count(motion, "contact"), 1);
     return std::abs(motion.result.energy.residual) / motion.result.energy.dissipated;

@@ -14,11 +14,11 @@ namespace gestell::tests
 namespace
 {
 
-constexpr double g = 9.81;
+constexpr double gravity = 9.81;
 
-const std::string gravity  = "gravity = [0, 0, -9.81]\n";
-const std::string at_rest  = "[start]\nrule = \"static\"\n";
-const std::string settings = "[run]\nstep = \"1 ms\"\nend = \"20 ms\"\n[output]\npicture_step = 0\n";
+const std::string gravity        = "gravity = [0, 0, -9.81]\n";
+const std::string at_rest        = "[start]\nrule = \"static\"\n";
+const std::string start_settings = "[run]\nstep = \"1 ms\"\nend = \"20 ms\"\n[output]\npicture_step = 0\n";
 
 /// The first row of a run from the static start, which must be at rest until its end.
 void expect_rest(const SceneRun &motion, const std::vector<double> &values, double tolerance)
@@ -41,7 +41,7 @@ bool told(const SceneRun &motion, const std::string &words)
 SceneRun dropped(const std::string &element)
 {
   return run(gravity + "[body.s]\ntype = \"slider\"\naxis = [0, 0, -1]\nmass = 10\n[element.e]\nfrom = \"s\"\n" +
-             element + at_rest + settings + "signals = { x = \"s.displacement\" }\n");
+             element + at_rest + start_settings + "signals = { x = \"s.displacement\" }\n");
 }
 
 TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
@@ -50,7 +50,8 @@ TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
   {
     return run(gravity + slider_body("s", "10", "[0, 0, -1]") +
                element("e", "spring-damper", {{"from", "s"}, {"stiffness", "1e4"}}) +
-               start("rule = 'static'\nv = { s = " + v + " }") + settings + "signals = { x = 's.displacement' }\n");
+               start("rule = 'static'\nv = { s = " + v + " }") + start_settings +
+               "signals = { x = 's.displacement' }\n");
   };
   EXPECT_TRUE(told(moving("1"), "start.v has no part in rule = \"static\""));
   EXPECT_FALSE(told(moving("0"), "start.v"));
@@ -58,7 +59,7 @@ TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
 
 TEST(StaticStart, ClosesWhatWasOpen)
 {
-  const double W = 10. * g;
+  const double W = 10. * gravity;
   expect_rest(dropped("type = \"stop\"\ngap = \"10 mm\"\nstiffness = 1e6\n"), {0.01 + W / 1e6}, 1e-11);
   expect_rest(dropped("type = \"stop\"\ngap = \"10 mm\"\nstiffness = 1e9\nexponent = 1.5\n"),
               {0.01 + std::pow(W / 1e9, 2. / 3.)}, 1e-11);
@@ -77,14 +78,14 @@ TEST(StaticStart, AJournalLiesInItsBearing)
                                    {"clearance", "1 mm"},
                                    {"radius", "20 mm"},
                                    {"stiffness", "1e6"}}) +
-                          at_rest + settings + "signals = { z = \"p.uz\", x = \"p.ux\", angle = \"p.angle\" }\n");
-  expect_rest(motion, {-1e-3 - 10. * g / 1e6, 0., 0.}, 1e-10); // the angle, which nothing holds, stays
+                          at_rest + start_settings + "signals = { z = \"p.uz\", x = \"p.ux\", angle = \"p.angle\" }\n");
+  expect_rest(motion, {-1e-3 - 10. * gravity / 1e6, 0., 0.}, 1e-10); // the angle, which nothing holds, stays
 }
 
 std::string pendulum(const std::string &angle)
 {
   return gravity + planar_body("p", "2", "0.5", "[0, 0, -1]") + revolute("j", "ground", "p", "[0, 0, 0]") + at_rest +
-         "q = { \"p.angle\" = \"" + angle + "\" }\n" + settings + "signals = { a = \"p.angle\" }\n";
+         "q = { \"p.angle\" = \"" + angle + "\" }\n" + start_settings + "signals = { a = \"p.angle\" }\n";
 }
 
 TEST(StaticStart, APendulumFallsToWhereItHangs)
@@ -99,7 +100,7 @@ TEST(StaticStart, APendulumFallsToWhereItHangs)
 TEST(StaticStart, OnItsHeadItStaysWithAWarningOfTheGrowth)
 {
   const auto   motion = run(pendulum("180 deg"));
-  const double growth = std::sqrt(2. * g / (0.5 + 2.));
+  const double growth = std::sqrt(2. * gravity / (0.5 + 2.));
   EXPECT_NEAR(motion.at(0, 1), M_PI, 1e-9);
   EXPECT_TRUE(told(motion, "unstable equilibrium"));
   EXPECT_TRUE(told(motion, "p."));
@@ -119,7 +120,7 @@ TEST(StaticStart, AChainDescribedHorizontallyHangs)
              revolute("j" + std::to_string(i), i == 1 ? "ground" : "b" + std::to_string(i - 1), body,
                       vector(i - 1., 0., 0.));
   }
-  const auto motion = run(chain + at_rest + settings + "signals = { x = \"b5.x\", z = \"b5.z\" }\n");
+  const auto motion = run(chain + at_rest + start_settings + "signals = { x = \"b5.x\", z = \"b5.z\" }\n");
   expect_rest(motion, {0., -4.5}, 1e-9);
 }
 
@@ -130,14 +131,14 @@ TEST(StaticStart, AWeightOnALongSpringHangsBelowItsHook)
           measure("d", "distance", {{"from", "o"}, {"to", "p"}}) +
           element("c", "spring-damper", {{"on", "d"}, {"rest", "1"}, {"stiffness", "300"}}) +
           element("y", "spring-damper", {{"from", "p"}, {"direction", "[0, 1, 0]"}, {"stiffness", "10"}}) + at_rest +
-          settings + "signals = { x = \"p.x\", z = \"p.z\" }\n");
-  expect_rest(motion, {0., -1. - 100. * g / 300.}, 1e-9);
+          start_settings + "signals = { x = \"p.x\", z = \"p.z\" }\n");
+  expect_rest(motion, {0., -1. - 100. * gravity / 300.}, 1e-9);
 }
 
 TEST(StaticStart, WhatFallsForEverIsRefusedByName)
 {
   const std::string free = gravity + "[body.s]\ntype = \"slider\"\naxis = [0, 0, -1]\nmass = 10\n" + at_rest +
-                           settings + "signals = { x = \"s.displacement\" }\n";
+                           start_settings + "signals = { x = \"s.displacement\" }\n";
   expect_refusal([&] { run(free); }, "there is no static equilibrium: the motion of s");
 }
 

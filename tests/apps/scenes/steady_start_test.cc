@@ -11,7 +11,7 @@ namespace gestell::tests
 namespace
 {
 
-constexpr double g = 9.81;
+constexpr double weight_per_kg = 9.81;
 
 /// A slider-crank in a bed on springs, z up.  The bed is a body, so that what holds it shows in its motion.
 std::string slider_crank_on_springs(const std::string &start)
@@ -42,9 +42,9 @@ TEST(SteadyStart, ABedOnSpringsCarriesItsJointedMechanismFromTheFirstInstant)
   EXPECT_GT(std::hypot(first(given, 1), first(given, 2)), 1.);
 
   const auto steady = run(slider_crank_on_springs("[start]\nrule = \"steady\"\n" + angle + speed));
-  EXPECT_NEAR(first(steady, 1), 0., 1e-7 * g);
-  EXPECT_NEAR(first(steady, 2), 0., 1e-7 * g);
-  EXPECT_NEAR(first(steady, 3), 0., 1e-7 * g);
+  EXPECT_NEAR(first(steady, 1), 0., 1e-7 * weight_per_kg);
+  EXPECT_NEAR(first(steady, 2), 0., 1e-7 * weight_per_kg);
+  EXPECT_NEAR(first(steady, 3), 0., 1e-7 * weight_per_kg);
   EXPECT_NEAR(first(steady, 4), 0., 1e-12);
   EXPECT_NEAR(first(steady, 6), 10. * M_PI, 1e-12);
   EXPECT_GT(std::abs(first(steady, 5)), 1.); // nothing drives: weight and inertia of rod and slide accelerate the crank

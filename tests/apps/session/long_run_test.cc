@@ -45,7 +45,7 @@ PeriodicResult motions_of(const std::string &text, const PeriodicRequest &reques
   return *Session(folder.write("scene.toml", text)).periodic(request).periodic;
 }
 
-PeriodicRequest by(const std::string &method)
+PeriodicRequest request_by(const std::string &method)
 {
   PeriodicRequest request;
   request.method = method;
@@ -59,7 +59,7 @@ PeriodicRequest by(const std::string &method)
 /// All periodic motions are unstable: that there is chaos is the answer, not a failure.
 TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
 {
-  PeriodicRequest request     = by("minimise");
+  PeriodicRequest request     = request_by("minimise");
   request.starts              = 1;
   const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request);
   EXPECT_EQ(result.failure, "");
@@ -85,7 +85,7 @@ TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
 TEST(LongRun, FindsTheSubharmonicMotionToWhichAMachineSettles)
 {
   const std::string    start  = test::quoted("[start]\nv = { slide = 4 }\n");
-  const PeriodicResult result = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, by("settling"));
+  const PeriodicResult result = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request_by("settling"));
   EXPECT_EQ(result.failure, "");
   ASSERT_TRUE(result.long_run);
   EXPECT_EQ(result.long_run->motion.kind, "sub-harmonic");
@@ -102,7 +102,7 @@ TEST(LongRun, FindsTheSubharmonicMotionToWhichAMachineSettles)
 /// One unstable motion may be all that was asked for: the way to the rest is told.
 TEST(LongRun, IsOfferedWhereTheOnlyMotionIsUnstable)
 {
-  const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), by("shooting"));
+  const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request_by("shooting"));
   ASSERT_EQ(result.entries.size(), 1u) << result.failure;
   EXPECT_FALSE(result.long_run);
   ASSERT_EQ(result.notes.size(), 1u);
@@ -111,7 +111,7 @@ TEST(LongRun, IsOfferedWhereTheOnlyMotionIsUnstable)
 
 TEST(LongRun, IsToldWhereItIsAskedFor)
 {
-  PeriodicRequest request = by("shooting");
+  PeriodicRequest request = request_by("shooting");
   EXPECT_FALSE(motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request).long_run);
   request.section             = 80;
   const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request);
@@ -141,7 +141,7 @@ TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
   ASSERT_EQ(result.checks.size(), 1u);
   EXPECT_EQ(result.checks[0].failure, "");
   EXPECT_LT(result.checks[0].distances[0].second, 1e-8);
-  request       = by("settling");
+  request       = request_by("settling");
   request.check = "shooting";
   result        = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
   ASSERT_EQ(result.checks.size(), 1u);
@@ -151,7 +151,7 @@ TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
 /// x = a cos(Omega t) is an ellipse in its plane: x^2 + (x'/Omega)^2 = a^2.
 TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
 {
-  const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), by("shooting"));
+  const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request_by("shooting"));
   const double         a      = 1. / std::hypot(1. - 1.4 * 1.4, 0.1 * 1.4);
   ASSERT_EQ(result.planes.size(), 1u) << "velocities and forces have no exact rate";
   EXPECT_EQ(result.planes[0].name, "x");
@@ -165,7 +165,7 @@ TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
 /// The plane reaches twice as far as the motions; both stable ones have their share of it.
 TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
 {
-  PeriodicRequest request     = by("minimise");
+  PeriodicRequest request     = request_by("minimise");
   request.starts              = 12;
   request.basins              = "slide, slide'";
   request.basin_points        = 6;
@@ -212,7 +212,7 @@ TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
 /// omega^2 = 1 + 3/4 beta a^2 of a cubic spring, over the parameter that the load's frequency is.
 TEST(Backbone, OfACubicSpringIsItsFormula)
 {
-  PeriodicRequest request = by("harmonic-balance");
+  PeriodicRequest request = request_by("harmonic-balance");
   request.along           = "parameters.Omega";
   request.from            = "0.8";
   request.to              = "2";

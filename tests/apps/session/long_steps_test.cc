@@ -21,7 +21,7 @@ std::string exact_run(double end)
   return test::quoted("[run]\nmethod = 'exact'\norder = 6\ntolerance = 1e-9\nend = " + number(end) + "\n");
 }
 
-Result run_of(const std::string &text)
+Result long_run_of(const std::string &text)
 {
   const test::SceneFolder folder;
   return Session(folder.write("scene.toml", text)).run();
@@ -42,11 +42,11 @@ std::string thrown(double end)
 /// extremes differ by what steps of a tolerance of 1e-9 leave after some contacts of 1e5 N/m.
 TEST(LongSteps, PassOverNoStop)
 {
-  const Result near = run_of(thrown(2.));
+  const Result near = long_run_of(thrown(2.));
   ASSERT_GE(near.run->events.size(), 2u);
   for (const double end : {60., 300., 3000.})
   {
-    const Result far = run_of(thrown(end));
+    const Result far = long_run_of(thrown(end));
     ASSERT_EQ(far.run->events.size(), near.run->events.size()) << end;
     for (std::size_t i = 0; i < far.run->events.size(); ++i)
       EXPECT_NEAR(far.run->events[i].t, near.run->events[i].t, 1e-7) << end;
@@ -61,11 +61,11 @@ TEST(LongSteps, PassOverNoStickingToABelt)
   for (const double end : {20., 60., 300.})
   {
     const Result result =
-        run_of(slider_body("slide", "1", "[1, 0, 0]") +
-               element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "100"}, {"damping", "2"}}) +
-               element("belt", "dry friction",
-                       {{"from", "slide"}, {"kinetic_force", "2"}, {"static_force", "3"}, {"speed", number(vb)}}) +
-               test::quoted("[output.signals]\nv = 'slide.velocity'\n") + exact_run(end));
+        long_run_of(slider_body("slide", "1", "[1, 0, 0]") +
+                    element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "100"}, {"damping", "2"}}) +
+                    element("belt", "dry friction",
+                            {{"from", "slide"}, {"kinetic_force", "2"}, {"static_force", "3"}, {"speed", number(vb)}}) +
+                    test::quoted("[output.signals]\nv = 'slide.velocity'\n") + exact_run(end));
     EXPECT_NEAR(result.run->signals[0].max, vb, 1e-8) << end;
     EXPECT_GT(result.run->events.size(), 10u) << end;
   }

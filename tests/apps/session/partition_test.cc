@@ -16,7 +16,7 @@ using apps::Partition;
 using apps::Session;
 
 /// Five masses in a chain, to be reduced: `a`, `b`, `c`, `d` are interfaces.
-std::string chain(const std::string &reduction)
+std::string chain_reduced(const std::string &reduction)
 {
   std::string text =
       "name = \"chain\"\n" + table("frame", {{"mass", "[[1,0,0,0,0],[0,1,0,0,0],[0,0,1,0,0],[0,0,0,1,0],[0,0,0,0,1]]"},
@@ -43,7 +43,7 @@ const std::string reduced = table("reduction", {{"method", "craig-bampton"}, {"m
 TEST(Partition, TellsWhatActsOnEveryCoordinate)
 {
   const Partition partition = partition_of(
-      chain(reduced) +
+      chain_reduced(reduced) +
       element("stop", "stop", {{"from", "frame.a"}, {"direction", "[1, 0, 0]"}, {"gap", "0.1"}, {"stiffness", "10"}}) +
       element("spring", "spring-damper",
               {{"from", "frame.a"}, {"to", "frame.b"}, {"direction", "[1, 0, 0]"}, {"stiffness", "5"}}) +
@@ -96,7 +96,7 @@ TEST(Partition, KeepsWhatHoldsAFloatingFrame)
 /// A frame of which every coordinate is kept has none.
 TEST(Partition, OfAnUnreducedFrameIsRefused)
 {
-  expect_refusal([] { partition_of(chain("")); }, "not reduced");
+  expect_refusal([] { partition_of(chain_reduced("")); }, "not reduced");
 }
 
 } // namespace gestell::tests

@@ -17,7 +17,7 @@ using Matrix = Eigen::MatrixXd;
 
 /// Two coupled masses, strongly damped so that every order is stable, driven by cos(3 t) towards the exact solution
 /// q = (sin 2t, e^-t): the load is whatever that needs.
-SmallSystem driven_chain()
+SmallSystem damped_chain()
 {
   Matrix M(2, 2), B(2, 2), C(2, 2);
   M << 2., 0.3, 0.3, 1.;
@@ -37,7 +37,7 @@ SmallSystem driven_chain()
 /// Largest errors of displacement and velocity for 1 <= t <= 2.
 std::pair<double, double> end_errors(int order, double h)
 {
-  const SmallSystem system = driven_chain();
+  const SmallSystem system = damped_chain();
   Bdf::Options      options;
   options.order = order;
   options.step  = h;
@@ -93,7 +93,7 @@ void stiffening(double u, double, double &p, double &dp_du, double &dp_dv)
 
 TEST(Bdf, CondensedStepSolvesTheWholeEquationOfTheStep)
 {
-  SmallSystem system = driven_chain();
+  SmallSystem system = damped_chain();
   system.set_law(Eigen::Vector2d(1., -2.), stiffening);
   Bdf                   bdf(system, {1, 0.01});
   const Eigen::Vector2d q0(0.1, 0.9), v0(2., -1.);
@@ -114,7 +114,7 @@ TEST(Bdf, CondensedStepSolvesTheWholeEquationOfTheStep)
 
 TEST(Bdf, OneFactorisationServesEveryStepOfAFixedSize)
 {
-  SmallSystem system = driven_chain();
+  SmallSystem system = damped_chain();
   system.set_law(Eigen::Vector2d(1., -2.), stiffening);
   Bdf bdf(system, {2, 0.001});
   bdf.begin(0., Eigen::Vector2d(0., 1.), Eigen::Vector2d(2., -1.));
@@ -161,7 +161,7 @@ TEST(Bdf, NewtonLeavesLittleOfTheMotionHoweverLargeTheErrorOfTheFormula)
 
 TEST(Bdf, NewtonBelievesOnlyInAContractionSeenSinceTheRestart)
 {
-  SmallSystem system = driven_chain();
+  SmallSystem system = damped_chain();
   system.set_law(Eigen::Vector2d(1., -2.), law_of([](double u) { return -30. * u; }, [](double) { return -30.; }));
   Bdf bdf(system, {2, 0.01});
   bdf.begin(0., Eigen::Vector2d(0., 1.), Eigen::Vector2d(2., -1.));
@@ -185,7 +185,7 @@ TEST(Bdf, NewtonBelievesOnlyInAContractionSeenSinceTheRestart)
 
 TEST(Bdf, RefusesOrdersAndStepsThatDoNotExist)
 {
-  const SmallSystem system = driven_chain();
+  const SmallSystem system = damped_chain();
   Bdf::Options      options;
   options.step = 0.01;
   for (const int order : {0, 7})

@@ -26,7 +26,7 @@ namespace
 using namespace coupling;
 
 /// Every method that is there, for properties that all have.
-std::vector<MethodOptions> all_methods()
+std::vector<MethodOptions> all_families()
 {
   std::vector<MethodOptions> methods;
   std::set<std::string>      seen;
@@ -195,7 +195,7 @@ TEST(Stability, SufficientDampingOfBdfAgreesWithTheTable)
 
 TEST(Stability, MatrixAndCharacteristicRootsAreTheSameStep)
 {
-  for (const MethodOptions &o : all_methods())
+  for (const MethodOptions &o : all_families())
     for (const double zeta : {0., 0.03, 0.4, 1.5})
       for (const double omega_h : {0.05, 0.7, 3., 40.})
       {

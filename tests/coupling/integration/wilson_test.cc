@@ -15,7 +15,7 @@ using namespace coupling;
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-Vector one(double x)
+Vector one_entry(double x)
 {
   return Vector::Constant(1, x);
 }
@@ -24,7 +24,7 @@ Vector one(double x)
 SmallSystem hardening()
 {
   SmallSystem system(Matrix::Constant(1, 1, 2.), Matrix::Constant(1, 1, 0.5), Matrix::Constant(1, 1, 30.));
-  system.set_law(one(1.),
+  system.set_law(one_entry(1.),
                  [](double u, double v, double &p, double &dp_du, double &dp_dv)
                  {
                    p     = -40. * u * u * u - 0.2 * v;
@@ -45,7 +45,7 @@ TEST(Wilson, FulfilsTheEquationOfMotionAtTPlusThetaH)
     o.step             = 0.02;
     o.newton.tolerance = 1e-13;
     Wilson wilson(system, o);
-    wilson.begin(0., one(0.4), one(1.));
+    wilson.begin(0., one_entry(0.4), one_entry(1.));
     wilson.advance();
     const Instant before = wilson.instant();
     const double  a0     = wilson.acceleration()[0];
@@ -70,10 +70,10 @@ TEST(Wilson, FulfilsTheEquationOfMotionAtTPlusThetaH)
 }
 
 /// Two masses of which one sticks to the other, which slips away from it at 0.25 m/s.
-class Sticking : public SmallSystem
+class StickingMass : public SmallSystem
 {
 public:
-  Sticking() : SmallSystem(matrix(2., 0.3), matrix(6., -1.), matrix(300., -100.))
+  StickingMass() : SmallSystem(matrix(2., 0.3), matrix(6., -1.), matrix(300., -100.))
   {
     W = Matrix((Vector(2) << 1., -1.).finished()).sparseView();
     loads().add_harmonic(0, 5., 40., 0.);
@@ -89,8 +89,8 @@ private:
 
 TEST(Wilson, AMeasureThatSticksKeepsItsRate)
 {
-  const Sticking  system;
-  Wilson::Options o;
+  const StickingMass system;
+  Wilson::Options    o;
   o.step = 0.01;
   Wilson wilson(system, o);
   wilson.begin(0., Vector::Zero(2), (Vector(2) << 0.5, 0.25).finished());

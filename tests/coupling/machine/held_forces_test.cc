@@ -148,7 +148,7 @@ double first_way()
   return slid(0., v_0, low)[0];
 }
 
-RunResult run(Machine machine, const MethodOptions &method, double end)
+RunResult run_held(Machine machine, const MethodOptions &method, double end)
 {
   RunOptions options  = run_of(method, end);
   options.output_step = 1e-3;
@@ -161,7 +161,7 @@ using BriefOverload = ::testing::TestWithParam<Way>;
 TEST_P(BriefOverload, LetsGoWhatSticksAndIsNeverHeldByMore)
 {
   const double    end    = 0.45; // it slides until 0.5 s and longer
-  const RunResult result = run(loaded_beyond_its_limit(), GetParam().method, end);
+  const RunResult result = run_held(loaded_beyond_its_limit(), GetParam().method, end);
   ASSERT_EQ(result.events.size(), 2u);
   EXPECT_EQ(result.events[0].kind, "stick");
   EXPECT_EQ(result.events[1].kind, "slip_forward");

@@ -106,8 +106,8 @@ RotorTrain belt_drive(double i, double off = 0.)
   return RotorTrain(Eigen::Vector2d(0.02, 0.5), B, of_belt(80., i), elements);
 }
 
-PeriodicProblem problem_of(RotorTrain &system, std::vector<int> angles, const VectorXd &speeds, PeriodicGuess &guess,
-                           double period = 0.)
+PeriodicProblem train_problem(RotorTrain &system, std::vector<int> angles, const VectorXd &speeds, PeriodicGuess &guess,
+                              double period = 0.)
 {
   guess = {VectorXd::Zero(system.size()), speeds, 0.};
   const AngleInvariance invariance(system, std::move(angles), guess, 0.);
@@ -136,7 +136,7 @@ TEST_P(RatioOfBelt, LeavesRoundRotorsTheStretchOfTheirBalance)
   RotorTrain    system = belt_drive(i);
   PeriodicGuess guess;
   // At the start the wheel rests: what turns it is found all the same.
-  const PeriodicProblem problem = problem_of(system, {0, 1}, Eigen::Vector2d(28., 0.), guess);
+  const PeriodicProblem problem = train_problem(system, {0, 1}, Eigen::Vector2d(28., 0.), guess);
   EXPECT_NEAR(problem.turn[0], i * problem.turn[1], 1e-12);
   guess.v = problem.turn / problem.period;
   for (const std::string method : {"shooting", "settling", "collocation", "harmonic-balance"})
@@ -158,7 +158,7 @@ TEST_P(RatioOfBelt, IsHowFarTheMotorTurnsInATurnOfACrank)
   const double          i      = GetParam();
   RotorTrain            system = belt_drive(i, 0.8);
   PeriodicGuess         guess;
-  const PeriodicProblem problem = problem_of(system, {0, 1}, Eigen::Vector2d(28., 28. / i), guess);
+  const PeriodicProblem problem = train_problem(system, {0, 1}, Eigen::Vector2d(28., 28. / i), guess);
   EXPECT_NEAR(problem.turn[1], 2. * M_PI, 1e-12);
   EXPECT_NEAR(problem.turn[0], 2. * M_PI * i, 1e-11);
   EXPECT_EQ(problem.phase, 1);
@@ -177,7 +177,7 @@ TEST(VerifiedOrbit, RefutesAMotionThatClosesByWholeTurnsOnly)
 {
   RotorTrain      system = belt_drive(3.7);
   PeriodicGuess   guess;
-  PeriodicProblem problem = problem_of(system, {0, 1}, Eigen::Vector2d(28., 28. / 3.7), guess);
+  PeriodicProblem problem = train_problem(system, {0, 1}, Eigen::Vector2d(28., 28. / 3.7), guess);
   problem.turn            = 2. * M_PI * Eigen::Vector2d(11., 3.);
   problem.period          = 3. * 2. * M_PI / (28. / 3.7);
   auto found              = periodic_method("shooting").solve(problem, guess, {});
@@ -195,7 +195,7 @@ TEST(VerifiedOrbit, OfABranchIsThatOfThreeMotionsOfEachStretch)
 {
   RotorTrain      system = belt_drive(3.7);
   PeriodicGuess   guess;
-  PeriodicProblem problem  = problem_of(system, {0, 1}, Eigen::Vector2d(28., 28. / 3.7), guess);
+  PeriodicProblem problem  = train_problem(system, {0, 1}, Eigen::Vector2d(28., 28. / 3.7), guess);
   const auto      verified = [&]
   {
     const PeriodicSolution motion = periodic_method("shooting").solve(problem, guess, {}).front();
@@ -258,7 +258,7 @@ TEST(ShiftInvariance, ARoundRotorSlipsAgainstThePeriodOfALoad)
   RotorTrain system(m, B, C, {{Eigen::Vector2d(0., 1.), motor()}});
   system.loads().add_harmonic(0, 9., 3., 0.);
   PeriodicGuess         guess;
-  const PeriodicProblem problem = problem_of(system, {1}, Eigen::Vector2d(0., 29.), guess, 2. * M_PI / 9.);
+  const PeriodicProblem problem = train_problem(system, {1}, Eigen::Vector2d(0., 29.), guess, 2. * M_PI / 9.);
   ASSERT_EQ(problem.free.cols(), 1);
   guess.q[1]         = 0.7;
   const double omega = rise * speed / (rise + brake), x = 3. / std::hypot(50. - 2. * 81., 9.);

@@ -42,7 +42,7 @@ SmallSystem chain(double beta)
   return system;
 }
 
-PeriodicProblem problem_of(SmallSystem &system)
+PeriodicProblem slow_problem_of(SmallSystem &system)
 {
   PeriodicProblem problem;
   problem.system = &system;
@@ -58,7 +58,7 @@ PeriodicProblem problem_of(SmallSystem &system)
 TEST(SlowMotions, LeadToTheMotionAndMultipliersOfAll)
 {
   SmallSystem           system  = chain(0.7);
-  const PeriodicProblem problem = problem_of(system);
+  const PeriodicProblem problem = slow_problem_of(system);
   SlowMotions           motions(problem);
   ASSERT_TRUE(mostly_fast(motions, problem));
   PeriodicOptions     options;
@@ -82,7 +82,7 @@ TEST(SlowMotions, LeadToTheMotionAndMultipliersOfAll)
 TEST(SlowMotions, CloseALinearMotionInOneStep)
 {
   SmallSystem           system  = chain(0.);
-  const PeriodicProblem problem = problem_of(system);
+  const PeriodicProblem problem = slow_problem_of(system);
   PeriodicOptions       options;
   options.lead_in = 0;
   SlowMotions motions(problem);
@@ -102,7 +102,7 @@ TEST(SlowMotions, CloseALinearMotionInOneStep)
 TEST(SlowMotions, CarryTheSlowestWhereAllDieAway)
 {
   SmallSystem     system  = chain(0.7);
-  PeriodicProblem problem = problem_of(system);
+  PeriodicProblem problem = slow_problem_of(system);
   problem.period *= 40.; // forty periods of the load
   problem.ratio = 40;
   SlowMotions motions(problem);

@@ -51,7 +51,7 @@ fem::FrameMatrices loaded_bricks()
   return fem::discretise(test::brick_mesh({{2, 1, 1}}, {{0.8, 0.4, 0.3}}, 0.2), specification);
 }
 
-ReducedFrame reduced(const fem::FrameMatrices &frame, int modes)
+ReducedFrame reduced_with(const fem::FrameMatrices &frame, int modes)
 {
   coupling::ReductionOptions options;
   options.n_modes = modes;
@@ -60,7 +60,7 @@ ReducedFrame reduced(const fem::FrameMatrices &frame, int modes)
 
 /// Largest difference over the largest stress.  Columns in single precision are rounded to 6e-8; stresses of unit
 /// motions of an interface cancel to some tenths of a percent of themselves.
-double error(const VectorXd &found, const VectorXd &exact)
+double stress_error(const VectorXd &found, const VectorXd &exact)
 {
   return (found - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
 }
@@ -96,14 +96,14 @@ TEST(ReducedStress, OfStaticLoadsIsThatOfTheFullFrameWithAnyNumberOfModes)
   for (const auto &frame : {column(), loaded_block(), loaded_bricks()})
     for (const int modes : {0, 5})
     {
-      const ReducedFrame small = reduced(frame, modes);
-      EXPECT_LT(error(reduced_static_stress(small, F, Eigen::Vector3d::Zero()),
-                      full_static_stress(frame, F, Eigen::Vector3d::Zero())),
+      const ReducedFrame small = reduced_with(frame, modes);
+      EXPECT_LT(stress_error(reduced_static_stress(small, F, Eigen::Vector3d::Zero()),
+                             full_static_stress(frame, F, Eigen::Vector3d::Zero())),
                 1e-5)
           << modes << " modes, forces at the interface";
-      EXPECT_LT(
-          error(reduced_static_stress(small, VectorXd::Zero(6), g), full_static_stress(frame, VectorXd::Zero(6), g)),
-          1e-5)
+      EXPECT_LT(stress_error(reduced_static_stress(small, VectorXd::Zero(6), g),
+                             full_static_stress(frame, VectorXd::Zero(6), g)),
+                1e-5)
           << modes << " modes, weight: what the modes leave out is added";
     }
 }
@@ -124,11 +124,11 @@ TEST(ReducedStress, OfAVibrationErrsAsTheModesLeftOutAre)
   double last = 1e9;
   for (const int modes : {2, 8, 30})
   {
-    const ReducedFrame small = reduced(frame, modes);
+    const ReducedFrame small = reduced_with(frame, modes);
     const VectorXd     p =
         MatrixXd(small.C - omega * omega * small.M).lu().solve(VectorXd(1e4 * VectorXd::Unit(small.C.rows(), 0)));
-    const double err =
-        error(flat(coupling::stress_field(small.stress, coupling::stress_state(small.stress, p, {0., 0., 0.}))), exact);
+    const double err = stress_error(
+        flat(coupling::stress_field(small.stress, coupling::stress_state(small.stress, p, {0., 0., 0.}))), exact);
     EXPECT_LT(err, 5. * std::pow(omega / small.omega0[modes - 1], 2)) << modes << " modes";
     EXPECT_LT(err, last);
     last = err;
@@ -140,7 +140,7 @@ TEST(ReducedStress, IsThereOnlyIfItIsAskedFor)
   auto specification       = test::free_steel();
   specification.supports   = {test::clamped("floor", {"z0"})};
   specification.interfaces = {test::interface("top", {"z1"}, fem::InterfaceCoupling::rigid)};
-  const auto small         = reduced(fem::discretise(test::box_mesh({{1, 1, 2}}, {{1., 1., 2.}}), specification), 2);
+  const auto small = reduced_with(fem::discretise(test::box_mesh({{1, 1, 2}}, {{1., 1., 2.}}), specification), 2);
   EXPECT_TRUE(small.stress.empty());
   EXPECT_EQ(small.stress.mean.size() + small.stress.deviation.size(), 0);
 }

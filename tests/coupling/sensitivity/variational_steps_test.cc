@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 
 constexpr double mass = 2., stiffness = 98., omega = 7., q_0 = 0.01, T = 1.;
 
-Machine oscillator(double c)
+Machine damped_oscillator(double c)
 {
   MachineModel model;
   model.add_slider("x", {1., 0., 0.}, mass, "ground");
@@ -39,8 +39,8 @@ SmoothPiece exact_motion(int n = 800)
 /// Of dq/dc at T, by n equal steps.
 double end_error(int n)
 {
-  Machine machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
-          above                     = oscillator(stiffness * (1. + 1e-6));
+  Machine machine = damped_oscillator(stiffness), below = damped_oscillator(stiffness * (1. - 1e-6)),
+          above                     = damped_oscillator(stiffness * (1. + 1e-6));
   std::vector<ParameterTwins> twins = {
       {"c", "N/m", stiffness, 1e-6 * stiffness, {&below, {}, {}, T}, {&above, {}, {}, T}}};
   VariationalEquation equation(machine, twins);
@@ -62,8 +62,8 @@ TEST(VariationalSteps, HaveOrderFour)
 /// What a run of n steps by a method of order p is told to make of dq/dc.
 double told_accuracy(int n, int p)
 {
-  Machine machine = oscillator(stiffness), below = oscillator(stiffness * (1. - 1e-6)),
-          above                     = oscillator(stiffness * (1. + 1e-6));
+  Machine machine = damped_oscillator(stiffness), below = damped_oscillator(stiffness * (1. - 1e-6)),
+          above                     = damped_oscillator(stiffness * (1. + 1e-6));
   std::vector<ParameterTwins> twins = {
       {"c", "N/m", stiffness, 1e-6 * stiffness, {&below, {}, {}, T}, {&above, {}, {}, T}}};
   VariationalEquation equation(machine, twins);

@@ -73,8 +73,8 @@ double largest_time_error(const std::vector<Event> &events, const std::vector<do
   return largest;
 }
 
-std::vector<Event> run(SecondOrderSystem &system, const MethodOptions &method, const Vector &q, const Vector &v,
-                       double end)
+std::vector<Event> events_of_run(SecondOrderSystem &system, const MethodOptions &method, const Vector &q,
+                                 const Vector &v, double end)
 {
   const auto  integrator = make_integrator(system, method);
   EventDriver driver(system, *integrator, EventOptions());
@@ -102,7 +102,7 @@ TEST_P(WallSpring, EventsOfExactPropagationAreRightToTheNanosecond)
   const Wall &wall = GetParam();
   WallSystem  system(wall);
   const auto  expected = event_times("order/c_impact_events.csv", wall.name);
-  const auto  events   = run(system, exact(1e-10), Vector::Zero(1), Vector::Constant(1, wall.v0), wall.end);
+  const auto  events   = events_of_run(system, exact(1e-10), Vector::Zero(1), Vector::Constant(1, wall.v0), wall.end);
   EXPECT_LT(largest_time_error(events, expected), 1e-9);
 }
 
@@ -113,7 +113,7 @@ TEST(LocatedEvents, AreNotMissedWhereBeginMiddleAndEndOfAStepAreAlike)
   WallSystem    system({"", 1., 0., omega * omega, 0., 1., 0., way, 0., 0., omega, 1.});
   MethodOptions method = exact(0.);
   method.step          = 1.;
-  const auto events    = run(system, method, Vector::Zero(1), Vector::Constant(1, omega), 1.);
+  const auto events    = events_of_run(system, method, Vector::Zero(1), Vector::Constant(1, omega), 1.);
   ASSERT_GE(events.size(), 2u); // at the level itself rounding may turn the guard once more
   EXPECT_NEAR(events.front().t, std::asin(way) / omega, 1e-9);
   EXPECT_NEAR(events.back().t, 0.5 - std::asin(way) / omega, 1e-9);
@@ -132,8 +132,8 @@ TEST(LocatedEvents, AreNotMissedWhereAPeakJustReachesOver)
     WallSystem    system({"", 1., 0., omega * omega, 0., 1., 0., way, 0., 0., 0., 1.});
     MethodOptions method = exact(0.);
     method.step          = 1.;
-    const auto events =
-        run(system, method, Vector::Constant(1, std::sin(phase)), Vector::Constant(1, omega * std::cos(phase)), 1.);
+    const auto events    = events_of_run(system, method, Vector::Constant(1, std::sin(phase)),
+                                         Vector::Constant(1, omega * std::cos(phase)), 1.);
     ASSERT_GE(events.size(), 2u) << k;
     EXPECT_NEAR(events.front().t, std::fmod(reached - phase + omega, omega) / omega, 1e-8) << k;
   }
@@ -148,8 +148,9 @@ TEST_P(WallSpring, EventsOfBdf2ComeWithItsOrder)
   for (int k = 0; k < 2; ++k)
   {
     WallSystem system(wall);
-    const auto events = run(system, bdf(2, std::ldexp(1e-4, -k)), Vector::Zero(1), Vector::Constant(1, wall.v0), end);
-    error[k]          = largest_time_error(events, {expected[0], expected[1]});
+    const auto events =
+        events_of_run(system, bdf(2, std::ldexp(1e-4, -k)), Vector::Zero(1), Vector::Constant(1, wall.v0), end);
+    error[k] = largest_time_error(events, {expected[0], expected[1]});
   }
   EXPECT_GT(error[0] / error[1], 3.) << error[0] << " " << error[1]; // second order: 4
 }
@@ -199,7 +200,8 @@ TEST_P(StickSlip, EventsAreRightToTheNanosecond)
   const Rubbing &r        = GetParam();
   Machine        machine  = rubbing_mass(r);
   const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
-  const auto     found = times(run(machine, exact(1e-12), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
+  const auto     found =
+      times(events_of_run(machine, exact(1e-12), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-9) << i;
@@ -210,7 +212,8 @@ TEST_P(StickSlip, Bdf2FindsTheSameEvents)
   const Rubbing &r        = GetParam();
   Machine        machine  = rubbing_mass(r);
   const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
-  const auto     found = times(run(machine, bdf(2, 1e-4), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
+  const auto     found =
+      times(events_of_run(machine, bdf(2, 1e-4), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end));
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-4 * r.end) << i; // the phase of BDF2 lags by (omega h)^2/3 = 3e-7
@@ -222,16 +225,16 @@ TEST_P(StickSlip, ControlledBdfFindsTheSameEvents)
   Machine        machine  = rubbing_mass(r);
   const auto     expected = event_times("order/d_coulomb_events.csv", r.name);
   // A slip begins with u' = 0: an error of the tolerance there may stick and slip once more, nanoseconds later.
-  const auto found = times(
-      run(machine, tests::controlled(bdf(5, 1e-2), 1e-9), Vector::Constant(1, r.x0), Vector::Constant(1, r.v0), r.end),
-      1e-6);
+  const auto found = times(events_of_run(machine, tests::controlled(bdf(5, 1e-2), 1e-9), Vector::Constant(1, r.x0),
+                                         Vector::Constant(1, r.v0), r.end),
+                           1e-6);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-7) << i; // a hundred tolerances; measured 1e-8
 }
 
-// Wilson's method solves at t + theta h, where the load differs by up to 1e-2 N from that at t + h; the force that holds
-// the mass is found anew at the end of the step. 1e-4 N is a hundredth of that difference.
+// Wilson's method solves at t + theta h, where the load differs by up to 1e-2 N from that at t + h; the force that
+// holds the mass is found anew at the end of the step. 1e-4 N is a hundredth of that difference.
 TEST(Sticking, IsHeldByTheLoadOfItsInstantUnderWilsonsMethod)
 {
   const Rubbing &r          = rubbing[2];

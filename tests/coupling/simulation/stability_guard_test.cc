@@ -49,7 +49,7 @@ Machine sliders(const std::vector<Slider> &all, double contact_stiffness = 0.)
   return Machine(std::move(model));
 }
 
-std::string refusal(const Machine &machine, const MethodOptions &options)
+std::string guard_refusal(const Machine &machine, const MethodOptions &options)
 {
   return tests::refusal([&] { StabilityGuard(linear_spectrum(machine, at_rest(machine)), options).check(); });
 }
@@ -62,7 +62,7 @@ bool says(const std::string &message, const std::string &part)
 TEST(StabilityGuard, RefusesBdf3OnALightlyDampedModeAndNamesEverything)
 {
   const Machine machine = sliders({{3., 0.2}, {150., 0.01}, {0., 0.}});
-  const auto    message = refusal(machine, bdf(3, 1e-3)); // omega h = 0.942 in (0.3567, 1.863)
+  const auto    message = guard_refusal(machine, bdf(3, 1e-3)); // omega h = 0.942 in (0.3567, 1.863)
   EXPECT_TRUE(says(message, "unstable")) << message;
   EXPECT_TRUE(says(message, "mode 3 of the frame (150 Hz, damping ratio 0.01)")) << message; // the free one is mode 1
   EXPECT_TRUE(says(message, "omega h is 0.94248")) << message;
@@ -83,12 +83,12 @@ TEST(StabilityGuard, TheStepItOffersWorks)
     const double         step     = StabilityGuard(spectrum, o).largest_stable_step();
     ASSERT_GT(step, 0.) << method_name(o);
     ASSERT_LT(step, o.step);
-    EXPECT_FALSE(refusal(machine, o).empty());
+    EXPECT_FALSE(guard_refusal(machine, o).empty());
     MethodOptions smaller = o;
     smaller.step          = step;
-    EXPECT_EQ(refusal(machine, smaller), "") << method_name(o);
+    EXPECT_EQ(guard_refusal(machine, smaller), "") << method_name(o);
     smaller.step = 1.02 * step; // three digits are kept
-    EXPECT_NE(refusal(machine, smaller), "") << method_name(o);
+    EXPECT_NE(guard_refusal(machine, smaller), "") << method_name(o);
   }
 }
 
@@ -99,16 +99,16 @@ TEST(StabilityGuard, WhatIsStableIsNotRefused)
   for (const double step : {1e-7, 1e-4, 1e-3, 0.1, 10.})
   {
     for (const int order : {1, 2})
-      EXPECT_EQ(refusal(machine, bdf(order, step)), "");
+      EXPECT_EQ(guard_refusal(machine, bdf(order, step)), "");
     for (const char *kind : {"newmark", "wilson", "hht", "generalised-alpha", "exact"})
       for (const double rho : {0., 0.8, 1.})
       {
         const MethodOptions o = method(kind, step, 2, {{"rho_inf", rho}, {"alpha", -0.3 * (1. - rho)}});
-        EXPECT_EQ(refusal(machine, o), "") << method_name(o) << ' ' << step;
+        EXPECT_EQ(guard_refusal(machine, o), "") << method_name(o) << ' ' << step;
       }
   }
-  EXPECT_EQ(refusal(machine, method("central-difference", 3e-7)), ""); // omega h = 1.885
-  EXPECT_EQ(refusal(machine, controlled(bdf(5, 1e-3), 1e-4)), "");     // its order is limited step by step
+  EXPECT_EQ(guard_refusal(machine, method("central-difference", 3e-7)), ""); // omega h = 1.885
+  EXPECT_EQ(guard_refusal(machine, controlled(bdf(5, 1e-3), 1e-4)), "");     // its order is limited step by step
 }
 
 TEST(StabilityGuard, EveryMethodThatFailsIsRefused)
@@ -116,25 +116,25 @@ TEST(StabilityGuard, EveryMethodThatFailsIsRefused)
   const Machine machine = sliders({{150., 0.005}});
   const auto    at      = [](double omega_h) { return omega_h / (two_pi * 150.); };
   for (const int order : {3, 4, 5, 6})
-    EXPECT_TRUE(says(refusal(machine, bdf(order, at(1.5))), "unstable")) << order;
+    EXPECT_TRUE(says(guard_refusal(machine, bdf(order, at(1.5))), "unstable")) << order;
 
   MethodOptions wilson = method("wilson", at(10.));
-  EXPECT_EQ(refusal(machine, wilson), "");
+  EXPECT_EQ(guard_refusal(machine, wilson), "");
   wilson.set("theta", 1.3);
-  EXPECT_TRUE(says(refusal(machine, wilson), "Wilson")) << refusal(machine, wilson);
+  EXPECT_TRUE(says(guard_refusal(machine, wilson), "Wilson")) << guard_refusal(machine, wilson);
 
   MethodOptions newmark = method("newmark", at(3.5), 2, {{"beta", 1. / 6.}});
-  EXPECT_TRUE(says(refusal(machine, newmark), "omega h > 3.46"));
+  EXPECT_TRUE(says(guard_refusal(machine, newmark), "omega h > 3.46"));
   newmark.step = at(3.4);
-  EXPECT_EQ(refusal(machine, newmark), "");
+  EXPECT_EQ(guard_refusal(machine, newmark), "");
   newmark.set("beta", 0.25);
   newmark.set("gamma", 0.45); // grows from omega h = 2 zeta / 0.05 = 0.2 on
-  EXPECT_TRUE(says(refusal(machine, newmark), "omega h > 0.2"));
+  EXPECT_TRUE(says(guard_refusal(machine, newmark), "omega h > 0.2"));
   newmark.step = at(0.19);
-  EXPECT_EQ(refusal(machine, newmark), "");
+  EXPECT_EQ(guard_refusal(machine, newmark), "");
 
-  EXPECT_TRUE(says(refusal(machine, method("central-difference", at(2.001))), "omega h > 2"));
-  EXPECT_EQ(refusal(machine, method("central-difference", at(1.999))), "");
+  EXPECT_TRUE(says(guard_refusal(machine, method("central-difference", at(2.001))), "omega h > 2"));
+  EXPECT_EQ(guard_refusal(machine, method("central-difference", at(1.999))), "");
 }
 
 TEST(StabilityGuard, ClosedContactsCountToo)
@@ -142,15 +142,15 @@ TEST(StabilityGuard, ClosedContactsCountToo)
   // 2 kg with 100 Hz, and 1e8 N/m at the stop: 1127.9 Hz with the contact closed.
   const Machine machine = sliders({{100., 0.01}}, 1e8);
   const double  closed  = std::sqrt(std::pow(two_pi * 100., 2) + 5e7);
-  const auto    message = refusal(machine, method("central-difference", 2.01 / closed));
+  const auto    message = guard_refusal(machine, method("central-difference", 2.01 / closed));
   EXPECT_TRUE(says(message, "mode 1 of the machine with closed contacts (1129.")) << message;
-  EXPECT_EQ(refusal(machine, method("central-difference", 1.99 / closed)), "");
+  EXPECT_EQ(guard_refusal(machine, method("central-difference", 1.99 / closed)), "");
 
   // Exact propagation: a warning only, and only for a force that is not the mean one.  The contact alone counts.
   MethodOptions        exact    = method("exact", 3.47 / std::sqrt(5e7), 2, {{"force", "linear"}});
   const LinearSpectrum spectrum = linear_spectrum(machine, at_rest(machine));
   const auto           warnings = [&] { return StabilityGuard(spectrum, exact).warnings(); };
-  EXPECT_EQ(refusal(machine, exact), "");
+  EXPECT_EQ(guard_refusal(machine, exact), "");
   ASSERT_EQ(warnings().size(), 1u);
   EXPECT_TRUE(says(warnings()[0], "omega h > 3.46")) << warnings()[0];
   exact.step = 3.45 / std::sqrt(5e7);
@@ -203,10 +203,10 @@ TEST(StabilityGuard, TakesTheModesThatIdealJointsLeave)
 
   // BDF 3 grows for 0 < omega h < 1.936: with its gear the machine grows where it would not without, and is stable
   // where it would grow.
-  EXPECT_TRUE(says(refusal(machine, bdf(3, 1. / omega)), "(159.15 Hz, damping ratio 0)"));
-  EXPECT_EQ(refusal(machine, bdf(3, 2. / omega)), "");
-  EXPECT_EQ(refusal(geared(1e4, 0.01), bdf(3, 0.0196)), "");
-  EXPECT_TRUE(says(refusal(geared(1e4, 0.01), bdf(3, 0.0193)), "unstable"));
+  EXPECT_TRUE(says(guard_refusal(machine, bdf(3, 1. / omega)), "(159.15 Hz, damping ratio 0)"));
+  EXPECT_EQ(guard_refusal(machine, bdf(3, 2. / omega)), "");
+  EXPECT_EQ(guard_refusal(geared(1e4, 0.01), bdf(3, 0.0196)), "");
+  EXPECT_TRUE(says(guard_refusal(geared(1e4, 0.01), bdf(3, 0.0193)), "unstable"));
 }
 
 TEST(StabilityGuard, NewmarkNeedsDampedJoints)
@@ -245,13 +245,13 @@ TEST(StabilityGuard, ADamperDoesNotReachWhatItHoldsStill)
   MethodOptions wilson = method("wilson", 0., 2, {{"theta", 1.2}});
   const auto    limit  = unstable_intervals(wilson, 0.).at(0).from;
   wilson.step          = 1.01 * limit / omega;
-  EXPECT_TRUE(says(refusal(machine, wilson), "unstable"));
+  EXPECT_TRUE(says(guard_refusal(machine, wilson), "unstable"));
   wilson.step = 0.99 * limit / omega;
-  EXPECT_EQ(refusal(machine, wilson), "");
+  EXPECT_EQ(guard_refusal(machine, wilson), "");
 
   // Newmark's grows from omega h = 2 zeta / 0.05 on: with all of the damping at 250.
-  EXPECT_TRUE(says(refusal(machine, method("newmark", 0.1 / omega, 2, {{"gamma", 0.45}})), "unstable"));
-  EXPECT_TRUE(says(refusal(machine, bdf(4, 1. / omega)), "unstable"));
+  EXPECT_TRUE(says(guard_refusal(machine, method("newmark", 0.1 / omega, 2, {{"gamma", 0.45}})), "unstable"));
+  EXPECT_TRUE(says(guard_refusal(machine, bdf(4, 1. / omega)), "unstable"));
 }
 
 TEST(DampedModes, AreThoseOfTheWholeStateMatrix)
@@ -334,7 +334,7 @@ TEST(StabilityGuard, DampersThatJoinModesAreSeenByBdf)
   model.add_linear("spring a", a, {1e6, 0., 0., 0.}, "N");
   model.add_linear("spring b", b, {1e6, 0., 0., 0.}, "N");
   model.add_linear("damper", {a[0], {b[0].first, -1.}}, {0., 400., 0., 0.}, "N"); // ratio 0.4
-  EXPECT_TRUE(says(refusal(Machine(std::move(model)), bdf(3, 1e-3)), "unstable"));
+  EXPECT_TRUE(says(guard_refusal(Machine(std::move(model)), bdf(3, 1e-3)), "unstable"));
 }
 
 } // namespace

@@ -17,7 +17,7 @@ namespace
 
 using namespace coupling;
 
-constexpr double mass = 2., spring = 800., wall = 2e5, gap = 8e-3; // kg, N/m, N/m, m
+constexpr double block_mass = 2., spring = 800., wall = 2e5, gap = 8e-3; // kg, N/m, N/m, m
 
 /// A sprung mass that an input pushes, between stops.
 struct PushedMass
@@ -26,7 +26,7 @@ struct PushedMass
   explicit PushedMass(double play = gap, double limit = 0.)
   {
     MachineModel  model;
-    const Measure x = slider(model, "x", mass);
+    const Measure x = slider(model, "x", block_mass);
     model.add_linear("spring", x, {spring, 0., 0., 0.}, "N");
     model.attach("stops", std::make_shared<mechanism::Clearance>(mechanism::Clearance::Parameters{play, wall, 0.}),
                  {x});
@@ -94,7 +94,7 @@ TEST_P(SteppedRunBy, ALoadThatJumpsMovesTheRestPosition)
 {
   // x = F/c (1 - cos w t) up to t_1, then about F_1/c with what it has there; between stops that are far.
   PushedMass   one(no_stops);
-  const double w = std::sqrt(spring / mass), t_1 = 0.05, x_0 = 5. / spring, x_1 = -12. / spring;
+  const double w = std::sqrt(spring / block_mass), t_1 = 0.05, x_0 = 5. / spring, x_1 = -12. / spring;
   SteppedRun   run(*one.machine, start(0., 0.), options(), one.signals());
   const auto   error_at = [&](double x) { return std::abs(run.values()[0] - x); };
   run.go_on_to(t_1);
@@ -135,7 +135,7 @@ TEST(SteppedRun, EndsInsideAStepAndGoesOnFromThere)
 {
   PushedMass   one(no_stops);
   SteppedRun   run(*one.machine, start(0., 0.), run_of(bdf(2, step), end), one.signals());
-  const double w = std::sqrt(spring / mass);
+  const double w = std::sqrt(spring / block_mass);
   for (int i = 1; i <= 37; ++i) // 54.05 steps each
   {
     run.go_on_to(i * end / 37);
@@ -152,7 +152,7 @@ class EndedRun : public testing::TestWithParam<bool> // events are located, or g
 TEST_P(EndedRun, StaysWhereASwitchEndsItInItsStatesToo)
 {
   // x = F/c (1 - cos w t) passes the limit at t_1, amid a piece of two thirds of a step as well as of 15 steps.
-  const double limit = 5e-3, w = std::sqrt(spring / mass), t_1 = std::acos(1. - limit * spring / 5.) / w;
+  const double limit = 5e-3, w = std::sqrt(spring / block_mass), t_1 = std::acos(1. - limit * spring / 5.) / w;
   RunOptions   options = run_of(bdf(2, step), end);
   options.events       = GetParam();
   for (const double piece : {step / 1.5, 15. * step})
@@ -192,7 +192,7 @@ TEST(SteppedRun, ControlsTheErrorOfItsStepsWithinPieces)
 {
   PushedMass   one(no_stops);
   SteppedRun   run(*one.machine, start(0., 0.), run_of(controlled(bdf(5, 0.), 1e-8), end), one.signals());
-  const double w = std::sqrt(spring / mass);
+  const double w = std::sqrt(spring / block_mass);
   for (int i = 1; i <= 10; ++i)
     run.go_on_to(i * end / 10);
   EXPECT_NEAR(run.values()[0], 5. / spring * (1. - std::cos(w * end)), 1e-5 * 5. / spring);

@@ -16,13 +16,13 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr auto average = fem::InterfaceCoupling::average;
+constexpr auto smeared = fem::InterfaceCoupling::average;
 
 /// A bar of twice the length in one piece, and its halves welded in the middle by faces of a degree; `cells` of the
 /// second half along the joint.
 std::vector<Piece> halves(int degree, int cells = 2, int along = 1)
 {
-  std::vector<Piece>          bars{bar("first", average, average), bar("second", average, average, part_length)};
+  std::vector<Piece>          bars{bar("first", smeared, smeared), bar("second", smeared, smeared, part_length)};
   const std::array<double, 3> size{{part_length, part_width, part_height}};
   bars[0].mesh = box_mesh({{along, 2, 2}}, size);
   bars[1].mesh = box_mesh({{along, cells, cells}}, size);
@@ -31,7 +31,7 @@ std::vector<Piece> halves(int degree, int cells = 2, int along = 1)
   return bars;
 }
 
-VectorXd frequencies(const fem::FrameMatrices &frame)
+VectorXd frequencies_of(const fem::FrameMatrices &frame)
 {
   return coupling::dense_modes(MatrixXd(frame.C), MatrixXd(frame.M), coupling::cancelled_by_reduction).omega;
 }
@@ -39,14 +39,14 @@ VectorXd frequencies(const fem::FrameMatrices &frame)
 VectorXd welded(const std::vector<Piece> &bars)
 {
   const auto frame = described(bars, {weld("middle", {"first", "front"}, {"second", "rear"})});
-  return frequencies(joined(bars, frame, all_modes).matrices);
+  return frequencies_of(joined(bars, frame, all_modes).matrices);
 }
 
 VectorXd in_one_piece(int cells = 2, int along = 1)
 {
   auto geometry       = free_steel();
-  geometry.interfaces = {interface("rear", {"x0"}, average), interface("front", {"x1"}, average)};
-  return frequencies(
+  geometry.interfaces = {interface("rear", {"x0"}, smeared), interface("front", {"x1"}, smeared)};
+  return frequencies_of(
       fem::discretise(box_mesh({{2 * along, cells, cells}}, {{2. * part_length, part_width, part_height}}), geometry));
 }
 

@@ -17,15 +17,15 @@ using coupling::JointKind;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr auto rigid   = fem::InterfaceCoupling::rigid;
-constexpr auto average = fem::InterfaceCoupling::average;
+constexpr auto held_rigid = fem::InterfaceCoupling::rigid;
+constexpr auto averaged   = fem::InterfaceCoupling::average;
 
 /// A clamped base, a column on it and a head on that, one behind the other along x; no Poisson contraction, so that the
 /// column between rigid faces is a bar.
 std::vector<Piece> column_between()
 {
-  std::vector<Piece> pieces{bar("base", average, rigid), bar("column", rigid, rigid, part_length),
-                            bar("head", rigid, average, 2. * part_length)};
+  std::vector<Piece> pieces{bar("base", averaged, held_rigid), bar("column", held_rigid, held_rigid, part_length),
+                            bar("head", held_rigid, averaged, 2. * part_length)};
   pieces[0].geometry.interfaces.erase(pieces[0].geometry.interfaces.begin());
   pieces[0].geometry.supports = {clamped("ground", {"x0"})};
   for (Piece &piece : pieces)
@@ -126,7 +126,7 @@ TEST(Weld, CarriesTheWeightOfWhatStandsOnIt)
 
 TEST(Weld, TellsTheInertiaOfWhatItAccelerates)
 {
-  std::vector<Piece> bars{bar("first", average, rigid), bar("second", rigid, average, part_length)};
+  std::vector<Piece> bars{bar("first", averaged, held_rigid), bar("second", held_rigid, averaged, part_length)};
   const auto         both = joined(bars, described(bars, {weld("middle", {"first", "front"}, {"second", "rear"})}), 3);
   const double       mass = 7850. * part_length * part_width * part_height;
   const auto        &row  = output(both.matrices, "joint.middle.fy");
@@ -140,7 +140,7 @@ TEST(Weld, TellsTheInertiaOfWhatItAccelerates)
 
 TEST(Bolts, YieldByTheirStiffnessAndByTheirPlaces)
 {
-  std::vector<Piece> bars{bar("base", average, rigid), bar("arm", rigid, average, part_length)};
+  std::vector<Piece> bars{bar("base", averaged, held_rigid), bar("arm", held_rigid, averaged, part_length)};
   bars[0].geometry.interfaces.erase(bars[0].geometry.interfaces.begin());
   bars[0].geometry.supports = {clamped("ground", {"x0"})};
   FrameJoint stiff          = weld("flange", {"base", "front"}, {"arm", "rear"});
@@ -168,7 +168,7 @@ TEST(Bolts, YieldByTheirStiffnessAndByTheirPlaces)
 
 TEST(Bolts, TellTheForceThatBendsThem)
 {
-  std::vector<Piece> bars{bar("base", average, rigid), bar("arm", rigid, average, part_length)};
+  std::vector<Piece> bars{bar("base", averaged, held_rigid), bar("arm", held_rigid, averaged, part_length)};
   bars[0].geometry.interfaces.erase(bars[0].geometry.interfaces.begin());
   bars[0].geometry.supports                               = {clamped("ground", {"x0"})};
   FrameJoint joint                                        = weld("flange", {"base", "front"}, {"arm", "rear"});
@@ -188,7 +188,7 @@ TEST(JointDampers, ActAsTheSpringsBesideThemDoAtTheRateInPlaceOfTheWay)
 {
   // Dampers of a time constant times the stiffness: the force of rates v is that of the deflection times it.
   constexpr double   tau = 2e-4;
-  std::vector<Piece> bars{bar("base", average, rigid), bar("arm", rigid, average, part_length)};
+  std::vector<Piece> bars{bar("base", averaged, held_rigid), bar("arm", held_rigid, averaged, part_length)};
   FrameJoint         flange       = weld("flange", {"base", "front"}, {"arm", "rear"});
   flange.kind                     = JointKind::bolts;
   flange.bolts.stiffness          = {3e8, 1e8, 2e8};
@@ -219,7 +219,7 @@ TEST(BadJoints, AreRefusedWithTheirPlaceAndAWayOut)
 {
   using ::testing::AllOf;
   using ::testing::HasSubstr;
-  const std::vector<Piece> bars{bar("first", average, rigid), bar("second", rigid, average, part_length)};
+  const std::vector<Piece> bars{bar("first", averaged, held_rigid), bar("second", held_rigid, averaged, part_length)};
   const auto               good = weld("middle", {"first", "front"}, {"second", "rear"});
   EXPECT_EQ(refused(bars, described(bars, {good})), "");
 

@@ -16,11 +16,11 @@ namespace
 using fem::discretise;
 using fem::InterfaceCoupling;
 
-constexpr double length = 2., width = 0.2, height = 0.25, area = width * height;
+constexpr double beam_length = 2., width = 0.2, height = 0.25, area = width * height;
 
 fem::Mesh bar_mesh()
 {
-  return box_mesh({{8, 2, 2}}, {{length, width, height}});
+  return box_mesh({{8, 2, 2}}, {{beam_length, width, height}});
 }
 
 /// A bar along x, clamped at x = 0, with the node "tip" on its other end.
@@ -51,19 +51,19 @@ TEST(AttachedMass, OnTheTipOfACantileverSwaysByRayleighsRule)
   // f = 1/(2 pi) sqrt(1 / (w (m + 33/140 m_bar))), w the deflection of a unit force after Timoshenko; lengthwise
   // m_bar/3. Of twenty times the bar's mass the rule is right within 1e-4; the mesh, two cells thick, is too stiff by
   // 0.5 %.
-  const double bar = 7850. * length * area, mass = 20. * bar;
+  const double bar = 7850. * beam_length * area, mass = 20. * bar;
   auto         specification = cantilever();
-  specification.masses       = {motor(mass, {length, 0.5 * width, 0.5 * height})};
+  specification.masses       = {motor(mass, {beam_length, 0.5 * width, 0.5 * height})};
   const auto sway            = [&](double depth, double other)
   {
     const double I = other * std::pow(depth, 3) / 12., shear = 5. / 6. * 105e9 * area;
-    const double w = std::pow(length, 3) / (3. * 210e9 * I) + length / shear;
+    const double w = std::pow(beam_length, 3) / (3. * 210e9 * I) + beam_length / shear;
     return 1. / (2. * M_PI * std::sqrt((mass + 33. / 140. * bar) * w));
   };
   const Eigen::VectorXd f = lowest_modes(discretise(bar_mesh(), specification), 3).frequency_hz;
   EXPECT_NEAR(f[0], sway(width, height), 5e-3 * f[0]);
   EXPECT_NEAR(f[1], sway(height, width), 5e-3 * f[1]);
-  const double lengthwise = std::sqrt(210e9 * area / length / (mass + bar / 3.)) / (2. * M_PI);
+  const double lengthwise = std::sqrt(210e9 * area / beam_length / (mass + bar / 3.)) / (2. * M_PI);
   EXPECT_LT((f.array() / lengthwise - 1.).abs().minCoeff(), 5e-3);
 }
 
@@ -75,7 +75,7 @@ TEST(AttachedMass, BesideItsNodeHasTheInertiaOfARigidBodyAboutIt)
   const Eigen::MatrixXd without       = discretise(bar_mesh(), specification).M;
   const Eigen::Vector3d c(0.3, -0.2, 0.4), J(4., 9., 7.);
   const double          m = 250.;
-  specification.masses    = {motor(m, {length + c[0], 0.5 * width + c[1], 0.5 * height + c[2]}, J)};
+  specification.masses    = {motor(m, {beam_length + c[0], 0.5 * width + c[1], 0.5 * height + c[2]}, J)};
   const auto      frame   = discretise(bar_mesh(), specification);
   Eigen::MatrixXd M       = Eigen::MatrixXd::Zero(6, 6);
   M.diagonal() << m, m, m, J[0] + m * (c[1] * c[1] + c[2] * c[2]), J[1] + m * (c[0] * c[0] + c[2] * c[2]),
@@ -93,13 +93,13 @@ TEST(AttachedMass, BesideItsNodeHasTheInertiaOfARigidBodyAboutIt)
 TEST(AttachedMass, JoinsMassCentreAndInertiaOfTheFrame)
 {
   // A bar and a ball of J = 2/5 m r^2, by Huygens and Steiner; once on a node elsewhere and once on surfaces.
-  const double          bar = 7850. * length * area, ball = 500., r = 0.3;
-  const Eigen::Vector3d of_bar(0.5 * length, 0.5 * width, 0.5 * height), of_ball(1.2, 0.6, -0.4);
+  const double          bar = 7850. * beam_length * area, ball = 500., r = 0.3;
+  const Eigen::Vector3d of_bar(0.5 * beam_length, 0.5 * width, 0.5 * height), of_ball(1.2, 0.6, -0.4);
   const Eigen::Vector3d centre = (bar * of_bar + ball * of_ball) / (bar + ball);
   Eigen::Matrix3d       exact  = 0.4 * ball * r * r * Eigen::Matrix3d::Identity();
   exact.diagonal() += bar / 12. *
-                      Eigen::Vector3d(width * width + height * height, length * length + height * height,
-                                      length * length + width * width);
+                      Eigen::Vector3d(width * width + height * height, beam_length * beam_length + height * height,
+                                      beam_length * beam_length + width * width);
   for (const auto &[m, at] : {std::pair(bar, of_bar), std::pair(ball, of_ball)})
     exact +=
         m * ((at - centre).squaredNorm() * Eigen::Matrix3d::Identity() - (at - centre) * (at - centre).transpose());
@@ -154,7 +154,7 @@ TEST(AttachedMass, HangsOnTheFrameUnderGravity)
 {
   auto       specification    = cantilever();
   const auto plain            = discretise(bar_mesh(), specification);
-  specification.masses        = {motor(1000., {length + 0.5, 0.5 * width, 0.5 * height})};
+  specification.masses        = {motor(1000., {beam_length + 0.5, 0.5 * width, 0.5 * height})};
   const auto            frame = discretise(bar_mesh(), specification);
   const auto           &tip   = frame.interfaces[0].coordinate;
   const Eigen::VectorXd q     = statics(frame, -9.81 * frame.acceleration_load.col(2));
@@ -171,7 +171,7 @@ TEST(AttachedMass, OfImpossibleNumbersOrPlacesIsRefused)
     auto specification            = cantilever();
     specification.masses          = {mass};
     specification.masses[0].place = "press.toml:20: frame.mass.motor";
-    return refusal([&] { discretise(box_mesh({{2, 1, 1}}, {{length, width, height}}), specification); });
+    return refusal([&] { discretise(box_mesh({{2, 1, 1}}, {{beam_length, width, height}}), specification); });
   };
   EXPECT_NE(refuse(motor(-3., {})).find("press.toml:20: frame.mass.motor: mass \"motor\" has -3"), std::string::npos);
   EXPECT_NE(refuse(motor(3., {}, {1., 1., 2.5})).find("at most the sum of the two others"), std::string::npos);

@@ -19,7 +19,7 @@ namespace
 using fem::discretise;
 using fem::Vector3;
 
-constexpr Vector3 size{1., 0.8, 1.5};
+constexpr Vector3 box_size{1., 0.8, 1.5};
 
 fem::InterfaceSpecification node(const std::string &name, const Vector3 &position,
                                  const std::vector<std::string> &surfaces = {})
@@ -39,12 +39,12 @@ fem::FrameSpecification clamped_block(const std::vector<fem::InterfaceSpecificat
 
 fem::Mesh tetrahedra()
 {
-  return box_mesh({3, 3, 3}, size, 0.2);
+  return box_mesh({3, 3, 3}, box_size, 0.2);
 }
 
 fem::Mesh hexahedra()
 {
-  return brick_mesh({3, 3, 3}, size, 0.2);
+  return brick_mesh({3, 3, 3}, box_size, 0.2);
 }
 
 std::vector<int> interface_coordinates(const fem::FrameMatrices &frame)
@@ -57,7 +57,7 @@ std::vector<int> interface_coordinates(const fem::FrameMatrices &frame)
 }
 
 /// Flexibility of the node, H = (C^-1)_11 [3 x 3].
-Eigen::Matrix3d flexibility(const fem::FrameMatrices &frame)
+Eigen::Matrix3d node_flexibility(const fem::FrameMatrices &frame)
 {
   const auto     &q1 = frame.interfaces[0].coordinate;
   Eigen::Matrix3d H;
@@ -90,7 +90,7 @@ TEST_P(NodeInterface, IsTheNearestCornerWithThreeDisplacementsAndNoRotation)
   const auto on   = [&](const fem::InterfaceSpecification &interface)
   { return discretise(mesh, clamped_block({interface})).interfaces.at(0); };
   const auto corner = on(node("tip", {3., 3., 3.}));
-  EXPECT_EQ(corner.position, size);
+  EXPECT_EQ(corner.position, box_size);
   EXPECT_GE(*std::min_element(corner.coordinate.begin(), corner.coordinate.begin() + 3), 0);
   EXPECT_EQ(*std::max_element(corner.coordinate.begin() + 3, corner.coordinate.end()), -1);
 
@@ -100,8 +100,8 @@ TEST_P(NodeInterface, IsTheNearestCornerWithThreeDisplacementsAndNoRotation)
 TEST_P(NodeInterface, HasTheFlexibilityOfThatPointOfTheUncoupledFrame)
 {
   const auto            mesh  = GetParam()();
-  const Eigen::Matrix3d H     = flexibility(discretise(mesh, clamped_block({node("tip", size)}))),
-                        plain = flexibility_at(discretise(mesh, clamped_block({})), size);
+  const Eigen::Matrix3d H     = node_flexibility(discretise(mesh, clamped_block({node("tip", box_size)}))),
+                        plain = flexibility_at(discretise(mesh, clamped_block({})), box_size);
   EXPECT_LT((H - plain).norm(), 1e-11 * plain.norm());
 }
 
@@ -168,7 +168,7 @@ TEST(NodeInterfaces, BesideOthersAndAttachedMassesKeepTheirCoordinates)
 
 TEST(NodeInterfaces, TellWhereTheyStandIfThatIsNotWhatWasAskedFor)
 {
-  EXPECT_TRUE(discretise(tetrahedra(), clamped_block({node("tip", size)})).notes.empty());
+  EXPECT_TRUE(discretise(tetrahedra(), clamped_block({node("tip", box_size)})).notes.empty());
   const auto notes = discretise(tetrahedra(), clamped_block({node("tip", {1., 0.8, 1.6})})).notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("interface \"tip\" is the node at (1, 0.8, 1.5) m, 100 mm from its position"),
@@ -177,7 +177,8 @@ TEST(NodeInterfaces, TellWhereTheyStandIfThatIsNotWhatWasAskedFor)
 
   fem::Mesh known = tetrahedra();
   known.notes     = {"2 folds are straightened"};
-  EXPECT_EQ(discretise(known, clamped_block({node("tip", size)})).notes, known.notes) << "what the mesh tells stays";
+  EXPECT_EQ(discretise(known, clamped_block({node("tip", box_size)})).notes, known.notes)
+      << "what the mesh tells stays";
 }
 
 TEST(PointInterfaces, BesideTheirSurfaceAreTold)
@@ -204,9 +205,9 @@ TEST(Interfaces, KnowTheBoxAroundTheirFaces)
   EXPECT_FALSE(face.overlaps(face));
   for (int d = 0; d < 3; ++d)
   {
-    EXPECT_NEAR(face.centre[d], 0.5 * size[d], 1e-14);
+    EXPECT_NEAR(face.centre[d], 0.5 * box_size[d], 1e-14);
     EXPECT_NEAR((face.axes - Eigen::Matrix3d(face.axes.diagonal().asDiagonal())).norm(), 0., 1e-14);
-    EXPECT_NEAR(face.axes(d, d), 0.5 * size[d], 1e-14);
+    EXPECT_NEAR(face.axes(d, d), 0.5 * box_size[d], 1e-14);
   }
 }
 

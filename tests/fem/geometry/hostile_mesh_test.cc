@@ -28,7 +28,7 @@ namespace
 const std::string tetrahedron = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
                                 "*ELEMENT, TYPE=C3D4, ELSET=BLOCK\n1, 1, 2, 3, 4\n";
 
-std::string told_of(const std::string &text)
+std::string mesh_refusal(const std::string &text)
 {
   return refusal(specification(write_text("mesh.inp", text), 0.));
 }
@@ -40,11 +40,12 @@ InpMesh read_back(const std::string &text)
 
 TEST(InpSets, ThatNameThemselvesAreRefusedWithTheRing)
 {
-  EXPECT_THAT(told_of(tetrahedron + "*NSET, NSET=A\n1, A\n"),
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*NSET, NSET=A\n1, A\n"),
               AllOf(HasSubstr("mesh.inp"), HasSubstr("\"A\" names \"A\"")));
-  EXPECT_THAT(told_of(tetrahedron + "*NSET, NSET=A\nB\n*NSET, NSET=B\nC\n*NSET, NSET=C\n2, B\n"),
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*NSET, NSET=A\nB\n*NSET, NSET=B\nC\n*NSET, NSET=C\n2, B\n"),
               HasSubstr("\"B\" names \"C\" names \"B\""));
-  EXPECT_THAT(told_of(tetrahedron + "*ELSET, ELSET=A\nA\n*SOLID SECTION, ELSET=A\n"), HasSubstr("\"A\" names \"A\""));
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*ELSET, ELSET=A\nA\n*SOLID SECTION, ELSET=A\n"),
+              HasSubstr("\"A\" names \"A\""));
 }
 
 /// Sets S0 ... S(n - 1), each of which names the next, so often; the last has node 3.
@@ -64,7 +65,7 @@ std::string chain(int n, int often)
 TEST(InpSets, ThatNameOthersHaveAllTheirNumbersHoweverDeep)
 {
   EXPECT_THAT(read_back(tetrahedron + chain(100, 1)).node_sets.at("S0"), ElementsAre(3u));
-  EXPECT_THAT(told_of(tetrahedron + chain(1000, 1)), HasSubstr("more than 200 deep"));
+  EXPECT_THAT(mesh_refusal(tetrahedron + chain(1000, 1)), HasSubstr("more than 200 deep"));
 }
 
 TEST(InpSets, ThatNameOthersTwiceAreResolvedOnce)
@@ -79,7 +80,7 @@ TEST(InpSets, OfMoreMembersThanAFileCanMeanAreRefused)
     text << (node == 1 ? "*NODE\n" : "") << node << ", " << node << ", 0, 0\n";
   for (int set = 0; set < 700; ++set) // 700 times 2000
     text << "*NSET, NSET=S" << set << ", GENERATE\n1, 2000\n";
-  EXPECT_THAT(told_of(text.str()), HasSubstr("more than 1200000 nodes together"));
+  EXPECT_THAT(mesh_refusal(text.str()), HasSubstr("more than 1200000 nodes together"));
 }
 
 TEST(InpMesh, TakesNumbersThatLieFarApartAndNoneThatNoProgramHas)
@@ -89,23 +90,23 @@ TEST(InpMesh, TakesNumbersThatLieFarApartAndNoneThatNoProgramHas)
     if (text[at - 1] == '\n' || text[at - 1] == ' ')
       text.replace(at, 1, "2000000000");
   EXPECT_EQ(make_mesh(specification(write_text("far.inp", text), 0.)).n_cells(), 1) << text;
-  EXPECT_THAT(told_of("*NODE\n5000000000, 0, 0, 0\n"), AllOf(HasSubstr("mesh.inp:2"), HasSubstr("5000000000")));
+  EXPECT_THAT(mesh_refusal("*NODE\n5000000000, 0, 0, 0\n"), AllOf(HasSubstr("mesh.inp:2"), HasSubstr("5000000000")));
 }
 
 TEST(InpMesh, WithALineThatIsNoneIsRefused)
 {
-  EXPECT_THAT(told_of(tetrahedron + "*NSET, NSET=A\n" + std::string(1000001, '1') + "\n"),
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*NSET, NSET=A\n" + std::string(1000001, '1') + "\n"),
               AllOf(HasSubstr("mesh.inp:9"), HasSubstr("1000001 characters")));
 }
 
 TEST(InpMesh, OfBytesThatAreNoTextIsRefusedWithTheLine)
 {
-  EXPECT_THAT(told_of(tetrahedron + std::string("2, 1, \0\0\0, 4\n", 13)),
+  EXPECT_THAT(mesh_refusal(tetrahedron + std::string("2, 1, \0\0\0, 4\n", 13)),
               AllOf(HasSubstr("mesh.inp:8"), HasSubstr("no text"), HasSubstr("UTF-16")));
   std::string wide = "\xFF\xFE";
   for (const char c : tetrahedron)
     wide += {c, '\0'};
-  EXPECT_THAT(told_of(wide), AllOf(HasSubstr("mesh.inp:1"), HasSubstr("UTF-16")));
+  EXPECT_THAT(mesh_refusal(wide), AllOf(HasSubstr("mesh.inp:1"), HasSubstr("UTF-16")));
 }
 
 enum class Cells
@@ -202,11 +203,12 @@ TEST(InpMesh, WithFilesThatAreIncludedWithoutEndIsRefused)
     write_text("twice" + std::to_string(k) + ".inc", next + next);
   }
   write_text("twice30.inc", "** nothing\n");
-  EXPECT_THAT(told_of(tetrahedron + "*INCLUDE, INPUT=twice0.inc\n"), HasSubstr("more than 10000 times")); // of 2^31
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*INCLUDE, INPUT=twice0.inc\n"),
+              HasSubstr("more than 10000 times")); // of 2^31
   for (int k = 0; k < 120; ++k)
     write_text("chain" + std::to_string(k) + ".inc", "*INCLUDE, INPUT=chain" + std::to_string(k + 1) + ".inc\n");
   write_text("chain120.inc", "** nothing\n");
-  EXPECT_THAT(told_of(tetrahedron + "*INCLUDE, INPUT=chain0.inc\n"), HasSubstr("more than 100 deep"));
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*INCLUDE, INPUT=chain0.inc\n"), HasSubstr("more than 100 deep"));
 }
 
 TEST(GeoScript, WithLongChainsOfIncludesIsRefused)

@@ -54,7 +54,7 @@ std::string cube()
          "210000, 0.3\n";
 }
 
-std::string told_of(const std::string &text)
+std::string inp_refusal(const std::string &text)
 {
   return refusal(specification(write_text("mesh.inp", text), 0.));
 }
@@ -90,11 +90,11 @@ TEST(InpMesh, TakesSurfacesOfElementSides)
   s.surfaces["bottom"]       = group("BOTTOM");
   EXPECT_NEAR(norm(area_vector(make_mesh(s), "bottom") - Vector3{0., 0., -1.}), 0., 1e-14);
   for (const std::string kind : {"NSET", "ELSET"}) // which would take all memory
-    EXPECT_THAT(told_of(cube() + "*" + kind + ", " + kind + "=ALL, GENERATE\n1, 18446744073709551615\n"),
+    EXPECT_THAT(inp_refusal(cube() + "*" + kind + ", " + kind + "=ALL, GENERATE\n1, 18446744073709551615\n"),
                 AllOf(HasSubstr("mesh.inp:"), HasSubstr("GENERATE from 1 to 18446744073709551615 names more"),
                       HasSubstr(kind == "NSET" ? "nodes than the 8 there are" : "elements than the 6 there are")));
-  EXPECT_THAT(told_of(cube() + "*NSET, NSET=ALL, GENERATE\n8, 1\n"), HasSubstr("from 8 to 1"));
-  EXPECT_THAT(told_of(cube() + "*SURFACE, NAME=X\n1, S5\n"), HasSubstr("S5 is no side of element 1"));
+  EXPECT_THAT(inp_refusal(cube() + "*NSET, NSET=ALL, GENERATE\n8, 1\n"), HasSubstr("from 8 to 1"));
+  EXPECT_THAT(inp_refusal(cube() + "*SURFACE, NAME=X\n1, S5\n"), HasSubstr("S5 is no side of element 1"));
 }
 
 TEST(InpMesh, OfSolidSectionsNamesSolidsByThem)
@@ -138,7 +138,7 @@ TEST(InpMesh, WithMiddleNodesInTheOrderOfAnotherProgramTakesThemForTheEdgesTheyL
   EXPECT_THAT(other.notes, ElementsAre(HasSubstr("in the order of another program than Abaqus")));
   EXPECT_TRUE(right.notes.empty());
   EXPECT_NEAR(right.solids.at(0).volume + right.solids.at(1).volume, right.volume, 1e-15);
-  EXPECT_THAT(told_of(curved_tetrahedra({of_abaqus[0], of_gmsh[1]})),
+  EXPECT_THAT(inp_refusal(curved_tetrahedra({of_abaqus[0], of_gmsh[1]})),
               AllOf(HasSubstr("middle nodes of element 2"), HasSubstr("no order that all elements share")));
 }
 
@@ -154,14 +154,14 @@ TEST(InpMesh, TellsTheKeywordsThatAreNotRead)
 TEST(InpMesh, OfSeveralKindsOfCellsIsRefusedWithTheNumberOfEach)
 {
   const std::string brick = nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D8R\n1, 1,2,4,3,5,6,8,7\n";
-  EXPECT_THAT(told_of(brick + nodes_of_cube(9, 1.) + cells_of_cube(2, 9, "A") +
-                      "*ELEMENT, TYPE=C3D6\n8, 1,2,3,5,6,7\n*SURFACE, NAME=X\n8, S5\n*ELEMENT, TYPE=C3D5\n9, "
-                      "1,2,4,3,5\n"),
+  EXPECT_THAT(inp_refusal(brick + nodes_of_cube(9, 1.) + cells_of_cube(2, 9, "A") +
+                          "*ELEMENT, TYPE=C3D6\n8, 1,2,3,5,6,7\n*SURFACE, NAME=X\n8, S5\n*ELEMENT, TYPE=C3D5\n9, "
+                          "1,2,4,3,5\n"),
               AllOf(StartsWith("scene.toml:3: frame: "),
                     HasSubstr("mesh.inp holds 6 tetrahedra, 1 pyramids, 1 prisms "
                               "(wedges) and 1 hexahedra, but a mesh must be of"),
                     HasSubstr("Abaqus: C3D10")));
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D5\n1, 1,2,4,3,5\n"),
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D5\n1, 1,2,4,3,5\n"),
               AllOf(HasSubstr("holds 1 pyramids, but"), HasSubstr("Mesh it with tetrahedra alone")));
 }
 
@@ -206,7 +206,7 @@ TEST(InpMesh, TakesTetrahedraUponPrismsButNotUponTheirQuadrilaterals)
   EXPECT_EQ(mesh.prisms.size(), 1u);
   EXPECT_EQ(mesh.cells.size(), 1u);
   EXPECT_EQ(mesh.skin.size(), 10u) << "a triangle and three quadrilaterals of the prism, three of the tetrahedron";
-  EXPECT_THAT(told_of(prism + "3, 1,2,6,10\n"),
+  EXPECT_THAT(inp_refusal(prism + "3, 1,2,6,10\n"),
               AllOf(HasSubstr("1 triangles of cells lie on quadrilaterals"), HasSubstr("displacements would part")));
 }
 
@@ -282,20 +282,20 @@ TEST(InpMesh, WrittenByGmshIsRead)
 
 TEST(InpMesh, WithWhatIsNotReadIsRefusedWithItsLine)
 {
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=B31\n1, 1, 2\n"),
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=B31\n1, 1, 2\n"),
               AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("mesh.inp:10"), HasSubstr("B31"), HasSubstr("C3D10")));
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 99\n"), HasSubstr("has node 99"));
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3\n"),
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 99\n"), HasSubstr("has node 99"));
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3\n"),
               AllOf(HasSubstr("has 3 nodes, 4 are needed"), HasSubstr("cut off")));
-  EXPECT_THAT(told_of(cube() + "*NODE\n1, 0, 0, 0\n"), HasSubstr("node 1 comes twice"));
-  EXPECT_THAT(told_of(cube() + cells_of_cube(6, 1, "A")), HasSubstr("element 6 comes twice"));
-  EXPECT_THAT(told_of(cube() + "*SHELL SECTION, ELSET=A\n1.\n"), HasSubstr("only solid elements are read"));
-  EXPECT_THAT(told_of(cube() + "*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), HasSubstr("several parts"));
-  EXPECT_THAT(told_of("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
-  EXPECT_THAT(told_of("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
-  EXPECT_THAT(told_of("*NODE\n1, 0, NaN, 0\n"), HasSubstr("\"NaN\" is no coordinate"));
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=S4, ELSET=A\n1, 1,2,4,3\n2, 5,6,8,7\n"),
+  EXPECT_THAT(inp_refusal(cube() + "*NODE\n1, 0, 0, 0\n"), HasSubstr("node 1 comes twice"));
+  EXPECT_THAT(inp_refusal(cube() + cells_of_cube(6, 1, "A")), HasSubstr("element 6 comes twice"));
+  EXPECT_THAT(inp_refusal(cube() + "*SHELL SECTION, ELSET=A\n1.\n"), HasSubstr("only solid elements are read"));
+  EXPECT_THAT(inp_refusal(cube() + "*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), HasSubstr("several parts"));
+  EXPECT_THAT(inp_refusal("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
+  EXPECT_THAT(inp_refusal("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
+  EXPECT_THAT(inp_refusal("*NODE\n1, 0, NaN, 0\n"), HasSubstr("\"NaN\" is no coordinate"));
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=S4, ELSET=A\n1, 1,2,4,3\n2, 5,6,8,7\n"),
               AllOf(HasSubstr("no tetrahedra"), HasSubstr("a plate is taken as a solid")));
 }
 
@@ -320,12 +320,12 @@ TEST(InpMesh, TakesLinesOfOtherFiles)
     EXPECT_EQ(mesh.node_sets.at("ALL").size(), n_nodes);
   }
   write_text("circle.inc", "*INCLUDE, INPUT=circle.inc\n");
-  EXPECT_THAT(told_of(cube() + "*INCLUDE, INPUT=circle.inc\n"),
+  EXPECT_THAT(inp_refusal(cube() + "*INCLUDE, INPUT=circle.inc\n"),
               AllOf(HasSubstr("circle.inc:1"), HasSubstr("includes itself")));
-  EXPECT_THAT(told_of("*NODE, INPUT=absent.inc\n"),
+  EXPECT_THAT(inp_refusal("*NODE, INPUT=absent.inc\n"),
               AllOf(HasSubstr("mesh.inp:1"), HasSubstr("absent.inc\" cannot be")));
   write_text("bad.inc", "** nodes\n7, zero\n");
-  EXPECT_THAT(told_of("*NODE, INPUT=bad.inc\n"), HasSubstr("bad.inc:2"));
+  EXPECT_THAT(inp_refusal("*NODE, INPUT=bad.inc\n"), HasSubstr("bad.inc:2"));
 }
 
 TEST(InpMesh, WhoseKeywordsChangeItsMeaningIsRefusedWithTheWayOut)
@@ -333,16 +333,17 @@ TEST(InpMesh, WhoseKeywordsChangeItsMeaningIsRefusedWithTheWayOut)
   for (const std::string keyword : {"NGEN", "NFILL, NSET=A", "NCOPY, CHANGE NUMBER=8, OLD SET=FOOT", "NMAP",
                                     "ELGEN, ELSET=A", "ELCOPY, SHIFT NODES=8", "IMPORT"})
     EXPECT_THAT(
-        told_of(cube() + "*" + keyword + "\n1, 2\n"),
+        inp_refusal(cube() + "*" + keyword + "\n1, 2\n"),
         AllOf(HasSubstr("mesh.inp:27: *" + keyword.substr(0, keyword.find(','))), HasSubstr("write the mesh flat")))
         << keyword;
   for (const std::string system : {"C", "s"})
-    EXPECT_THAT(told_of("*NODE, SYSTEM=" + system + "\n1, 1, 90, 0\n"),
+    EXPECT_THAT(inp_refusal("*NODE, SYSTEM=" + system + "\n1, 1, 90, 0\n"),
                 AllOf(HasSubstr("mesh.inp:1"), HasSubstr("SYSTEM="), HasSubstr("give x, y, z")));
-  EXPECT_THAT(told_of("*SYSTEM\n1, 0, 0, 1, 1, 0\n" + cube()), AllOf(HasSubstr("mesh.inp:2"), HasSubstr("*SYSTEM")));
-  EXPECT_THAT(told_of(cube() + "*IMPERFECTION, FILE=old\n1, 0.1\n"), HasSubstr("give them where they are"));
-  EXPECT_THAT(told_of(cube() + "*NSET, NSET=B, ELSET=BLOCK\n"), HasSubstr("list the nodes"));
-  EXPECT_THAT(told_of(cube() + "*SURFACE, NAME=B, COMBINE=UNION\nC, D\n"), HasSubstr("list the sides"));
+  EXPECT_THAT(inp_refusal("*SYSTEM\n1, 0, 0, 1, 1, 0\n" + cube()),
+              AllOf(HasSubstr("mesh.inp:2"), HasSubstr("*SYSTEM")));
+  EXPECT_THAT(inp_refusal(cube() + "*IMPERFECTION, FILE=old\n1, 0.1\n"), HasSubstr("give them where they are"));
+  EXPECT_THAT(inp_refusal(cube() + "*NSET, NSET=B, ELSET=BLOCK\n"), HasSubstr("list the nodes"));
+  EXPECT_THAT(inp_refusal(cube() + "*SURFACE, NAME=B, COMBINE=UNION\nC, D\n"), HasSubstr("list the sides"));
   // A system without axes is that of the whole, R its coordinates.
   std::string plain = cube();
   plain.replace(plain.find("*NODE\n"), 6, "*SYSTEM\n*NODE, SYSTEM=R\n");
@@ -366,29 +367,30 @@ TEST(Mesh, WithANodeMovedThroughItsNeighboursIsRefused)
     for (const auto &[i, j, k] : {std::array<int, 3>{a, b, c}, std::array<int, 3>{a, c, d}})
       text += std::to_string(++cell) + ", " + std::to_string(i) + ", " + std::to_string(j) + ", " + std::to_string(k) +
               ", 9\n";
-  EXPECT_THAT(told_of(text), AllOf(HasSubstr("turned inside out"), HasSubstr("negative Jacobian")));
+  EXPECT_THAT(inp_refusal(text), AllOf(HasSubstr("turned inside out"), HasSubstr("negative Jacobian")));
 }
 
 TEST(Mesh, WithABrickThatIsThereTwiceIsRefused)
 {
   const std::string brick = "1, 2, 4, 3, 5, 6, 8, 7\n";
   const std::string cells = "*ELEMENT, TYPE=C3D8\n1, " + brick;
-  EXPECT_EQ(told_of(nodes_of_cube(1, 0.) + cells), "");
-  EXPECT_THAT(told_of(nodes_of_cube(1, 0.) + cells + "2, " + brick),
+  EXPECT_EQ(inp_refusal(nodes_of_cube(1, 0.) + cells), "");
+  EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + cells + "2, " + brick),
               HasSubstr("6 pairs of neighbouring cells lie on the same side of their common face"));
 }
 
 TEST(Mesh, WithAFlatCellIsRefused)
 {
   const std::string text = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,1,1,0\n*ELEMENT, TYPE=C3D4\n1, 1,2,3,4\n";
-  EXPECT_THAT(told_of(text), AllOf(HasSubstr("flat cell"), HasSubstr("mend it in the program that made the mesh")));
+  EXPECT_THAT(inp_refusal(text), AllOf(HasSubstr("flat cell"), HasSubstr("mend it in the program that made the mesh")));
 }
 
 TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
 {
   const std::string text =
       nodes_of_cube(1, 0.) + nodes_of_cube(11, 1.) + cells_of_cube(1, 1, "A") + cells_of_cube(11, 11, "B");
-  EXPECT_THAT(told_of(text), AllOf(HasSubstr("2 bodies"), HasSubstr("4 nodes lie upon others"), HasSubstr("mesh.gap")));
+  EXPECT_THAT(inp_refusal(text),
+              AllOf(HasSubstr("2 bodies"), HasSubstr("4 nodes lie upon others"), HasSubstr("mesh.gap")));
   FrameSpecification s = specification(write_text("two.inp", text), 0.);
   s.mesh.gap           = 1e-6;
   const Mesh merged    = make_mesh(s);

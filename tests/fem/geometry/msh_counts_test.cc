@@ -77,7 +77,7 @@ std::string with_number(std::string text, std::size_t at, std::uint64_t number)
   return text;
 }
 
-std::string told_of(const std::string &text)
+std::string count_refusal(const std::string &text)
 {
   return defect_of_counts(write_text("told.msh", text));
 }
@@ -94,10 +94,10 @@ TEST(MshCounts, OfSoundMeshesPassAndAreReadToTheirEnd)
                            Kind{2, true, true}, Kind{1, false, false, 3}, Kind{1, true, true, 2}})
   {
     const std::string text = read_text(mesh_file("sound.msh", kind));
-    EXPECT_EQ(told_of(text), "") << kind;
+    EXPECT_EQ(count_refusal(text), "") << kind;
     const std::size_t   at       = behind(text, "$Elements") + 8;
     const std::uint64_t elements = number_in(text, at);
-    EXPECT_THAT(told_of(with_number(text, at, elements - 1)),
+    EXPECT_THAT(count_refusal(with_number(text, at, elements - 1)),
                 HasSubstr("at byte " + std::to_string(at) + " it announces " + std::to_string(elements - 1) +
                           " elements, but its blocks hold " + std::to_string(elements)))
         << kind;
@@ -107,9 +107,9 @@ TEST(MshCounts, OfSoundMeshesPassAndAreReadToTheirEnd)
 TEST(MshCounts, OfOtherFormatsAreLeftToGmsh)
 {
   EXPECT_EQ(defect_of_counts(mesh_file("older.msh", {1, false, false, 0, 2.2})), "");
-  EXPECT_EQ(told_of("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 99999999999 1 1\n"), "");
-  EXPECT_EQ(told_of(""), "");
-  EXPECT_EQ(told_of("$MeshFormat"), "");
+  EXPECT_EQ(count_refusal("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 99999999999 1 1\n"), "");
+  EXPECT_EQ(count_refusal(""), "");
+  EXPECT_EQ(count_refusal("$MeshFormat"), "");
 }
 
 TEST(MshCounts, AreNotLookedForInComments)
@@ -118,10 +118,10 @@ TEST(MshCounts, AreNotLookedForInComments)
   const std::string said =
       "$Comments\nof the size of its $Nodes\n$Nodes\nand so on, and so on, and so on\n$EndComments\n";
   const std::size_t entities = text.find("$Entities\n");
-  EXPECT_EQ(told_of(said + text), "");
-  EXPECT_EQ(told_of(text.substr(0, entities) + said + text.substr(entities)), "");
+  EXPECT_EQ(count_refusal(said + text), "");
+  EXPECT_EQ(count_refusal(text.substr(0, entities) + said + text.substr(entities)), "");
   const std::size_t nodes = behind(said + text, "$EndEntities") + std::strlen("$Nodes\n");
-  EXPECT_THAT(told_of(with_number(said + text, nodes, ~std::uint64_t(0))), HasSubstr("blocks of nodes"));
+  EXPECT_THAT(count_refusal(with_number(said + text, nodes, ~std::uint64_t(0))), HasSubstr("blocks of nodes"));
 }
 
 struct Announced
@@ -138,7 +138,7 @@ void expect_refused(const std::string &text, const Announced &one)
   ASSERT_LT(number_in(text, at), 10000u) << one.section << one.behind;
   const std::uint64_t left = text.size() - at - 8;
   for (const std::uint64_t number : {left / one.bytes + 1, ~std::uint64_t(0)})
-    EXPECT_THAT(told_of(with_number(text, at, number)),
+    EXPECT_THAT(count_refusal(with_number(text, at, number)),
                 HasSubstr("at byte " + std::to_string(at) + " it announces " + std::to_string(number) + " " +
                           one.things + ", of at least " + std::to_string(one.bytes) + " bytes each, but only " +
                           std::to_string(left) + " bytes follow"))
@@ -170,9 +170,9 @@ TEST(MshCounts, OfFewerThanTheBlocksHoldAreRefused)
   const std::size_t   at    = behind(text, "$Nodes") + 8;
   const std::uint64_t nodes = number_in(text, at);
   EXPECT_THAT(
-      told_of(with_number(text, at, nodes - 1)),
+      count_refusal(with_number(text, at, nodes - 1)),
       HasSubstr("announces " + std::to_string(nodes - 1) + " nodes, but its blocks hold " + std::to_string(nodes)));
-  EXPECT_EQ(told_of(with_number(text, at, nodes + 1)), ""); // as gmsh does of parts
+  EXPECT_EQ(count_refusal(with_number(text, at, nodes + 1)), ""); // as gmsh does of parts
 }
 
 // Another number than 1 behind the format says that all bytes are in the order of another processor.
@@ -181,7 +181,7 @@ TEST(MshCounts, InTheOrderOfAnotherProcessorAreReadSo)
   std::string       text = read_text(mesh_file("sound.msh", {}));
   const std::size_t one  = behind(text, "4.1 1 8");
   text[one]              = '\3';
-  EXPECT_THAT(told_of(text), HasSubstr("points"));
+  EXPECT_THAT(count_refusal(text), HasSubstr("points"));
 
   const auto bytes = [](std::uint64_t number, std::size_t size)
   {
@@ -196,7 +196,7 @@ TEST(MshCounts, InTheOrderOfAnotherProcessorAreReadSo)
                        bytes(1, 8) + std::string(24, '\0') + "\n$EndNodes\n$Elements\n" + bytes(1, 8) + bytes(n, 8) +
                        bytes(1, 8) + bytes(1, 8) + bytes(0, 4) + bytes(1, 4) + bytes(15, 4) + bytes(1, 8) +
                        bytes(1, 8) + bytes(1, 8);
-    return told_of(text + "\n$EndElements\n");
+    return count_refusal(text + "\n$EndElements\n");
   };
   EXPECT_EQ(with_nodes(1), "");
   EXPECT_THAT(with_nodes(0), HasSubstr("announces 0 nodes, but its blocks hold 1"));
@@ -208,7 +208,7 @@ TEST(MshCounts, OfFilesCutAnywhereAreJudgedOrLeftToGmsh)
   const std::string text = read_text(mesh_file("sound.msh", {1, true, true, 2}));
   for (std::size_t length = 0; length < text.size(); length += 1 + text.size() / 500)
   {
-    const std::string told = told_of(text.substr(0, length));
+    const std::string told = count_refusal(text.substr(0, length));
     EXPECT_TRUE(told.empty() || told.find("is damaged: at byte ") == 0) << told;
   }
 }

@@ -58,7 +58,7 @@ std::string opened(const std::string &text)
   return std::string(text).erase(from, text.find(',', from) + 1 - from);
 }
 
-std::string told_of(const std::string &text)
+std::string step_refusal(const std::string &text)
 {
   return refusal(specification(write_text("damaged.step", text), 0.05));
 }
@@ -68,13 +68,13 @@ TEST(StepFile, ThatLostEntitiesIsRefusedThoughItEndsAsItShould)
   std::string text = text_of_cubes(0.);
   const auto  cut  = text.find("\n#", text.size() / 2);
   text             = text.substr(0, cut) + "\nENDSEC;\nEND-ISO-10303-21;\n";
-  EXPECT_THAT(told_of(text), AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("is damaged, though it ends"),
-                                   HasSubstr("entities that are not in the file")));
+  EXPECT_THAT(step_refusal(text), AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("is damaged, though it ends"),
+                                        HasSubstr("entities that are not in the file")));
 }
 
 TEST(StepFile, ThatLostItsUnitIsRefused)
 {
-  EXPECT_THAT(told_of(with(text_of_cubes(0.), "LENGTH_UNIT() ", "")),
+  EXPECT_THAT(step_refusal(with(text_of_cubes(0.), "LENGTH_UNIT() ", "")),
               AllOf(HasSubstr("does not say what its unit of length is"), HasSubstr("millimetres and metres")));
 }
 
@@ -82,7 +82,7 @@ TEST(StepFile, ThatLostItsUnitIsRefused)
 TEST(StepFile, WithANumberThatIsNoneIsRefusedWithItsEntity)
 {
   for (const std::string none : {"NaN", "-nan(ind)", "inf", "-INF", "1.#QNAN"})
-    EXPECT_THAT(told_of(with(text_of_cubes(0.), "(0.,0.,0.)", "(0.," + none + ",0.)", "CARTESIAN_POINT")),
+    EXPECT_THAT(step_refusal(with(text_of_cubes(0.), "(0.,0.,0.)", "(0.," + none + ",0.)", "CARTESIAN_POINT")),
                 AllOf(HasSubstr("entity #"), HasSubstr("in place of a number")))
         << none;
 }
@@ -90,15 +90,15 @@ TEST(StepFile, WithANumberThatIsNoneIsRefusedWithItsEntity)
 TEST(StepFile, WithReferencesInTextAndCommentsIsWhole)
 {
   const std::string text = text_of_cubes(0.);
-  EXPECT_EQ(told_of(with(text, "'Open CASCADE Model'", "'it''s #99999 here'")), "");
-  EXPECT_EQ(told_of(with(text, "DATA;", "DATA;\n/* #88888 = not an entity */")), "");
+  EXPECT_EQ(step_refusal(with(text, "'Open CASCADE Model'", "'it''s #99999 here'")), "");
+  EXPECT_EQ(step_refusal(with(text, "DATA;", "DATA;\n/* #88888 = not an entity */")), "");
 }
 
 TEST(StepFile, WithAnOpenShellIsRefusedWithTheEdgesThatAreOpen)
 {
-  EXPECT_THAT(told_of(opened(text_of_cubes(0.))),
+  EXPECT_THAT(step_refusal(opened(text_of_cubes(0.))),
               AllOf(HasSubstr("no closed solid, only 5 faces"), HasSubstr("open at 4 edges"), HasSubstr("sew")));
-  EXPECT_THAT(told_of(opened(text_of_cubes(100.))),
+  EXPECT_THAT(step_refusal(opened(text_of_cubes(100.))),
               AllOf(HasSubstr("describes 2 solids, but only 1 are closed"), HasSubstr("5 faces that bound no solid"),
                     HasSubstr("open at 4 edges")));
 }

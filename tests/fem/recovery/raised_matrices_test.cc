@@ -13,7 +13,7 @@ namespace
 {
 
 /// A cantilever of 1 m x 0.1 m x 0.1 m, its end a rigid interface.
-fem::FrameSpecification cantilever()
+fem::FrameSpecification cantilever_specification()
 {
   fem::FrameSpecification specification = free_steel();
   specification.supports                = {clamped("foot", {"x0"})};
@@ -36,11 +36,11 @@ double compliance(const fem::FrameMatrices &frame)
 
 } // namespace
 
-/// Degree three bends more than degree two, and less than the truth; at most (2/3)^2 of the error is left to it, as at the
-/// edge of a clamp (docs/theory/mesh_error.md).
+/// Degree three bends more than degree two, and less than the truth; at most (2/3)^2 of the error is left to it, as at
+/// the edge of a clamp (docs/theory/mesh_error.md).
 TEST(RaisedMatrices, BendMoreThanTheQuadraticOnesByAboutTheirError)
 {
-  const auto   specification = cantilever();
+  const auto   specification = cantilever_specification();
   const auto   coarse        = fem::discretise_with_mesh_error(beam(1), specification);
   const auto   fine          = fem::discretise_with_mesh_error(beam(3), specification);
   const double quadratic = compliance(coarse.matrices), cubic = compliance(fem::raised_matrices(coarse, specification)),
@@ -74,7 +74,7 @@ TEST(RaisedMatrices, KeepRigidMotionsMassAndDamping)
 /// A foundation acts on the quadratics alone, so its force is told; that of a clamp is not.
 TEST(RaisedMatrices, TellForcesOfFoundationsAlone)
 {
-  fem::FrameSpecification specification = cantilever();
+  fem::FrameSpecification specification = cantilever_specification();
   specification.supports.push_back(foundation("pad", {"z0"}, {1e6, 1e6, 1e7}));
   const auto               coarse = fem::discretise_with_mesh_error(beam(1), specification);
   const fem::FrameMatrices raised = fem::raised_matrices(coarse, specification);
