@@ -35,7 +35,7 @@ namespace
 
 using namespace mechanism;
 
-const ConnectingRod::Parameters rod{0.08, 0.8, 9e8, 1.8e5, 1e-4, 4e-4, 5e4};
+const ConnectingRod::Parameters stiff_rod{0.08, 0.8, 9e8, 1.8e5, 1e-4, 4e-4, 5e4};
 const BlankingForce::Parameters sheet{0.004, 0.8, 3.2e8, 0.35, 8., 0.25, 0.08, 9e9, 0.};
 
 /// An element, a motion inside one of its branches, and typical sizes of u and u' there.
@@ -50,8 +50,9 @@ struct Case
 Probe rod_probe(double delta, double rate)
 {
   const double phi = 2.5, y = 2e-4;
-  const double c = rod.crank_radius * std::sin(phi) + y, w = std::sqrt(rod.length * rod.length - c * c);
-  const double u = -rod.crank_radius * std::cos(phi) + w - (rod.length - rod.crank_radius);
+  const double c = stiff_rod.crank_radius * std::sin(phi) + y,
+               w = std::sqrt(stiff_rod.length * stiff_rod.length - c * c);
+  const double u = -stiff_rod.crank_radius * std::cos(phi) + w - (stiff_rod.length - stiff_rod.crank_radius);
   return {0., Eigen::Vector3d(phi, delta - u, y), Eigen::Vector3d(3., rate, 0.02), Eigen::Vector3d::Zero()};
 }
 
@@ -68,19 +69,19 @@ Probe probe3(const Eigen::Vector3d &u, const Eigen::Vector3d &v)
   return {0.3, u, v, Eigen::Vector3d::Zero()};
 }
 
-const SlidingFriction rubbing{0.1, 2e-3, 0.2, 0.05, 1.};
+const SlidingFriction rubbing_pin{0.1, 2e-3, 0.2, 0.05, 1.};
 
 std::vector<Case> cases()
 {
   const auto journal = [](double exponent)
   {
     return std::make_shared<JournalBearing>(
-        JournalBearing::Parameters{5e-4, 0.03, exponent == 1. ? 1e9 : 1e11, 4., exponent, rubbing});
+        JournalBearing::Parameters{5e-4, 0.03, exponent == 1. ? 1e9 : 1e11, 4., exponent, rubbing_pin});
   };
   const auto contact = [](Clearance::Stops stops) {
-    return std::make_shared<PointContact>(PointContact::Parameters{{5e-5, 1e9, 4., stops}, rubbing});
+    return std::make_shared<PointContact>(PointContact::Parameters{{5e-5, 1e9, 4., stops}, rubbing_pin});
   };
-  const auto connecting_rod = std::make_shared<ConnectingRod>(rod);
+  const auto connecting_rod = std::make_shared<ConnectingRod>(stiff_rod);
   const auto blanking       = std::make_shared<BlankingForce>(sheet);
   const auto clearance      = std::make_shared<Clearance>(Clearance::Parameters{5e-5, 1e9, 4.});
   const auto cutting        = std::make_shared<CuttingForce>(CuttingForce::Parameters{5e3, 6e-4, 4e-4, 0.02});

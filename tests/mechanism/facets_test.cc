@@ -44,7 +44,7 @@ std::shared_ptr<FormulaForce> formula(const Formula &force)
   return std::make_shared<FormulaForce>(FormulaForce::Parameters{force});
 }
 
-const Formula u = Formula::variable(1);
+const Formula variable = Formula::variable(1);
 
 TEST(Facets, AreThoseTheLawNames)
 {
@@ -52,8 +52,8 @@ TEST(Facets, AreThoseTheLawNames)
   EXPECT_EQ(facets(*rope), "BS");
   EXPECT_EQ(facets(*motor), "");
   EXPECT_EQ(facets(*profile), "BC");
-  EXPECT_EQ(facets(*formula(-3. * u)), "S"); // without kinks it has one branch
-  EXPECT_EQ(facets(*formula(-3. * max(u, 0.))), "BS");
+  EXPECT_EQ(facets(*formula(-3. * variable)), "S"); // without kinks it has one branch
+  EXPECT_EQ(facets(*formula(-3. * max(variable, 0.))), "BS");
   EXPECT_EQ(facets(Wheel({1e5, 200., true})), "S"); // never leaves the ground
 }
 

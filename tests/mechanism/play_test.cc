@@ -21,12 +21,12 @@ namespace
 
 using namespace mechanism;
 
-const SlidingFriction            rubbing{0.1, 1e-3};
-const JournalBearing::Parameters bearing{5e-4, 0.03, 2e8, 0., 1., rubbing};
+const SlidingFriction            dry{0.1, 1e-3};
+const JournalBearing::Parameters dry_bearing{5e-4, 0.03, 2e8, 0., 1., dry};
 
 TEST(Journal, IsPushedBackAlongItsEccentricityAndTurnedAgainstItsSliding)
 {
-  const JournalBearing  journal(bearing);
+  const JournalBearing  journal(dry_bearing);
   const double          history = 0.;
   const Eigen::Vector2d n(0.6, 0.8), t(-0.8, 0.6);
   for (const double speed : {-20., 20.}) // rad/s: 0.6 m/s, far above v0
@@ -47,7 +47,7 @@ TEST(Journal, IsPushedBackAlongItsEccentricityAndTurnedAgainstItsSliding)
 // A journal that rolls along the wall does not slide: its centre goes round by e w_c, its surface by R w the other way.
 TEST(Journal, DoesNotRubWhereItRolls)
 {
-  const JournalBearing journal(bearing);
+  const JournalBearing journal(dry_bearing);
   const double         history = 0., e = 6e-4, w_c = 30.;
   const Probe          probe{0., Eigen::Vector3d(e, 0., 0.), Eigen::Vector3d(0., e * w_c, -e * w_c / 0.03),
                     Eigen::Vector3d::Zero()};
@@ -57,7 +57,7 @@ TEST(Journal, DoesNotRubWhereItRolls)
 
 TEST(Journal, IsFreeAtItsCentre)
 {
-  const JournalBearing  journal(bearing);
+  const JournalBearing  journal(dry_bearing);
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   for (const double history : {0., 1.})
     EXPECT_EQ(force(journal, {0., zero, Eigen::Vector3d(0.1, 0., 5.), zero}, &history, true).norm(), 0.);
@@ -65,7 +65,7 @@ TEST(Journal, IsFreeAtItsCentre)
 
 TEST(Contact, HoldsAgainstTheSlidingByItsCoefficient)
 {
-  const PointContact    contact({{0., 1e6, 0., Clearance::Stops::below}, rubbing});
+  const PointContact    contact({{0., 1e6, 0., Clearance::Stops::below}, dry});
   const double          history = 0.;
   const Eigen::VectorXd p       = force(
             contact, {0., Eigen::Vector3d(-1e-3, 5., 5.), Eigen::Vector3d(0., 3., -4.), Eigen::Vector3d::Zero()}, &history);
@@ -115,7 +115,7 @@ const std::vector<Placement::LinearMeasure> TwoBodies::plane = {{Vector3d::UnitX
 TEST(TransmittedJournal, ForcesAndMomentsOnBothBodiesBalance)
 {
   const TwoBodies          bodies;
-  const TransmittedElement element = bodies.journal(bearing);
+  const TransmittedElement element = bodies.journal(dry_bearing);
   Eigen::VectorXd          v(6);
   v << 0.1, -0.2, 3., 0.05, 0.1, -7.;
   const Probe           probe   = bodies.apart({5e-4, 6e-4, 0.}, v);
@@ -133,7 +133,7 @@ TEST(TransmittedJournal, ForcesAndMomentsOnBothBodiesBalance)
 TEST(TransmittedJournal, SeesNoMotionWhereBothTurnAsOneBody)
 {
   const TwoBodies          bodies;
-  const TransmittedElement element = bodies.journal(bearing);
+  const TransmittedElement element = bodies.journal(dry_bearing);
   Probe                    probe   = bodies.apart({5e-4, 6e-4, 0.}, Eigen::VectorXd::Zero(6));
   const Vector3d           x_1     = bodies.c_1 + Vector3d(probe.u[0], probe.u[1], 0.),
                  x_2               = bodies.c_2 + Vector3d(probe.u[3], probe.u[4], 0.);
@@ -147,7 +147,7 @@ TEST(TransmittedJournal, SeesNoMotionWhereBothTurnAsOneBody)
 TEST(TransmittedJournal, TangentAndGeometricStiffnessAreTheDerivative)
 {
   const TwoBodies          bodies;
-  const TransmittedElement element = bodies.journal(bearing);
+  const TransmittedElement element = bodies.journal(dry_bearing);
   const double             history = 0.;
   for (const double turning : {0., 5e-4}) // some 0.3 mm/s at the contact, below v0
   {
@@ -178,7 +178,7 @@ TEST(TransmittedJournal, TangentAndGeometricStiffnessAreTheDerivative)
 
 TEST(JointFriction, IsTheCoefficientTimesTheForceOfTheJoint)
 {
-  const JointFriction<1> pin({rubbing, {0.02}, {2, 0}});
+  const JointFriction<1> pin({dry, {0.02}, {2, 0}});
   const double           lambda[] = {300., -400.}, v = 30., u = 0.;
   LocalMotion            motion{0., &u, &v, &u, nullptr, false, lambda};
   double                 p, dp;
@@ -192,7 +192,7 @@ TEST(JointFriction, IsTheCoefficientTimesTheForceOfTheJoint)
 
 TEST(JointFriction, CountsTheTorqueOnAGuideByItsLength)
 {
-  const JointFriction<1> guide({rubbing, {}, {1, 1, 0.5}});
+  const JointFriction<1> guide({dry, {}, {1, 1, 0.5}});
   const double           v = 2., u = 0.;
   double                 p;
   for (const auto &[F, M, N] : {std::array{100., 10., 100.}, std::array{100., -80., 320.}})
@@ -256,20 +256,20 @@ TEST(JointFriction, OfAPinIsThatOfItsSurfaceAtItsRadius)
 
 TEST(PlayParameters, AreChecked)
 {
-  auto bad      = bearing;
+  auto bad      = dry_bearing;
   bad.clearance = 0.;
   EXPECT_THROW(JournalBearing{bad}, std::invalid_argument);
-  bad                  = bearing;
+  bad                  = dry_bearing;
   bad.friction.kinetic = -0.1;
   EXPECT_THROW(JournalBearing{bad}, std::invalid_argument);
-  bad                = bearing;
+  bad                = dry_bearing;
   bad.friction.speed = 0.;
   EXPECT_THROW(JournalBearing{bad}, std::invalid_argument);
-  bad                         = bearing;
+  bad                         = dry_bearing;
   bad.friction.stribeck_speed = 0.1; // and a static coefficient of zero
   EXPECT_THROW(JournalBearing{bad}, std::invalid_argument);
-  EXPECT_THROW(PointContact({{0., -1., 0., Clearance::Stops::below}, rubbing}), std::invalid_argument);
-  EXPECT_THROW(JointFriction<1>({rubbing, {-0.1}, {2, 0}}), std::invalid_argument);
+  EXPECT_THROW(PointContact({{0., -1., 0., Clearance::Stops::below}, dry}), std::invalid_argument);
+  EXPECT_THROW(JointFriction<1>({dry, {-0.1}, {2, 0}}), std::invalid_argument);
 }
 
 } // namespace

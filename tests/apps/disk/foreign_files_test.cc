@@ -11,7 +11,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-const std::string press = scene("press_minimal.toml") + " --set run.step=20e-6 --set run.end=0.1 ";
+const std::string press_scene = scene("press_minimal.toml") + " --set run.step=20e-6 --set run.end=0.1 ";
 
 /// Names that commands write, with something of a user in them; and some that none writes.
 std::map<std::string, std::string> put_files(const fs::path &folder, const std::vector<std::string> &names)
@@ -33,12 +33,12 @@ void expect_unchanged(const fs::path &folder, const std::map<std::string, std::s
 
 std::vector<std::string> commands()
 {
-  return {"run " + press,
-          "modes " + press,
-          "frf " + press + "--from frame.crown.uz --to F_P --points 5",
-          "stability " + press + "--zeta 0.01",
-          "chart " + press + "--quick --no-peers --methods bdf-2 --steps '100 us' --samples 50",
-          "periodic " + press + "--method averaging"};
+  return {"run " + press_scene,
+          "modes " + press_scene,
+          "frf " + press_scene + "--from frame.crown.uz --to F_P --points 5",
+          "stability " + press_scene + "--zeta 0.01",
+          "chart " + press_scene + "--quick --no-peers --methods bdf-2 --steps '100 us' --samples 50",
+          "periodic " + press_scene + "--method averaging"};
 }
 
 TEST(ForeignFiles, ThatNoCommandWritesStay)
@@ -72,29 +72,29 @@ TEST(ForeignFiles, BehindLinksStay)
   const auto   all = put_files(folder / "own", {"1-forces.svg", "machine.svg", "x.vtp"});
   fs::create_directories(folder.results());
   fs::create_directory_symlink(folder / "own", folder.results() / "charts");
-  expect_answer(gestell("run " + press + folder.option()), 2, {"charts is a link"});
+  expect_answer(gestell("run " + press_scene + folder.option()), 2, {"charts is a link"});
   expect_unchanged(folder / "own", all);
   fs::remove(folder.results() / "charts");
-  EXPECT_EQ(gestell("run " + press + folder.option()).exit_code, 0);
+  EXPECT_EQ(gestell("run " + press_scene + folder.option()).exit_code, 0);
   fs::remove_all(folder.results() / "motion");
   fs::create_directory_symlink(folder / "own", folder.results() / "motion");
-  expect_answer(gestell("run " + press + folder.option()), 2, {"motion is a link"});
+  expect_answer(gestell("run " + press_scene + folder.option()), 2, {"motion is a link"});
   expect_unchanged(folder / "own", all);
 }
 
 TEST(Inputs, AreNotReplacedByResults)
 {
   const Folder folder("inputs");
-  ASSERT_EQ(gestell("run " + press + folder.option()).exit_code, 0);
+  ASSERT_EQ(gestell("run " + press_scene + folder.option()).exit_code, 0);
   const std::string history = read(folder.results() / "history.csv");
   const std::string where   = "'" + (folder.results() / "history.csv").string() + "'";
-  gestell("chart " + press + "--quick --no-peers --methods bdf-2 --steps '100 us' --samples 50 --reference " + where +
-          folder.option());
+  gestell("chart " + press_scene + "--quick --no-peers --methods bdf-2 --steps '100 us' --samples 50 --reference " +
+          where + folder.option());
   EXPECT_EQ(read(folder.results() / "history.csv"), history);
   EXPECT_TRUE(fs::exists(folder.results() / "summary.json"));
   EXPECT_TRUE(fs::exists(folder.results() / "chart.csv"));
-  ASSERT_EQ(gestell("frf " + press + "--from frame.crown.uz --to F_P --points 5" + folder.option()).exit_code, 0);
-  expect_answer(gestell("frf " + press + "--from frame.crown.uz --to F_P --points 5 --measured '" +
+  ASSERT_EQ(gestell("frf " + press_scene + "--from frame.crown.uz --to F_P --points 5" + folder.option()).exit_code, 0);
+  expect_answer(gestell("frf " + press_scene + "--from frame.crown.uz --to F_P --points 5 --measured '" +
                         (folder.results() / "frf.csv").string() + "'" + folder.option()),
                 2, {"frf.csv is read by this command"});
 }
@@ -103,7 +103,7 @@ TEST(Inputs, AreNotReplacedByResults)
 TEST(Inputs, AmongResultsStay)
 {
   const Folder folder("scene_inside");
-  ASSERT_EQ(gestell("run " + press + folder.option()).exit_code, 0);
+  ASSERT_EQ(gestell("run " + press_scene + folder.option()).exit_code, 0);
   std::ofstream(folder.results() / "sized.toml")
       << "extends = '" GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml'\n"
          "[run]\nstep = 20e-6\nend = 0.1\n";
@@ -138,7 +138,8 @@ TEST(ForeignFiles, ThatAreNamedByMistakeAreNotReplacedByAnFmu)
 {
   const Folder folder("fmu_foreign");
   const auto   all = put_files(folder / "", {"notes.toml"});
-  expect_answer(gestell("export " + press + "--fmu '" + (folder / "notes.toml").string() + "'"), 2, {"is no FMU"});
+  expect_answer(gestell("export " + press_scene + "--fmu '" + (folder / "notes.toml").string() + "'"), 2,
+                {"is no FMU"});
   expect_unchanged(folder / "", all);
 }
 

@@ -87,7 +87,7 @@ TEST(Described, ReferenceListsWhatIsInside)
 }
 
 /// Whether a document has the members and types of a schema; else where it does not.
-std::string mismatch(const Json &schema, const Json &value, const std::string &at)
+std::string departure(const Json &schema, const Json &value, const std::string &at)
 {
   const Json &types = schema["type"];
   const auto  is    = [&](const std::string &type)
@@ -115,17 +115,17 @@ std::string mismatch(const Json &schema, const Json &value, const std::string &a
     {
       if (!schema["properties"].contains(name))
         return at + " has " + name + ", which the schema does not know";
-      if (const std::string wrong = mismatch(schema["properties"][name], own, at + '.' + name); !wrong.empty())
+      if (const std::string wrong = departure(schema["properties"][name], own, at + '.' + name); !wrong.empty())
         return wrong;
     }
   }
   if (value.is_object() && schema.contains("additionalProperties"))
     for (const auto &[name, own] : value.items())
-      if (const std::string wrong = mismatch(schema["additionalProperties"], own, at + '.' + name); !wrong.empty())
+      if (const std::string wrong = departure(schema["additionalProperties"], own, at + '.' + name); !wrong.empty())
         return wrong;
   if (value.is_array())
     for (const Json &own : value)
-      if (const std::string wrong = mismatch(schema["items"], own, at + "[]"); !wrong.empty())
+      if (const std::string wrong = departure(schema["items"], own, at + "[]"); !wrong.empty())
         return wrong;
   return "";
 }
@@ -133,11 +133,11 @@ std::string mismatch(const Json &schema, const Json &value, const std::string &a
 TEST(SummaryJson, FitsItsSchema)
 {
   const Json schema = Json::parse(summary_schema());
-  EXPECT_EQ(mismatch(schema, Json::parse(summary_json(Result())), "summary"), "");
-  EXPECT_EQ(mismatch(schema, Json::parse(summary_json(example_result())), "summary"), "");
+  EXPECT_EQ(departure(schema, Json::parse(summary_json(Result())), "summary"), "");
+  EXPECT_EQ(departure(schema, Json::parse(summary_json(example_result())), "summary"), "");
   Json wrong        = Json::parse(summary_json(Result()));
   wrong["warnings"] = 1;
-  EXPECT_EQ(mismatch(schema, wrong, "summary"), "summary.warnings is no \"array\"");
+  EXPECT_EQ(departure(schema, wrong, "summary"), "summary.warnings is no \"array\"");
 }
 
 TEST(SummaryJson, EveryMemberHasAMeaning)

@@ -1,3 +1,4 @@
+#include "apps/output/describe/described_json.h"
 #include "apps/output/report/periodic_charts.h"
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/periodic_tables.h"
@@ -84,7 +85,7 @@ TEST(BasinsChart, JoinsCellsAndLeavesOutWhatWasNotLookedAt)
   result.basins = map;
   EXPECT_EQ(basins_csv(result), "x,x',solution,periods\n0.5,1,3,7\n1.5,1,3,9\n0.5,3,0,8\n");
   EXPECT_THAT(basins_text(map), HasSubstr("interrupted"));
-  EXPECT_EQ(basins_json(map)["complete"], false);
+  EXPECT_EQ(described_json(map)["complete"], false);
 }
 
 TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
@@ -101,7 +102,7 @@ TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
   result.long_run    = run;
   EXPECT_EQ(section_csv(result), "period,slide,slide',F [N]\n64,-1,-3,5\n65,-2,-4,6\n");
   EXPECT_THAT(long_run_text(run), HasSubstr("quasi-periodic"));
-  EXPECT_EQ(long_run_json(run)["kind"], "quasi-periodic");
+  EXPECT_EQ(described_json(run)["kind"], "quasi-periodic");
 }
 
 } // namespace gestell::apps

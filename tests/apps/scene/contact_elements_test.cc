@@ -15,12 +15,12 @@ using test::complaint;
 using test::with;
 
 // The default method with a small step, and exact propagation with controlled steps.
-const Settings bdf   = {"run.step=10 us"};
-const Settings exact = {"run.method=exact", "run.tolerance=1e-10"};
+const Settings bdf      = {"run.step=10 us"};
+const Settings by_exact = {"run.method=exact", "run.tolerance=1e-10"};
 
 /// One slider, to which elements are added.
-const std::string slider = slider_body("slide", "2", "[1, 0, 0]") + "[run]\nend = '1 s'\n" +
-                           signals("x = 'slide.displacement', v = 'slide.velocity'");
+const std::string sliding_body = slider_body("slide", "2", "[1, 0, 0]") + "[run]\nend = '1 s'\n" +
+                                 signals("x = 'slide.displacement', v = 'slide.velocity'");
 
 // --- dry friction
 
@@ -63,7 +63,7 @@ const std::string belt =
 
 TEST(DryFriction, IsCarriedByABeltUntilTheSpringPullsItOff)
 {
-  const SceneRun motion = run(slider + belt, {"run.step=0.1 ms"});
+  const SceneRun motion = run(sliding_body + belt, {"run.step=0.1 ms"});
   EXPECT_NEAR(time_of(motion, "slip_backward"), 6. / 200. / 0.1, 1e-6); // c v_b t = R0
   const double slips = 2. * (M_PI - std::atan(2. / (0.1 * std::sqrt(400.)))) / 10.;
   EXPECT_NEAR(time_of(motion, "stick"), 0.3 + slips, 1e-5);
@@ -71,7 +71,7 @@ TEST(DryFriction, IsCarriedByABeltUntilTheSpringPullsItOff)
 
 TEST(DryFriction, RefusesWhatMakesNoSense)
 {
-  const std::string scene = with(slider, "end = ", "step = \"1 ms\"\nend = ") + belt;
+  const std::string scene = with(sliding_body, "end = ", "step = \"1 ms\"\nend = ") + belt;
   EXPECT_EQ(complaint(scene), "");
   expect_complaint(with(scene, "static_force = \"6 N\"", ""), "the key 'static_force' is missing");
   expect_complaint(with(scene, "static_force = \"6 N\"", "static_force = \"3 N\""), "is below 'kinetic_force'");
@@ -105,7 +105,7 @@ TEST_P(Impact, IsThatOfTheIssue)
   EXPECT_NEAR(time_of(motion, "separation"), M_PI / omega, 1e-6);
   EXPECT_GE(motion.signal("F").min, -1e-6); // never pulls
 }
-INSTANTIATE_TEST_SUITE_P(Methods, Impact, ::testing::Values(bdf, exact));
+INSTANTIATE_TEST_SUITE_P(Methods, Impact, ::testing::Values(bdf, by_exact));
 
 const std::string bumper = element("bumper", "stop",
                                    {{"from", "slide"},
@@ -118,14 +118,14 @@ const std::string bumper = element("bumper", "stop",
 
 TEST(Stop, GivesBackWhatItsRestitutionSays)
 {
-  const SceneRun motion = run(slider + bumper, {"run.step=1 us", "run.end=20 ms"});
+  const SceneRun motion = run(sliding_body + bumper, {"run.step=1 us", "run.end=20 ms"});
   EXPECT_NEAR(time_of(motion, "contact"), 10e-3 / 3., 1e-9); // 10 mm *below* zero
   EXPECT_NEAR(motion.signal("v").final, 0.6 * 3., 1e-4);
 }
 
 TEST(Stop, RefusesWhatMakesNoSense)
 {
-  const std::string scene = with(slider, "end = ", "step = \"1 us\"\nend = ") + bumper;
+  const std::string scene = with(sliding_body, "end = ", "step = \"1 us\"\nend = ") + bumper;
   EXPECT_EQ(complaint(scene), "");
   expect_complaint(with(scene, "impact_speed = \"3 m/s\"", ""), "needs 'restitution' and 'impact_speed' together");
   expect_complaint(with(scene, "impact_speed = \"3 m/s\"", "impact_speed = \"3 m/s\"\ndissipation = 0.1"),
@@ -147,7 +147,7 @@ using TableForces = ::testing::TestWithParam<Settings>;
 
 TEST_P(TableForces, OverTimeGiveTheirImpulse)
 {
-  const SceneRun motion = run(slider + pulse, GetParam());
+  const SceneRun motion = run(sliding_body + pulse, GetParam());
   // Impulse 3 N s about t = 20 ms.
   EXPECT_NEAR(motion.signal("v").final, 1.5, 1e-6);
   EXPECT_NEAR(motion.signal("x").final, 1.5 * (1. - 0.02), 1e-6);
@@ -162,7 +162,7 @@ TEST_P(TableForces, OverTheRateBrakeLikeADamper)
 {
   // 20 N down to 1 m/s at t = 0.2 s, below it 20 N s/m.
   const SceneRun motion =
-      run(slider +
+      run(sliding_body +
               element("brake", "table force",
                       {{"from", "slide"}, {"against", "rate"}, {"table", "[['-1 m/s', '20 N'], ['1 m/s', '-20 N']]"}}) +
               start("v = { slide = 3 }"),
@@ -175,7 +175,7 @@ TEST_P(TableForces, OverTheDisplacementGiveBackWhatTheyTook)
 {
   // Free to 0.1 m, then -10 N: turned back after 0.2 s on 0.1 m.
   const SceneRun motion = run(
-      slider +
+      sliding_body +
           element("wind", "table force",
                   {{"from", "slide"}, {"against", "displacement"}, {"table", "[['0.1 m', 0], ['0.1 m', '-10 N']]"}}) +
           start("v = { slide = 1 }"),
@@ -187,7 +187,7 @@ TEST_P(TableForces, OverTheDisplacementGiveBackWhatTheyTook)
   EXPECT_NEAR(motion.result.energy.stored, 0., 1e-6); // kinetic energy is back, the wind's is spent
 }
 INSTANTIATE_TEST_SUITE_P(Methods, TableForces,
-                         ::testing::Values(bdf, exact,
+                         ::testing::Values(bdf, by_exact,
                                            Settings{"run.method=exact", "run.force=linear", "run.step=0.1 ms"},
                                            Settings{"run.method=exact", "run.force=average", "run.step=0.1 ms"},
                                            Settings{"run.method=newmark", "run.step=0.1 ms"}));
@@ -196,7 +196,7 @@ TEST(TableForce, IsTakenAtTheBeginOfTheRunByASteadyStart)
 {
   // 5 N at 0.5 s stretch the spring by 25 mm; there the joint sticks and carries nothing yet, 1 N at the end.
   const SceneRun motion =
-      run(slider + element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "200 N/m"}}) +
+      run(sliding_body + element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "200 N/m"}}) +
               element("joint", "dry friction", {{"from", "slide"}, {"static_force", "2 N"}, {"kinetic_force", "1 N"}}) +
               element("ramp", "table force",
                       {{"from", "slide"}, {"against", "time"}, {"table", "[['0 s', 0], ['1 s', '10 N']]"}}) +
@@ -208,7 +208,7 @@ TEST(TableForce, IsTakenAtTheBeginOfTheRunByASteadyStart)
 
 TEST(TableForce, RefusesWhatMakesNoSense)
 {
-  const std::string scene = with(slider, "end = ", "step = \"1 ms\"\nend = ") + pulse;
+  const std::string scene = with(sliding_body, "end = ", "step = \"1 ms\"\nend = ") + pulse;
   EXPECT_EQ(complaint(scene), "");
   expect_complaint(with(scene, "\"30 ms\"", "\"5 ms\""),
                    "row 3, abscissa = 0.005, but it must be 0.01 of the row before, or above it");

@@ -167,7 +167,7 @@ std::string law(const std::string &formula)
 }
 
 const Settings bdf_20us = {"run.step=10 us"}, controlled = {"run.tolerance=1e-9"},
-               exact = {"run.method=exact", "run.tolerance=1e-10"};
+               exactly = {"run.method=exact", "run.tolerance=1e-10"};
 
 using FormulaRun = ::testing::TestWithParam<Settings>;
 
@@ -214,7 +214,7 @@ TEST_P(FormulaRun, LocatesItsJumps)
   EXPECT_NEAR(motion.signal("x").final, 0.2 - 0.6 * (0.2 - 0.035) + 0.5 * 5. * 0.15 * 0.15, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(Methods, FormulaRun,
-                         ::testing::Values(bdf_20us, controlled, exact,
+                         ::testing::Values(bdf_20us, controlled, exactly,
                                            Settings{"run.method=newmark", "run.step=10 us"}));
 
 TEST(FormulaForceElement, TellsItsEventsAfterwardsToo)

@@ -33,12 +33,12 @@ Quantity read(const std::string &text)
   return parse_quantity(text, parameter);
 }
 
-std::string complaint(const std::string &text)
+std::string quantity_complaint(const std::string &text)
 {
   return gestell::tests::refusal([&] { read(text); });
 }
 
-std::string complaint(const std::string &text, const Kind &kind)
+std::string quantity_complaint(const std::string &text, const Kind &kind)
 {
   return gestell::tests::refusal([&] { value_as(read(text), kind, text); });
 }
@@ -122,18 +122,18 @@ TEST(Quantity, ParametersComeBeforeUnitsWhereAnOperandIsExpected)
 
 TEST(Quantity, WhatReadsInTwoWaysIsRefused)
 {
-  expect_words(complaint("10 N/m s"), "two ways");
-  expect_words(complaint("1/2 mm"), "two ways");
-  expect_words(complaint("3 g"), "a unit and a parameter");
-  expect_words(complaint("30 km/h"), "a unit and a parameter");
+  expect_words(quantity_complaint("10 N/m s"), "two ways");
+  expect_words(quantity_complaint("1/2 mm"), "two ways");
+  expect_words(quantity_complaint("3 g"), "a unit and a parameter");
+  expect_words(quantity_complaint("30 km/h"), "a unit and a parameter");
 }
 
 TEST(Quantity, AddsLikeToLikeOnly)
 {
-  expect_words(complaint("2 mm + 3 kg"), "adds kg to m");
-  expect_words(complaint("crank_radius - 8"), "subtracts a plain number from m");
-  expect_words(complaint("sin(3 mm)"), "sin()");
-  expect_words(complaint("2^(3 mm)"), "exponent");
+  expect_words(quantity_complaint("2 mm + 3 kg"), "adds kg to m");
+  expect_words(quantity_complaint("crank_radius - 8"), "subtracts a plain number from m");
+  expect_words(quantity_complaint("sin(3 mm)"), "sin()");
+  expect_words(quantity_complaint("2^(3 mm)"), "exponent");
 }
 
 TEST(Quantity, PlainParametersTakeTheDimensionOfTheirPlace)
@@ -141,7 +141,7 @@ TEST(Quantity, PlainParametersTakeTheDimensionOfTheirPlace)
   EXPECT_NO_THROW(read("plain + 8 mm"));
   EXPECT_DOUBLE_EQ(value_as(read("2*plain"), kind::mass, ""), 6.);
   EXPECT_DOUBLE_EQ(value_as(read("plain + 1 m"), kind::length, ""), 4.);
-  EXPECT_NE(complaint("plain + 1 m", kind::mass), ""); // a length now, whatever `plain` is
+  EXPECT_NE(quantity_complaint("plain + 1 m", kind::mass), ""); // a length now, whatever `plain` is
 }
 
 TEST(Quantity, NonsenseIsRefusedWithTheReason)
@@ -169,41 +169,42 @@ TEST(Quantity, NonsenseIsRefusedWithTheReason)
                                           {"log(0)", "finite"},
                                           {"3 m^1.5", "whole number"},
                                           {"20 degC", "unknown unit"}})
-    EXPECT_NE(complaint(text).find(reason), std::string::npos) << "\"" << text << "\": " << complaint(text);
+    EXPECT_NE(quantity_complaint(text).find(reason), std::string::npos)
+        << "\"" << text << "\": " << quantity_complaint(text);
 }
 
 TEST(Quantity, AMistakeIsShownWithTheCharacterItIsAt)
 {
-  expect_words(complaint("2*crank_radius + 3 kg"), "adds kg to m; both must be of one kind (character 16)");
-  expect_words(complaint("3 µm + parsec"), "(character 8)"); // of UTF-8, not bytes
-  expect_words(complaint("(2"), "(character 3)");
-  expect_words(complaint("sqrt(4) mm"), "lacks an operator (* / + -) before 'mm' (character 9)");
-  expect_words(complaint("2 $ 3"), "(character 3)");
+  expect_words(quantity_complaint("2*crank_radius + 3 kg"), "adds kg to m; both must be of one kind (character 16)");
+  expect_words(quantity_complaint("3 µm + parsec"), "(character 8)"); // of UTF-8, not bytes
+  expect_words(quantity_complaint("(2"), "(character 3)");
+  expect_words(quantity_complaint("sqrt(4) mm"), "lacks an operator (* / + -) before 'mm' (character 9)");
+  expect_words(quantity_complaint("2 $ 3"), "(character 3)");
 }
 
 TEST(Quantity, DeepNestingIsRefusedInsteadOfOverflowingTheStack)
 {
-  expect_words(complaint(std::string(100000, '(')), "longer than");
+  expect_words(quantity_complaint(std::string(100000, '(')), "longer than");
 }
 
 TEST(Quantity, AWrongDimensionSaysWhatIsNeededAndWhatCame)
 {
-  EXPECT_EQ(complaint("3 kg", kind::length), "needs a length such as \"40 mm\", got \"3 kg\", 3 kg");
+  EXPECT_EQ(quantity_complaint("3 kg", kind::length), "needs a length such as \"40 mm\", got \"3 kg\", 3 kg");
   EXPECT_EQ(
-      complaint("3", kind::length),
+      quantity_complaint("3", kind::length),
       "needs a length such as \"40 mm\", got \"3\" without a unit; a plain number in SI units stands without quotes");
-  EXPECT_EQ(complaint("0", kind::length), ""); // zero of anything is zero
-  expect_words(complaint("3 mm", kind::angular_speed), "an angular speed");
+  EXPECT_EQ(quantity_complaint("0", kind::length), ""); // zero of anything is zero
+  expect_words(quantity_complaint("3 mm", kind::angular_speed), "an angular speed");
 }
 
 TEST(Quantity, TurnsAndRadiansPerSecondAreToldApart)
 {
-  expect_words(complaint("5 Hz", kind::angular_speed), "turns");
-  expect_words(complaint("30 rad/s", kind::frequency), "radians");
-  expect_words(complaint("3 N m/Hz", kind::torsional_damping), "turns");
-  EXPECT_EQ(complaint("30 rad/s", kind::angular_speed), "");
-  EXPECT_EQ(complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "");
-  EXPECT_EQ(complaint("50 Hz", kind::frequency), "");
+  expect_words(quantity_complaint("5 Hz", kind::angular_speed), "turns");
+  expect_words(quantity_complaint("30 rad/s", kind::frequency), "radians");
+  expect_words(quantity_complaint("3 N m/Hz", kind::torsional_damping), "turns");
+  EXPECT_EQ(quantity_complaint("30 rad/s", kind::angular_speed), "");
+  EXPECT_EQ(quantity_complaint("2*pi * 1 rad * 50 Hz", kind::angular_speed), "");
+  EXPECT_EQ(quantity_complaint("50 Hz", kind::frequency), "");
 }
 
 using TurnsPerMinute = ::testing::TestWithParam<std::string>;
@@ -213,7 +214,7 @@ TEST_P(TurnsPerMinute, AreTheSameTurnsOfAShaftInEverySpelling)
   const std::string text = GetParam();
   EXPECT_NEAR(value_as(read(text), kind::angular_speed, text), 50. * pi, 1e-13 * 50. * pi);
   EXPECT_NEAR(value_as(read(text), kind::frequency, text), 25., 1e-13 * 25.);
-  EXPECT_NE(complaint(text, kind::number), "");
+  EXPECT_NE(quantity_complaint(text, kind::number), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Spellings, TurnsPerMinute,
@@ -231,17 +232,17 @@ TEST(Quantity, WhatCouldCountTurnsOrRadiansIsRefused)
        {"1500/min*crank_radius", "crank_radius*1500 rpm", "3 N m/(1500/min)", "3 N m/rpm", "2*pi*(1500/min)",
         "(2*pi*1500) 1/min", "1/(1500/min)", "(1500/min)^2", "sqrt(9 1/min)", "exp(1500/min * 1 s)", "3/min + 2 Hz",
         "3/min + 2 1/s", "sin((2 s)*1500/min)", "3/r/min", "(3 rpm)*(2 rpm)", "2 rad * 3 rpm"})
-    EXPECT_NE(complaint(text), "") << text;
+    EXPECT_NE(quantity_complaint(text), "") << text;
   for (const std::string text : {"2*pi*1500/min", "pi/30*1500/min", "1500/(2 min)", "2 s * 1500/(1 s min)"})
-    EXPECT_NE(complaint(text, kind::angular_speed).find("may count turns"), std::string::npos) << text;
-  expect_words(complaint("(3 s)*1500/min", kind::angle), "may count turns");
-  expect_words(complaint("3 N m/min^-1", kind::torsional_damping), "may count turns");
-  EXPECT_EQ(complaint("100 mm/min", kind::speed), "");
-  EXPECT_EQ(complaint("2 rad/min", kind::angular_speed), "");
-  EXPECT_EQ(complaint("1500/(2 min)", kind::frequency), ""); // turns or not
-  EXPECT_EQ(complaint("(3 min)/(2 min)", kind::number), "");
-  EXPECT_EQ(complaint("1/(2*pi) * sqrt(9 N/m / m1)", kind::frequency), "");
-  EXPECT_NE(complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "");
+    EXPECT_NE(quantity_complaint(text, kind::angular_speed).find("may count turns"), std::string::npos) << text;
+  expect_words(quantity_complaint("(3 s)*1500/min", kind::angle), "may count turns");
+  expect_words(quantity_complaint("3 N m/min^-1", kind::torsional_damping), "may count turns");
+  EXPECT_EQ(quantity_complaint("100 mm/min", kind::speed), "");
+  EXPECT_EQ(quantity_complaint("2 rad/min", kind::angular_speed), "");
+  EXPECT_EQ(quantity_complaint("1500/(2 min)", kind::frequency), ""); // turns or not
+  EXPECT_EQ(quantity_complaint("(3 min)/(2 min)", kind::number), "");
+  EXPECT_EQ(quantity_complaint("1/(2*pi) * sqrt(9 N/m / m1)", kind::frequency), "");
+  EXPECT_NE(quantity_complaint("3000 1/min/s", Kind{"plain rate", "3 1/s^2", {0, 0, -2}}), "");
 }
 
 TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
@@ -250,7 +251,7 @@ TEST(Quantity, TurnsOfAShaftMeetRadiansWhereTheirMeaningIsTold)
   EXPECT_NEAR(read("(1500 rpm)/(500/min)").value, 3., 1e-14);
   EXPECT_NEAR(read("sin(15 rpm * 1 s)").value, 1., 1e-14); // a quarter of a turn
   EXPECT_NEAR(value_as(read("30 rpm + 1 rad/s"), kind::angular_speed, ""), pi + 1., 1e-14);
-  expect_words(complaint("30 rpm + 1 rad/s", kind::frequency), "radians");
+  expect_words(quantity_complaint("30 rpm + 1 rad/s", kind::frequency), "radians");
   EXPECT_NEAR(value_as(read("30 1/min * 2 s"), kind::angle, ""), 2. * pi, 1e-14);
 }
 
@@ -262,14 +263,14 @@ TEST(Quantity, SignsOfATypesetTextMeanWhatTheyShow)
   EXPECT_DOUBLE_EQ(read("−3 mm").value, -3e-3);
   EXPECT_DOUBLE_EQ(read("2*π").value, 2. * pi);
   EXPECT_DOUBLE_EQ(read("3\u00a0mm").value, 3e-3); // a space that does not break
-  expect_words(complaint("3 mm⁻"), "raised sign");
-  expect_words(complaint("3 Ω"), "'Ω', which has no meaning"); // the whole character
+  expect_words(quantity_complaint("3 mm⁻"), "raised sign");
+  expect_words(quantity_complaint("3 Ω"), "'Ω', which has no meaning"); // the whole character
 }
 
 TEST(Quantity, ADecimalCommaIsNamed)
 {
-  expect_words(complaint("1,5 mm"), "has a decimal comma; write 1.5 (character 2)");
-  expect_words(complaint("2*(1,5 mm)"), "decimal comma");
+  expect_words(quantity_complaint("1,5 mm"), "has a decimal comma; write 1.5 (character 2)");
+  expect_words(quantity_complaint("2*(1,5 mm)"), "decimal comma");
   EXPECT_DOUBLE_EQ(read("max(1,5)").value, 5.); // two arguments
 }
 
@@ -294,15 +295,15 @@ TEST(Quantity, UnitsOfTheWorkshopAreThoseOfTheirStandards)
   EXPECT_NEAR(read("3 lbf").value, 13.3446648458, 1e-9);
   EXPECT_NEAR(read("3 psi").value, 20684.27188, 1e-5);
   EXPECT_NEAR(read("3 PS").value, 2206.49625, 1e-9);
-  EXPECT_NE(complaint("3 lb", kind::force), ""); // a mass
+  EXPECT_NE(quantity_complaint("3 lb", kind::force), ""); // a mass
 }
 
 TEST(Quantity, MatrixEntriesMayCarryPowersOfAMetreForRotations)
 {
-  EXPECT_EQ(complaint("250 kg m^2", kind::mass_entry), "");
-  EXPECT_EQ(complaint("250 kg", kind::mass_entry), "");
-  EXPECT_NE(complaint("250 kg m^3", kind::mass_entry), "");
-  EXPECT_NE(complaint("250 N/m", kind::mass_entry), "");
+  EXPECT_EQ(quantity_complaint("250 kg m^2", kind::mass_entry), "");
+  EXPECT_EQ(quantity_complaint("250 kg", kind::mass_entry), "");
+  EXPECT_NE(quantity_complaint("250 kg m^3", kind::mass_entry), "");
+  EXPECT_NE(quantity_complaint("250 N/m", kind::mass_entry), "");
 }
 
 TEST(Quantity, DimensionsAreDescribedAsEngineersWriteThem)

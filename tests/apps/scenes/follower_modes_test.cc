@@ -27,7 +27,7 @@ using Complex = std::complex<double>;
 
 constexpr double two_pi = 2. * M_PI;
 
-const std::string run = steps("1 ms", "1 s") + signals("a = 'b1.angle'");
+const std::string run_table = steps("1 ms", "1 s") + signals("a = 'b1.angle'");
 
 std::string load(const std::string &tip, double P, const std::string &body)
 {
@@ -51,7 +51,7 @@ std::string ziegler(double kappa, double damping = 0.)
 {
   return planar_body("b1", "2", number(J), "[0, 0, 1]") + planar_body("b2", "1", number(J), "[0, 0, 2]") +
          hinge("j1", "ground", "b1", 0., 100., damping) + hinge("j2", "b1", "b2", 1., 100., damping) +
-         load("[0, 0, 2]", 100. * kappa, "b2") + run;
+         load("[0, 0, 2]", 100. * kappa, "b2") + run_table;
 }
 
 struct Column
@@ -229,7 +229,7 @@ std::string beck(int n, double P)
     text += planar_body(own, number(h), number(h * h * h / 12.), vector(0., 0., (i + 0.5) * h)) +
             hinge("j" + std::to_string(i + 1), before, own, i * h, (i == 0 ? 2. : 1.) / h, 0.);
   }
-  return text + load(vector(0., 0., 1.), P, "b" + std::to_string(n)) + run;
+  return text + load(vector(0., 0., 1.), P, "b" + std::to_string(n)) + run_table;
 }
 
 // Beck 1952: flutter from 20.05 EI/l^2 on, at omega = 11.02 sqrt(EI/(m l^4)); links err by the square of their length.

@@ -28,13 +28,13 @@ struct Linearised
   std::vector<coupling::Pole> poles;
 };
 
-const std::string rotor = rotor_body("r", "2", "[0, 1, 0]");
-const std::string run   = steps("1 ms", "1 s") + signals("a = 'r.angle'");
+const std::string rotor     = rotor_body("r", "2", "[0, 1, 0]");
+const std::string rotor_run = steps("1 ms", "1 s") + signals("a = 'r.angle'");
 
 std::string pendulum(const std::string &angle)
 {
   return "gravity = [0, 0, -9.81]\n" + planar_body("r", "2", "0.5", "[0, 0, -1]") +
-         revolute("j", "ground", "r", "[0, 0, 0]") + "[modes]\nat = { 'r.angle' = '" + angle + "' }\n" + run;
+         revolute("j", "ground", "r", "[0, 0, 0]") + "[modes]\nat = { 'r.angle' = '" + angle + "' }\n" + rotor_run;
 }
 
 const std::string drive =
@@ -62,7 +62,7 @@ TEST(OperatingModes, APendulumOnItsHeadGrowsAsFastAsItSwingsBelow)
 
 TEST(OperatingModes, AFreeMotionNeitherVibratesNorGrows)
 {
-  const auto free = Linearised(rotor + run);
+  const auto free = Linearised(rotor + rotor_run);
   ASSERT_EQ(free.modes.size(), 1u);
   EXPECT_EQ(free.modes[0].frequency_hz, 0.);
   EXPECT_EQ(free.modes[0].growth, 0.);
@@ -71,7 +71,7 @@ TEST(OperatingModes, AFreeMotionNeitherVibratesNorGrows)
 // 2 s^2 + 4 s + 200 = 0: omega_0 = 10 rad/s, ratio 0.1.
 TEST(OperatingModes, ASpeedDriveHoldsItsInertiaLikeASpringAndADamper)
 {
-  const auto poles = Linearised(rotor + drive + run).poles;
+  const auto poles = Linearised(rotor + drive + rotor_run).poles;
   ASSERT_EQ(poles.size(), 1u);
   EXPECT_NEAR(std::abs(poles[0].s), 10., 1e-6);
   EXPECT_NEAR(poles[0].damping_ratio(), 0.1, 1e-7);
@@ -82,7 +82,7 @@ TEST(OperatingModes, ASpeedDriveHoldsItsInertiaLikeASpringAndADamper)
 // J s (T s + 1) + D = 0 with D = 2 M_b/(s_b omega_s) = 200 N m s at no load: s^2 + 2 s + 200 = 0.
 TEST(OperatingModes, AMotorThatLagsVibratesAgainstItsRotor)
 {
-  const auto poles = Linearised(rotor + motor("dynamic motor", "10", {{"time_constant", "0.5"}}) + run).poles;
+  const auto poles = Linearised(rotor + motor("dynamic motor", "10", {{"time_constant", "0.5"}}) + rotor_run).poles;
   ASSERT_EQ(poles.size(), 1u);
   EXPECT_NEAR(std::abs(poles[0].s), std::sqrt(200.), 1e-6);
   EXPECT_NEAR(poles[0].damping_ratio(), 1. / std::sqrt(200.), 1e-7);
@@ -94,8 +94,8 @@ TEST(OperatingModes, TellNothingOfBristles)
   const std::string bristles =
       element("f", "lugre friction",
               {{"from", "r"}, {"kinetic_force", "10"}, {"bristle_stiffness", "1e5"}, {"bristle_damping", "100"}});
-  EXPECT_TRUE(Linearised(rotor + bristles + run).poles.empty());
-  const auto both = Linearised(rotor + bristles + drive + run);
+  EXPECT_TRUE(Linearised(rotor + bristles + rotor_run).poles.empty());
+  const auto both = Linearised(rotor + bristles + drive + rotor_run);
   ASSERT_EQ(both.poles.size(), 1u); // as of the drive alone
   EXPECT_NEAR(std::abs(both.poles[0].s), 10., 1e-6);
   EXPECT_NEAR(both.poles[0].damping_ratio(), 0.1, 1e-7);
@@ -104,7 +104,7 @@ TEST(OperatingModes, TellNothingOfBristles)
 // Beyond its breakdown torque the characteristic falls with the speed: s = D/J > 0.
 TEST(OperatingModes, AMotorBeyondItsBreakdownGrows)
 {
-  const auto poles = Linearised(rotor + motor("asynchronous motor", "5") + run).poles;
+  const auto poles = Linearised(rotor + motor("asynchronous motor", "5") + rotor_run).poles;
   // Kloss: M = 2 M_b/(s/s_b + s_b/s), slip 0.5; dM/dv = -dM/ds/omega_s.
   const double x = 0.5 / 0.2, slope = 2. * 200. * (1. - 1. / (x * x)) / std::pow(x + 1. / x, 2) / (0.2 * 10.);
   ASSERT_EQ(poles.size(), 1u);

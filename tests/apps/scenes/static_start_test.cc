@@ -14,7 +14,7 @@ namespace gestell::tests
 namespace
 {
 
-constexpr double gravity = 9.81;
+constexpr double g_earth = 9.81;
 
 const std::string gravity        = "gravity = [0, 0, -9.81]\n";
 const std::string at_rest        = "[start]\nrule = \"static\"\n";
@@ -59,7 +59,7 @@ TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
 
 TEST(StaticStart, ClosesWhatWasOpen)
 {
-  const double W = 10. * gravity;
+  const double W = 10. * g_earth;
   expect_rest(dropped("type = \"stop\"\ngap = \"10 mm\"\nstiffness = 1e6\n"), {0.01 + W / 1e6}, 1e-11);
   expect_rest(dropped("type = \"stop\"\ngap = \"10 mm\"\nstiffness = 1e9\nexponent = 1.5\n"),
               {0.01 + std::pow(W / 1e9, 2. / 3.)}, 1e-11);
@@ -79,7 +79,7 @@ TEST(StaticStart, AJournalLiesInItsBearing)
                                    {"radius", "20 mm"},
                                    {"stiffness", "1e6"}}) +
                           at_rest + start_settings + "signals = { z = \"p.uz\", x = \"p.ux\", angle = \"p.angle\" }\n");
-  expect_rest(motion, {-1e-3 - 10. * gravity / 1e6, 0., 0.}, 1e-10); // the angle, which nothing holds, stays
+  expect_rest(motion, {-1e-3 - 10. * g_earth / 1e6, 0., 0.}, 1e-10); // the angle, which nothing holds, stays
 }
 
 std::string pendulum(const std::string &angle)
@@ -100,7 +100,7 @@ TEST(StaticStart, APendulumFallsToWhereItHangs)
 TEST(StaticStart, OnItsHeadItStaysWithAWarningOfTheGrowth)
 {
   const auto   motion = run(pendulum("180 deg"));
-  const double growth = std::sqrt(2. * gravity / (0.5 + 2.));
+  const double growth = std::sqrt(2. * g_earth / (0.5 + 2.));
   EXPECT_NEAR(motion.at(0, 1), M_PI, 1e-9);
   EXPECT_TRUE(told(motion, "unstable equilibrium"));
   EXPECT_TRUE(told(motion, "p."));
@@ -132,7 +132,7 @@ TEST(StaticStart, AWeightOnALongSpringHangsBelowItsHook)
           element("c", "spring-damper", {{"on", "d"}, {"rest", "1"}, {"stiffness", "300"}}) +
           element("y", "spring-damper", {{"from", "p"}, {"direction", "[0, 1, 0]"}, {"stiffness", "10"}}) + at_rest +
           start_settings + "signals = { x = \"p.x\", z = \"p.z\" }\n");
-  expect_rest(motion, {0., -1. - 100. * gravity / 300.}, 1e-9);
+  expect_rest(motion, {0., -1. - 100. * g_earth / 300.}, 1e-9);
 }
 
 TEST(StaticStart, WhatFallsForEverIsRefusedByName)

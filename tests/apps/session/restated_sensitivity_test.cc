@@ -43,7 +43,7 @@ SceneNode original()
 // Instants of peaks move by a small rate over a small curvature, as in sensitivity_identities_test.cc.
 constexpr double same_value = 1e-7, same_instant = 1e-4;
 
-bool is_instant(const std::string &output)
+bool is_of_time(const std::string &output)
 {
   const std::string what = output.substr(output.rfind('.') + 1);
   return what == "t_min" || what == "t_max" || what == "t";
@@ -68,7 +68,7 @@ void expect_same(const std::map<std::string, SensitivityOutput> &one,
       if (!std::isfinite(output.derivative[k]))
         continue;
       EXPECT_NEAR(output.derivative[k], found->second.derivative[k],
-                  (is_instant(name) ? same_instant : same_value) * size[output.unit])
+                  (is_of_time(name) ? same_instant : same_value) * size[output.unit])
           << name << ", " << k;
     }
   }

@@ -125,7 +125,7 @@ TEST(Bdf, OneFactorisationServesEveryStepOfAFixedSize)
 }
 
 /// Duffing's oscillator at t = 10, and Newton iterations per step.
-std::pair<double, double> duffing(double h, double share_of_error)
+std::pair<double, double> duffing_by_share(double h, double share_of_error)
 {
   SmallSystem system(Matrix::Identity(1, 1), 0.1 * Matrix::Identity(1, 1), Matrix::Identity(1, 1));
   system.set_load([](double t) -> Vector { return Vector::Constant(1, std::cos(1.2 * t)); });
@@ -144,9 +144,9 @@ TEST(Bdf, NewtonLeavesASmallShareOfTheErrorOfTheFormula)
 {
   for (const double h : {0.02, 0.01, 0.005})
   {
-    const auto [all, iterations_all]     = duffing(h, 0.);
-    const auto [share, iterations_share] = duffing(h, 1e-3);
-    const double truncation              = std::abs(all - duffing(h / 8., 0.).first);
+    const auto [all, iterations_all]     = duffing_by_share(h, 0.);
+    const auto [share, iterations_share] = duffing_by_share(h, 1e-3);
+    const double truncation              = std::abs(all - duffing_by_share(h / 8., 0.).first);
     EXPECT_LT(std::abs(share - all), 0.01 * truncation) << "h = " << h; // 1e-3 of a correction of some errors
     EXPECT_GT(iterations_all, 1.9);
     EXPECT_LT(iterations_share, 1.2);
@@ -156,7 +156,7 @@ TEST(Bdf, NewtonLeavesASmallShareOfTheErrorOfTheFormula)
 TEST(Bdf, NewtonLeavesLittleOfTheMotionHoweverLargeTheErrorOfTheFormula)
 {
   // Ten steps in a period: the formula errs by a tenth, Newton may leave 1e-7 of the excursion in each of 20 steps.
-  EXPECT_LT(std::abs(duffing(0.5, 1e-3).first - duffing(0.5, 0.).first), 20. * 1e-7 * 1.5);
+  EXPECT_LT(std::abs(duffing_by_share(0.5, 1e-3).first - duffing_by_share(0.5, 0.).first), 20. * 1e-7 * 1.5);
 }
 
 TEST(Bdf, NewtonBelievesOnlyInAContractionSeenSinceTheRestart)

@@ -14,12 +14,12 @@ namespace
 {
 
 using namespace coupling;
-using Vector   = Eigen::VectorXd;
-using Matrix   = Eigen::MatrixXd;
-using Real     = long double; // of exact solutions, to all digits of the table
-using Complex  = std::complex<Real>;
-using Complex2 = Eigen::Matrix<Complex, 2, 1>;
-using Complex4 = Eigen::Matrix<Complex, 4, 1>;
+using Vector      = Eigen::VectorXd;
+using Matrix      = Eigen::MatrixXd;
+using Real        = long double; // of exact solutions, to all digits of the table
+using LongComplex = std::complex<Real>;
+using Complex2    = Eigen::Matrix<LongComplex, 2, 1>;
+using Complex4    = Eigen::Matrix<LongComplex, 4, 1>;
 
 /// Case a of the reference: two coupled masses with non-proportional damping, F_j cos(Omega_j t) on coordinate j.
 class LinearPair
@@ -43,25 +43,26 @@ public:
     X_ = solver.eigenvectors();
     for (int j = 0; j < 2; ++j)
     {
-      const Eigen::Matrix<Complex, 2, 2> Z = C.cast<Complex>() + Complex(0., Omega[j]) * B.cast<Complex>() -
-                                             Complex(Omega[j] * Omega[j]) * M.cast<Complex>();
-      forced_[j] = Z.inverse() * (Complex(F[j]) * Complex2::Unit(j));
+      const Eigen::Matrix<LongComplex, 2, 2> Z = C.cast<LongComplex>() +
+                                                 LongComplex(0., Omega[j]) * B.cast<LongComplex>() -
+                                                 LongComplex(Omega[j] * Omega[j]) * M.cast<LongComplex>();
+      forced_[j] = Z.inverse() * (LongComplex(F[j]) * Complex2::Unit(j));
     }
     c_.setZero();
     Complex4 start;
-    start << q0.cast<Complex>(), v0.cast<Complex>();
+    start << q0.cast<LongComplex>(), v0.cast<LongComplex>();
     c_ = X_.partialPivLu().solve(start - state(0.));
   }
 
   /// (q, q') at t.
   Complex4 state(double t) const
   {
-    Complex4 y = X_ * c_.cwiseProduct((s_ * Complex(t)).array().exp().matrix());
+    Complex4 y = X_ * c_.cwiseProduct((s_ * LongComplex(t)).array().exp().matrix());
     for (int j = 0; j < 2; ++j)
     {
-      const Complex2 q = forced_[j] * std::exp(Complex(0., Omega[j] * Real(t)));
-      y.head(2) += q.real().cast<Complex>();
-      y.tail(2) += (Complex(0., Omega[j]) * q).real().cast<Complex>();
+      const Complex2 q = forced_[j] * std::exp(LongComplex(0., Omega[j] * Real(t)));
+      y.head(2) += q.real().cast<LongComplex>();
+      y.tail(2) += (LongComplex(0., Omega[j]) * q).real().cast<LongComplex>();
     }
     return y;
   }
@@ -72,12 +73,12 @@ public:
 private:
   static Matrix matrix(double a, double b, double c) { return (Matrix(2, 2) << a, b, b, c).finished(); }
 
-  const double                 Omega[2] = {20., 33.}, F[2] = {100., 40.};
-  const Eigen::Vector2d        q0{0.01, -0.02}, v0{0., 0.5};
-  SmallSystem                  system_;
-  Complex4                     s_, c_;
-  Eigen::Matrix<Complex, 4, 4> X_;
-  Complex2                     forced_[2];
+  const double                     Omega[2] = {20., 33.}, F[2] = {100., 40.};
+  const Eigen::Vector2d            q0{0.01, -0.02}, v0{0., 0.5};
+  SmallSystem                      system_;
+  Complex4                         s_, c_;
+  Eigen::Matrix<LongComplex, 4, 4> X_;
+  Complex2                         forced_[2];
 };
 
 struct Errors
