@@ -14,7 +14,7 @@
 #include "apps/output/tables/story_table.h"
 #include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
-#include "apps/session/story/run_story.h"
+#include "apps/session/story/run_facts.h"
 #include "apps/sizing/error_budget.h"
 #include "coupling/frame/whole_file.h"
 #include "fem/values/shell_word.h"

@@ -385,7 +385,7 @@ std::string contents(const std::string &body)
                                  {"motion", "Motion"},
                                  {"stress", "Stress"},
                                  {"orders", "Orders"},
-                                 {"story", "Story"},
+                                 {"story", "Events and modes"},
                                  {"spectrum", "Spectra"},
                                  {"events", "Events"},
                                  {"energy", "Energy"},

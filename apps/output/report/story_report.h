@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-/// The run told by its events; how long loads act against the periods; play by its describing function.
+/// Event log, modes in the extremes of forces, loads against the periods, play by its describing function.
 std::string story_section(const Result &result);
 
 } // namespace gestell::apps

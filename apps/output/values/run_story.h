@@ -30,6 +30,7 @@ void describe(Visitor &v, const LoadOnMode &x)
   v("fall_over_period", x.fall, "1", "its fall over T");
   v("fall_factor", x.fall_factor, "1", "amplitude that the fall leaves, over that of a sudden one");
   v("energy", x.energy, "J", "energy that the fall leaves in the mode; null: not known");
+  v("strain_energy_in", x.strain, "", "part with most of its strain energy");
 }
 
 /// A technological force from its first contact to its fall.
@@ -69,19 +70,59 @@ void describe(Visitor &v, const LoadDuration &x)
   v("modes", x.modes, "", "modes of the machine as it stands there");
 }
 
-/// What happened at an instant.
-struct StorySentence
+/// A signal of an object at one of its located events.
+struct EventValue
 {
   double      t = 0.; ///< [s]
-  std::string text;
-  bool        stands_out = false; ///< the largest or smallest value of the run
+  std::string object, event, signal, unit;
+  double      before = 0., behind = 0.;
+  double      rate = std::numeric_limits<double>::quiet_NaN(); ///< of a displacement, just before [unit/s]
+  double impulse   = std::numeric_limits<double>::quiet_NaN(); ///< of a force, until the object's next event [unit s]
 };
 
 template <class Visitor>
-void describe(Visitor &v, const StorySentence &x)
+void describe(Visitor &v, const EventValue &x)
 {
   v("t", x.t, "s", "instant");
-  v("text", x.text, "", "what happened");
+  v("object", x.object, "", "whose event it is");
+  v("event", x.event, "", "kind of the event");
+  v("signal", x.signal, "", "of the object");
+  v("unit", x.unit, "", "of `before` and `behind`");
+  v("before", x.before, "", "value just before the event");
+  v("behind", x.behind, "", "value just behind it");
+  v("rate", x.rate, "", "`unit`/s, of a displacement, just before; null: of a force, or not known");
+  v("impulse", x.impulse, "",
+    "`unit` s, of a force until the next event of its object; null: of a displacement, or rows are too far apart");
+}
+
+/// The extreme of a force, and the vibration about it.
+struct ExtremeSwing
+{
+  std::string signal, unit;
+  bool        largest = true;
+  double      t = 0., value = 0.;
+  double      swing_hz = std::numeric_limits<double>::quiet_NaN(); ///< 0.5 over the time between its turning points
+  int         mode     = -1; ///< from 0 on, as the modes of the scene are numbered; -1: none of them
+  double      mode_hz = std::numeric_limits<double>::quiet_NaN(), share = mode_hz, sum = mode_hz;
+  std::string strain{}; ///< where most of its strain energy lies
+};
+
+template <class Visitor>
+void describe(Visitor &v, const ExtremeSwing &x)
+{
+  v("signal", x.signal, "", "of the force");
+  v("extreme", x.largest ? "max" : "min", "", "`max` or `min`");
+  v("t", x.t, "s", "its instant");
+  v("value", x.value, "", "with its sign");
+  v("unit", x.unit, "", "of `value`");
+  v("swing_hz", x.swing_hz, "Hz",
+    "1/(2 time) between the turning points of the swing; null: it does not turn there, or rows are too far apart");
+  v("mode", x.mode < 0 ? std::nullopt : std::optional(x.mode + 1), "",
+    "number, in the table of modes, of the mode that makes most of the swing; null: none has its shape");
+  v("mode_hz", x.mode_hz, "Hz", "its frequency where the swing turns; null: no states were kept");
+  v("share", x.share, "1", "what it makes of the force's change in the swing");
+  v("sum_of_shares", x.sum, "1", "over all modes; far from 1: positions alone do not tell the force");
+  v("strain_energy_in", x.strain, "", "part with most strain energy of the mode");
 }
 
 /// An element with play by its describing function, beside what the run shows.
@@ -104,8 +145,8 @@ void describe(Visitor &v, const PlayEstimate &x)
   v("unit", x.unit, "", "of `amplitude` and `mean`");
   v("begin", x.begin, "s", "begin of the oscillation");
   v("end", x.end, "s", "its end");
-  v("amplitude", x.amplitude, x.unit, "of the measure");
-  v("mean", x.mean, x.unit, "of the measure");
+  v("amplitude", x.amplitude, "", "of the measure");
+  v("mean", x.mean, "", "of the measure");
   v("stiffness_share", x.stiffness_share, "1", "equivalent over engaged stiffness");
   v("mode", x.mode + 1, "", "number of the mode");
   v("frequency_hz", x.frequency_hz, "Hz", "by the describing function");
@@ -114,19 +155,21 @@ void describe(Visitor &v, const PlayEstimate &x)
   v("limits", x.limits, "", "where the estimate does not hold; empty: it does");
 }
 
-/// What a run tells beside its numbers.
+/// Facts of a run with events.
 struct RunStory
 {
-  std::vector<LoadDuration>  loads;
-  std::vector<StorySentence> sentences; ///< in the order of time
-  std::vector<PlayEstimate>  plays;
+  std::vector<LoadDuration> loads;
+  std::vector<EventValue>   events; ///< in the order of time
+  std::vector<ExtremeSwing> extremes;
+  std::vector<PlayEstimate> plays;
 };
 
 template <class Visitor>
 void describe(Visitor &v, const RunStory &x)
 {
   v("loads", x.loads, "", "forces that act for a time");
-  v("sentences", x.sentences, "", "what happened");
+  v("events", x.events, "", "signals at located events of their objects");
+  v("extremes", x.extremes, "", "swings about the extremes of forces and torques");
   v("plays", x.plays, "", "oscillations of elements with play");
 }
 

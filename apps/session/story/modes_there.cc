@@ -52,13 +52,6 @@ std::vector<int> numbers_of(const coupling::Machine &machine, const std::vector<
 
 } // namespace
 
-std::string ModesThere::name(std::size_t mode) const
-{
-  const int number = numbers[mode];
-  return (number < 0 ? "a mode" : "mode " + std::to_string(number + 1)) + " at " +
-         short_text(modes[mode].frequency_hz, 4) + " Hz";
-}
-
 std::string ModesThere::strain(std::size_t mode) const
 {
   if (shares.strain.rows() == 0)

@@ -22,7 +22,6 @@ struct ModesThere
   coupling::EnergyShares      shares;
   std::string                 unknown; ///< why there are no modes; empty: there are
 
-  std::string name(std::size_t mode) const;   ///< "mode 4 at 84.68 Hz", or "a mode at 84.68 Hz"
   std::string strain(std::size_t mode) const; ///< the part with most of its strain energy: "rod by 75 %"; may be empty
 };
 

@@ -1,8 +1,8 @@
-// What a run tells beside its numbers: loads against periods, play by its describing function, the stroke's story.
+// Facts of a run with events: signals at events, modes in the extremes of forces, loads against periods, plays.
 
 #include "apps/session/session.h"
 #include "apps/session/story/load_duration.h"
-#include "apps/session/story/run_story.h"
+#include "apps/session/story/run_facts.h"
 #include "apps/session/story/turning_points.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/scene_text.h"
@@ -27,6 +27,22 @@ apps::Result told(const std::string &file, const std::vector<std::string> &overr
   apps::Result result = session.run();
   add_story(session, result);
   return result;
+}
+
+const apps::EventValue *event_of(const apps::Result &result, const std::string &object, const std::string &kind)
+{
+  for (const apps::EventValue &value : result.story->events)
+    if (value.object == object && value.event == kind)
+      return &value;
+  return nullptr;
+}
+
+apps::ExtremeSwing extreme_of(const apps::Result &result, const std::string &signal, bool largest)
+{
+  for (const apps::ExtremeSwing &swing : result.story->extremes)
+    if (swing.signal == signal && swing.largest == largest)
+      return swing;
+  throw std::runtime_error("no extreme of " + signal);
 }
 
 /// A force that touches from 1.0 to 1.05, rises from 1.1 to 2, stays at 8 to 3 and falls to zero at 3.4 s.
@@ -152,17 +168,12 @@ TEST(Story, OfThePressTellsItsCuttingShock)
   EXPECT_LT(load.modes[1].fall, 0.25);                   // f3
   EXPECT_GT(load.modes[2].fall, 0.25);                   // f4
   EXPECT_GT(load.modes[2].energy, load.modes[1].energy); // it is f4, not the frame, that the sheet throws
-  std::string text;
-  double      before = 0.;
-  for (const apps::StorySentence &sentence : result.story->sentences)
-  {
-    EXPECT_GE(sentence.t, before);
-    before = sentence.t;
-    text += sentence.text + '\n';
-  }
-  for (const char *words : {"sheet: tool contact", "rod: conrod open", "F_P is largest of the run: 1057 kN",
-                            "F_P is smallest of the run: -601.", "more times"})
-    EXPECT_THAT(text, ::testing::HasSubstr(words));
+  const auto &log = result.story->events;
+  EXPECT_TRUE(std::is_sorted(log.begin(), log.end(), [](const auto &a, const auto &b) { return a.t < b.t; }));
+  ASSERT_TRUE(event_of(result, "sheet", "tool_contact") && event_of(result, "rod", "conrod_open"));
+  EXPECT_EQ(event_of(result, "rod", "conrod_open")->signal, "F_P");
+  EXPECT_NEAR(extreme_of(result, "F_P", true).value, 1057e3, 1e3);
+  EXPECT_NEAR(extreme_of(result, "F_P", false).value, -601.6e3, 1e3);
 }
 
 TEST(TurningPoints, TellBothEndsOfASwing)
@@ -179,35 +190,23 @@ TEST(TurningPoints, TellBothEndsOfASwing)
   EXPECT_NEAR(swing.half, std::abs(swing.beside - swing.turn), 1e-12);
 }
 
-std::string sentences_of(const apps::Result &result)
-{
-  std::string text;
-  for (const apps::StorySentence &sentence : result.story->sentences)
-    text += sentence.text + '\n';
-  return text;
-}
-
-std::string first_with(const apps::Result &result, const std::string &words)
-{
-  for (const apps::StorySentence &sentence : result.story->sentences)
-    if (sentence.text.find(words) != std::string::npos)
-      return sentence.text;
-  return "";
-}
-
 // Behind the shock the rod swings through its play: a mode that makes most of the force's change and has its period
-// carries that.  Before it the rod is wound up by the tool: whatever mode lies near in frequency, none carries it.
-TEST(Story, NamesAModeForASwingThatItMakes)
+// carries that.  Before it the rod is wound up by the tool: no mode has that period.
+TEST(Extremes, AreCarriedByTheModeThatMakesThem)
 {
-  const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
-  EXPECT_THAT(
-      first_with(result, "F_P is smallest"),
-      ::testing::ContainsRegex("carried by mode 4 at 84.6[0-9]* Hz, which makes (5|6|7|8|9)[0-9.]* % of its change"));
-  EXPECT_THAT(first_with(result, "M_T is largest"),
-              ::testing::ContainsRegex("carried by mode 2 at 11.[0-9]* Hz, which makes (8|9)[0-9.]* % of its change"));
-  EXPECT_THAT(first_with(result, "F_u is largest"), ::testing::HasSubstr("a force of its law, no vibration"));
-  EXPECT_THAT(first_with(result, "F_P is largest"), ::testing::EndsWith(", follows F_u"));
-  EXPECT_THAT(first_with(result, "F_col is largest"), ::testing::EndsWith(", follows F_u"));
+  const apps::Result       result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  const apps::ExtremeSwing pull   = extreme_of(result, "F_P", false);
+  EXPECT_EQ(pull.mode, 3);
+  EXPECT_NEAR(pull.mode_hz, 84.65, 0.05); // docs/press.md
+  EXPECT_NEAR(pull.share, 0.86, 0.01);
+  EXPECT_NEAR(pull.swing_hz, 76., 1.);
+  EXPECT_THAT(pull.strain, ::testing::HasSubstr("rod"));
+  const apps::ExtremeSwing torque = extreme_of(result, "M_T", true);
+  EXPECT_EQ(torque.mode, 1);
+  EXPECT_NEAR(torque.share, 0.91, 0.01);
+  EXPECT_NEAR(torque.sum, 1., 0.05); // all modes together make it
+  const apps::ExtremeSwing push = extreme_of(result, "F_P", true);
+  EXPECT_GT(std::abs(std::log(push.mode_hz / push.swing_hz)), 0.25);
 }
 
 // At dead centre the crank does not feel the slide.  Wherever the scene looks for its modes, the load excites those of
@@ -229,37 +228,35 @@ TEST(Story, IsOfTheMachineWhereItHappens)
   }
   EXPECT_NEAR(modes[0].energy, 353., 2.); // docs/press.md; 0 J at dead centre
   EXPECT_NEAR(modes[1].energy, 14.7, 0.2);
-  for (const char *signal : {"F_P is smallest", "M_T is largest", "F_col is smallest"})
+  ASSERT_EQ(other.story->extremes.size(), at_fall.story->extremes.size());
+  for (const auto &[signal, largest] : {std::pair("F_P", false), std::pair("M_T", true), std::pair("F_col", false)})
   {
-    const std::string own = first_with(at_fall, signal), his = first_with(other, signal);
-    const auto        tail = [](const std::string &text)
-    { return text.find(" Hz, which") == std::string::npos ? text : text.substr(text.find(" Hz, which")); };
-    EXPECT_EQ(tail(his), tail(own));
+    const apps::ExtremeSwing own = extreme_of(at_fall, signal, largest), his = extreme_of(other, signal, largest);
+    EXPECT_EQ(his.mode_hz, own.mode_hz) << signal;
+    EXPECT_EQ(his.share, own.share) << signal;
   }
 }
 
-// Of two modes nothing is said that they do not carry.
-TEST(Story, DoesNotDependOnHowManyModesAreAskedFor)
+// Of two modes no number is given to those that were not asked for.
+TEST(Extremes, DoNotDependOnHowManyModesAreAskedFor)
 {
   const apps::Result all = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""}),
                      two = told(shipped("press_minimal.toml"), {"run.step=\"20 us\"", "modes.number=2"});
-  EXPECT_THAT(first_with(two, "F_P is largest"), ::testing::EndsWith(", follows F_u"));
-  EXPECT_THAT(first_with(two, "F_P is smallest"), ::testing::HasSubstr("carried by a mode at 84.6"));
-  EXPECT_THAT(sentences_of(two), ::testing::Not(::testing::HasSubstr("mode 1 ")));
-  EXPECT_EQ(two.story->sentences.size(), all.story->sentences.size());
+  EXPECT_EQ(extreme_of(two, "F_P", false).mode, -1);
+  EXPECT_EQ(extreme_of(two, "F_P", false).share, extreme_of(all, "F_P", false).share);
+  EXPECT_EQ(two.story->events.size(), all.story->events.size());
 }
 
 // The torque of a motor comes from its speed, forces of ideal joints from the motion as a whole.
-TEST(Story, NamesNoModeForForcesThatPositionsDoNotTell)
+TEST(Extremes, OfForcesThatPositionsDoNotTellHaveNoShares)
 {
   const apps::Result press = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
-  EXPECT_THAT(first_with(press, "M_mot is smallest"), ::testing::HasSubstr("which positions do not tell"));
-  EXPECT_THAT(first_with(press, "M_mot"), ::testing::Not(::testing::HasSubstr("mode")));
+  EXPECT_NEAR(extreme_of(press, "M_mot", false).sum, 0., 1e-3);
   const apps::Result joints = told(shipped("crank_press_joints.toml"));
   ASSERT_TRUE(joints.story);
-  EXPECT_THAT(sentences_of(joints), ::testing::Not(::testing::HasSubstr("carried by")));
-  EXPECT_THAT(first_with(joints, "F_B is smallest"), ::testing::EndsWith("follows F_u"));
-  EXPECT_THAT(first_with(joints, "F_B is largest"), ::testing::Not(::testing::HasSubstr("F_u"))); // long after the cut
+  for (const apps::ExtremeSwing &swing : joints.story->extremes)
+    if (std::isfinite(swing.sum))
+      EXPECT_GT(std::abs(swing.sum - 1.), 0.2) << swing.signal;
 }
 
 // Twelve pictures and more to a period of the vibration that makes the main peak, few of them elsewhere.
@@ -293,9 +290,9 @@ TEST(PlayEstimates, AreOfCyclesThatCrossThePlay)
   }
 }
 
-// What is told at an event comes from the motion there: rows a hundred times as far apart change none of it, and what
-// they cannot tell is left out.
-TEST(Story, AtEventsDoesNotDependOnTheDistanceOfRows)
+// Values at an event come from the motion there: rows a hundred times as far apart change none of them, and what they
+// cannot tell is left out.
+TEST(EventLog, DoesNotDependOnTheDistanceOfRows)
 {
   const std::vector<std::string> step{"run.step=\"20 us\""};
   std::vector<std::string>       coarse = step;
@@ -303,54 +300,36 @@ TEST(Story, AtEventsDoesNotDependOnTheDistanceOfRows)
   const apps::Result close = told(shipped("press_minimal.toml"), step),
                      far   = told(shipped("press_minimal.toml"), coarse);
   ASSERT_TRUE(close.story && far.story);
-  const std::string own = first_with(close, "rod: conrod open"), his = first_with(far, "rod: conrod open");
-  const auto        head = [](const std::string &text) { return text.substr(0, text.find(';')); };
-  EXPECT_THAT(own, ::testing::HasSubstr("F_P"));
-  EXPECT_EQ(head(his), head(own));
-  EXPECT_THAT(sentences_of(close), ::testing::HasSubstr("until its next event 5.4"));
-  EXPECT_THAT(sentences_of(far), ::testing::Not(::testing::HasSubstr("until its next event 5.4")));
+  ASSERT_EQ(far.story->events.size(), close.story->events.size());
+  int known = 0, lost = 0;
+  for (std::size_t i = 0; i < far.story->events.size(); ++i)
+  {
+    const apps::EventValue &own = close.story->events[i], &his = far.story->events[i];
+    EXPECT_EQ(his.before, own.before);
+    EXPECT_EQ(his.behind, own.behind);
+    known += std::isfinite(own.impulse) ? 1 : 0;
+    lost += std::isfinite(own.impulse) && std::isnan(his.impulse) ? 1 : 0;
+  }
+  EXPECT_GT(known, 0);
+  EXPECT_GT(lost, 0);
 }
 
 // A bead of 1 kg on a stop of 10 N/mm that it meets with v = omega A, A = 2 mm, omega = 100/s, takes from it
 // 2 m v = 0.4 N s within half a period, pi/omega.
-TEST(Story, OfABeadTellsTheMomentumThatItsStopTurnsRound)
+TEST(EventLog, OfABeadHasTheMomentumThatItsStopTurnsRound)
 {
   const test::SceneFolder folder;
   const apps::Result      result = told(folder.write("bead.toml", bead));
-  const std::string       text   = sentences_of(result);
-  EXPECT_THAT(text, ::testing::ContainsRegex("until its next event 31.4 ms later it passes on -?0.4 N s"));
-  EXPECT_THAT(text, ::testing::ContainsRegex("x changes by -?0.2 m/s"));
-}
-
-// A machine of twenty-six such beads: sixty sentences, all extremes among them, and the count of the others.
-TEST(Story, LeavesOutEventsNotExtremes)
-{
-  std::string many = "name = \"beads\"\n", signals, start;
-  for (int i = 10; i < 36; ++i)
-  {
-    const std::string n = std::to_string(i), place = std::to_string(0.1 * i) + " mm\"";
-    many += "[body.b" + n + "]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = \"1 kg\"\n[element.s" + n +
-            "]\ntype = \"clearance\"\nfrom = \"b" + n +
-            "\"\ndirection = [1, 0, 0]\ngap = \"0.5 mm\"\nstiffness = \"10 N/mm\"\n";
-    start += (start.empty() ? "b" : ", b") + n + " = \"" + place;
-    signals += "F" + n + " = \"s" + n + ".force\"\n";
-  }
-  many += "[start]\nrule = \"given\"\nq = { " + start + " }\n[modes]\nat = { " + start +
-          " }\n[run]\nmethod = \"bdf\"\norder = 2\nstep = \"50 us\"\nend = \"0.2 s\"\n[output.signals]\n" + signals;
-  const test::SceneFolder folder;
-  const apps::Result      result = told(folder.write("beads.toml", many.c_str()));
-  ASSERT_TRUE(result.story);
-  std::size_t extremes = 0, inside = 0;
-  for (const apps::StorySentence &sentence : result.story->sentences)
-    extremes += sentence.stands_out ? 1 : 0;
-  for (const auto &signal : result.run->signals)
-    for (const double t : {signal.t_min, signal.t_max})
-      inside += t > 0. && t < 0.2 ? 1 : 0;
-  EXPECT_EQ(extremes, inside);
-  EXPECT_GE(extremes, 26u);
-  EXPECT_THAT(sentences_of(result), ::testing::HasSubstr("sentences on events left out"));
-  EXPECT_LE(result.story->sentences.size() - extremes,
-            std::max<std::size_t>(20u, 60u - std::min<std::size_t>(60u, extremes)) + 1u);
+  int                     turned = 0;
+  for (const apps::EventValue &value : result.story->events)
+    if (value.signal == "x" && std::isfinite(value.rate))
+      EXPECT_NEAR(std::abs(value.rate), 0.2, 1e-4); // steps of 20 us: (omega h)^2 of it
+    else if (value.signal == "F" && std::abs(value.impulse) > 0.1)
+    {
+      EXPECT_NEAR(std::abs(value.impulse), 0.4, 1e-3);
+      ++turned;
+    }
+  EXPECT_GE(turned, 3);
 }
 
 // The motor gives in a stroke what cut and losses take: between two passages of top dead centre the stored energy is
