@@ -12,9 +12,6 @@ using Json = nlohmann::ordered_json;
 
 /// Indented text with a line end.  Numbers read back exactly; nan and infinities, which JSON lacks, become null; bytes
 /// that are no UTF-8 become U+FFFD.
-inline std::string json_text(const Json &value)
-{
-  return value.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
+std::string json_text(const Json &value);
 
 } // namespace gestell::apps
