@@ -96,8 +96,8 @@ std::string bored(const Folder &folder)
                  "60 mm", "220 mm");
 }
 
-const std::string curved = " frame.mesh.curved=true",
-                  coarse = " frame.mesh.size='\"250 mm\"' frame.mesh.'\"crown bearing *\"'='\"150 mm\"'";
+const std::string curved      = " frame.mesh.curved=true",
+                  coarse_size = " frame.mesh.size='\"250 mm\"' frame.mesh.'\"crown bearing *\"'='\"150 mm\"'";
 
 /// Arguments of the command line for entries to set.
 std::string set(const std::string &entries)
@@ -134,7 +134,7 @@ TEST_P(RanksOfMpi, FindTheFrequenciesOfACurvedFrameThatOneProcessFinds)
 
 TEST(FourRanksOfMpi, FindTheFrequenciesOfThePressThatOneProcessFinds)
 {
-  expect_same_frequencies(scene("press.toml") + set(coarse), 4);
+  expect_same_frequencies(scene("press.toml") + set(coarse_size), 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RanksOfMpi, ::testing::Values(1, 2, 4), ::testing::PrintToStringParamName());

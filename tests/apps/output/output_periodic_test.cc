@@ -5,6 +5,7 @@
 #include "apps/output/tables/section_table.h"
 #include "apps/output/tables/summary_json.h"
 #include "apps/output/text/json.h"
+#include "apps/output/values/periodic_description.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@ namespace gestell::test
 namespace
 {
 
-constexpr double length = 2., width = 0.2, height = 0.25;
+constexpr double length = 2., beam_width = 0.2, beam_height = 0.25;
 
 /// Bar along x, clamped at x = 0, the free end averaged to a node.
 fem::FrameMatrices cantilever(const std::array<int, 3> &n, double nu)
@@ -22,14 +22,15 @@ fem::FrameMatrices cantilever(const std::array<int, 3> &n, double nu)
   specification.material.nu = nu;
   specification.supports    = {clamped("wall", {"x0"})};
   specification.interfaces  = {interface("tip", {"x1"}, fem::InterfaceCoupling::average)};
-  return fem::discretise(box_mesh(n, {{length, width, height}}), specification);
+  return fem::discretise(box_mesh(n, {{length, beam_width, beam_height}}), specification);
 }
 
 TEST(Cantilever, UnderAnEndForceApproachesTimoshenkosBeamFromBelow)
 {
   // w = F l^3 / (3 E I) + F l / (kappa mu A), kappa = 5/6 for nu = 0; the clamped end hinders warping, an effect of
   // the order (height / length)^2 of the small shear part: together less than 0.1 %.
-  const double EI = 210e9 * width * std::pow(height, 3) / 12., shear = 5. / 6. * 105e9 * width * height;
+  const double EI    = 210e9 * beam_width * std::pow(beam_height, 3) / 12.,
+               shear = 5. / 6. * 105e9 * beam_width * beam_height;
   const double exact = std::pow(length, 3) / (3. * EI) + length / shear;
   double       last  = 0.;
   for (const int n : {1, 2, 4})
@@ -54,7 +55,7 @@ TEST(Cantilever, LengthwiseFrequencyConvergesWithTheFourthPower)
     specification.material.nu = 0.;
     specification.supports    = {clamped("wall", {"x0"}),
                                  clamped("guide", {"y0", "y1", "z0", "z1"}, {{false, true, true}})};
-    const auto frame          = fem::discretise(box_mesh({{n, 1, 1}}, {{length, width, height}}), specification);
+    const auto frame = fem::discretise(box_mesh({{n, 1, 1}}, {{length, beam_width, beam_height}}), specification);
     return lowest_modes(frame, 1).frequency_hz[0] / exact - 1.;
   };
   const double coarse = error(2), fine = error(4);
@@ -66,8 +67,8 @@ TEST(Cantilever, HasTheFirstBendingFrequencyOfABeam)
 {
   // Euler's 1.8751^2 sqrt(E I / (rho A l^4)) / (2 pi); shear and rotary inertia of l / h = 8 lower it by about
   // 0.5 (1.8751)^2 (h / l)^2 / 12 (1 + E / (kappa mu)) ~ 1 %.
-  const double euler =
-      1.8751 * 1.8751 / (2. * EIGEN_PI) * std::sqrt(210e9 * width * width / 12. / (7850. * std::pow(length, 4)));
+  const double euler = 1.8751 * 1.8751 / (2. * EIGEN_PI) *
+                       std::sqrt(210e9 * beam_width * beam_width / 12. / (7850. * std::pow(length, 4)));
   const double f = lowest_modes(cantilever({{16, 2, 2}}, 0.3), 1).frequency_hz[0];
   EXPECT_LT(f, euler * 1.002);
   EXPECT_GT(f, euler * 0.985);

@@ -11,12 +11,12 @@ namespace gestell::test
 namespace
 {
 
-constexpr double bar_length = 1.6, width = 0.2, height = 0.3, area = width * height;
+constexpr double bar_length = 1.6, bar_width = 0.2, bar_height = 0.3, bar_area = bar_width * bar_height;
 
 /// A bar along x whose first quarter is the solid "foot", the rest "column".
 fem::Mesh bar_of_two_solids()
 {
-  fem::Mesh mesh = box_mesh({{8, 2, 2}}, {{bar_length, width, height}});
+  fem::Mesh mesh = box_mesh({{8, 2, 2}}, {{bar_length, bar_width, bar_height}});
   mesh.solids    = {"foot", "column"};
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
   {
@@ -45,10 +45,10 @@ TEST(Materials, OfTwoSolidsAddTheirCompliancesAndWeights)
   const auto            frame = fem::discretise(bar_of_two_solids(), specification);
   const int             tip   = frame.interfaces[0].coordinate[fem::ux];
   const Eigen::VectorXd q     = statics(frame, Eigen::VectorXd::Unit(frame.C.rows(), tip));
-  const double          exact = (0.25 / 210e9 + 0.75 / 70e9) * bar_length / area;
+  const double          exact = (0.25 / 210e9 + 0.75 / 70e9) * bar_length / bar_area;
   EXPECT_NEAR(q[tip], exact, 1e-9 * exact);
 
-  const double foot = 7850. * 0.25 * bar_length * area, column = 2700. * 0.75 * bar_length * area;
+  const double foot = 7850. * 0.25 * bar_length * bar_area, column = 2700. * 0.75 * bar_length * bar_area;
   EXPECT_NEAR(frame.mass, foot + column, 1e-12 * frame.mass);
   EXPECT_NEAR(frame.centre[0], bar_length * (0.125 * foot + 0.625 * column) / frame.mass, 1e-12);
 }
@@ -58,7 +58,7 @@ TEST(Materials, FitByPatternTheLastCounts)
   auto specification      = clamped_bar();
   specification.materials = {{"*", {70e9, 0., 2700., ""}}, {"f??t", {110e9, 0., 7200., ""}}};
   EXPECT_NEAR(fem::discretise(bar_of_two_solids(), specification).mass,
-              bar_length * area * (0.25 * 7200. + 0.75 * 2700.), 1e-9);
+              bar_length * bar_area * (0.25 * 7200. + 0.75 * 2700.), 1e-9);
 }
 
 TEST(Materials, OfUnknownSolidsOrImpossibleNumbersAreRefusedWithThePlace)
