@@ -328,6 +328,8 @@ private:
       double size = 0.;
       for (int r = 0; r < n_u_; ++r)
       {
+        if (is_held(r)) // linear in the forces: nothing to iterate, and a measure that never moved has no scale
+          continue;
         const double du    = std::max(std::abs(S_u_(r, r)), h_ * std::abs(S_v_(r, r))) * std::abs(change_[r]);
         const double scale = std::max(context_.scale[r], h_ * std::abs(node_.v[r]));
         if (du != 0.)

@@ -314,6 +314,41 @@ TEST(Exact, LinearForceIsStableUpToTwoRootThree)
 
 // --- Newton
 
+/// A chain of three masses: the first one sticks where it is, a cubic spring pulls the last one back.
+class StuckChain : public SmallSystem
+{
+public:
+  explicit StuckChain(double k) : SmallSystem(Matrix::Identity(3, 3), Matrix::Zero(3, 3), Matrix::Zero(3, 3))
+  {
+    C << 37.3, -k, 0., -k, 25.7, -7.3, 0., -7.3, 19.1;
+    Matrix w = Matrix::Zero(3, 2);
+    w(2, 0) = w(0, 1) = 1.;
+    set_law(w.col(0), law_of([](double u) { return -u * u * u; }, [](double u) { return -3. * u * u; }));
+    W = w.sparseView();
+  }
+  const std::vector<HeldMeasure> &held() const override { return held_; }
+
+private:
+  std::vector<HeldMeasure> held_{{1, 0.}};
+};
+
+// What is held never moves, so that rounding is all its motion: no measure of whether Newton has converged.
+TEST(Exact, WhatSticksFromTheStartOnDoesNotKeepNewtonFromConverging)
+{
+  for (const ForceRule rule : {ForceRule::average, ForceRule::linear, ForceRule::collocation})
+    for (const double h : {1e-2, 1e-3, 1e-4})
+      for (double k = 1.; k < 20.; k *= 1.37)
+      {
+        StuckChain       system(k);
+        ModalPropagation exact(system, fixed(h, rule));
+        exact.begin(0., Vector::Zero(3), 0.3 * Vector::Unit(3, 1));
+        for (int i = 0; i < 20; ++i)
+          ASSERT_NO_THROW(exact.advance()) << h << " " << k;
+        EXPECT_NEAR(exact.local().v[1], 0., 1e-14) << h << " " << k;
+        EXPECT_EQ(exact.work().rejected, 0) << h << " " << k;
+      }
+}
+
 /// End of x'' + x + x^3 = 0 from x = 1.
 double end_of_duffing(const ModalPropagation::Options &options)
 {
