@@ -86,7 +86,7 @@ public:
   void cut(double t) override;
   void restart() override;
   const IntegrationWork &work() const override { return work_; }
-  void exchange(StateArchive &archive) override;
+  void                   exchange(StateArchive &archive) override;
   bool                   controls_error() const override { return true; }
   void                   expect(double way, double speed) override { scale_.expect(way, speed); }
 
@@ -161,7 +161,7 @@ private:
   Eigen::VectorXd                  chain_[2], middle_[3], end_[3];
   Eigen::MatrixXd                  dp_du_, dp_dv_, pivots_;
   Eigen::VectorXd                  stiffness_; ///< -dp/du by measure, before an event; then its change there [n_u]
-  Eigen::VectorXd                  moved_;     ///< S_jj p_j of the last step tried [n_u]
+  Eigen::VectorXd                  moved_;     ///< max_k S_jk p_k of the last step tried [n_u]
   std::string                      reason_;    ///< of Newton's last failure
   LocalState                       local_, base_;
   mutable Instant                  now_;

@@ -264,6 +264,43 @@ TEST(BdfControlled, WhatHoldsAMassFollowsFromEquilibrium)
   EXPECT_NEAR(bdf.local().p[0], force(middle), 1e-12); // as at a restart there
 }
 
+/// A mass at rest that a force pulls and another holds; other measures of it are only looked at, as a switch does.
+class HeldAgainstAPull : public ModalSystem
+{
+public:
+  HeldAgainstAPull(double pull, int n_measures)
+      : ModalSystem(Matrix::Constant(1, 1, 66.78), Matrix::Constant(1, 1, 14416.), Matrix::Constant(1, 1, 3.3638e7))
+  {
+    set_law(Vector::Ones(1),
+            [pull](double, double, double &p, double &du, double &dv)
+            {
+              p  = pull;
+              du = dv = 0.;
+            });
+    W = Matrix::Ones(1, n_measures).sparseView();
+  }
+  const std::vector<HeldMeasure> &held() const override { return held_; }
+
+private:
+  std::vector<HeldMeasure> held_{{1, 0.}};
+};
+
+// Forces that cancel leave rounding of what each would move, in all measures of the body.
+TEST(BdfControlled, MeasuresWithoutAForceOfABodyThatIsHeldHaveNoError)
+{
+  for (int n_measures = 2; n_measures < 10; ++n_measures)
+    for (double pull = 0.1; pull < 1e4; pull *= 1.37)
+    {
+      const HeldAgainstAPull system(pull, n_measures);
+      BdfControlled          bdf(system, {1e-8, 1e-3});
+      bdf.begin(0., Vector::Zero(1), Vector::Zero(1));
+      for (int i = 0; i < 20; ++i)
+        ASSERT_NO_THROW(bdf.advance()) << pull << " " << n_measures;
+      EXPECT_EQ(bdf.step(), 1e-3) << pull << " " << n_measures;
+      EXPECT_NEAR(bdf.local().p[1], -pull, 1e-12 * pull);
+    }
+}
+
 TEST(BdfControlled, RefusesOptionsThatMakeNoSense)
 {
   const ModalSystem system = duffing(1., 1.);
