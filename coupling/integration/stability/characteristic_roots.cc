@@ -9,6 +9,11 @@
 namespace gestell::coupling
 {
 
+namespace
+{
+constexpr long double rounded_terms = 8.L; ///< times that of one product: entries of a step are sums of a few terms
+}
+
 LongComplex exponent(const TestOscillator &o)
 {
   const long double zeta = o.zeta;
@@ -30,15 +35,18 @@ CharacteristicRoots roots_of_z(const std::vector<LongComplex> &polynomial)
 }
 
 /// det is 1 without damping, which as a margin would hide how close |trace| comes to its limit between two islands of
-/// growth.
+/// growth.  Two roots that meet, as those of a motion that hardly turns in a step do at r = 1, rounding of trace and
+/// det parts by its root, far above its growth: a discriminant of its size is that of a double root.
 CharacteristicRoots roots_of_map(const Eigen::Matrix<long double, 2, 2> &A)
 {
-  const long double   trace = A(0, 0) + A(1, 1), det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
-  const long double   discriminant = 0.25L * trace * trace - det;
+  const long double trace = A(0, 0) + A(1, 1), det = A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0);
+  const long double discriminant = 0.25L * trace * trace - det;
+  const long double rounding     = rounded_terms * std::numeric_limits<long double>::epsilon() *
+                               (0.25L * trace * trace + std::abs(A(0, 0) * A(1, 1)) + std::abs(A(0, 1) * A(1, 0)));
   CharacteristicRoots roots{{}, (det > 1.L + 1e-15L ? det : std::abs(trace) - det) - 1.L - 1e-16L};
-  if (discriminant < 0.L)
+  if (discriminant < rounding)
   {
-    const LongComplex r(0.5L * trace, std::sqrt(-discriminant));
+    const LongComplex r(0.5L * trace, std::sqrt(std::max(0.L, -discriminant)));
     const long double log_abs = 0.5L * std::log(det);
     roots.all                 = {{r, log_abs}, {std::conj(r), log_abs}};
     return roots;

@@ -275,6 +275,20 @@ TEST(Stability, ContactsUnderExactPropagation)
   }
 }
 
+// Both roots of a motion that hardly turns in a step are one: rounding of trace and determinant parts them by its root.
+TEST(Stability, AContactThatHardlyTurnsInAStepDoesNotGrowByRounding)
+{
+  MethodOptions o = method("exact", 0., 2, {{"force", "collocation"}});
+  for (const int order : {2, 4, 6, 8})
+    for (double omega_h = 1e-13; omega_h < 1e-3; omega_h *= 1.37)
+      for (const double zeta : {0., 5.22e-6, 0.3})
+      {
+        o.order = order;
+        EXPECT_LE(step_properties(o, {zeta, omega_h, Spring::contact}).log_growth, 1e-15)
+            << order << ' ' << omega_h << ' ' << zeta;
+      }
+}
+
 TEST(Stability, NoIslandOfGrowthIsMissed)
 {
   MethodOptions o = method("exact", 0., 2, {{"force", "collocation"}});
