@@ -105,13 +105,16 @@ bool CondensedMatrix::factorise(const Eigen::MatrixXd &S, const Eigen::VectorXd 
   }
   Eigen::MatrixXd &H = joints_.matrix();
   for (int c = 0; c < n_c; ++c)
+  {
+    times_tangent(X_.data() + Eigen::Index(n_F) * c, p_F_.data());
     for (int d = 0; d < n_c; ++d)
     {
       double sum = G_S_G_(d, c);
-      for (const Entry &e : tangent_)
-        sum += S_G_(of_forces_[e.row], d) * e.value * X_(e.column, c);
+      for (int k = 0; k < n_F; ++k)
+        sum += S_G_(of_forces_[k], d) * p_F_[k];
       H(d, c) = sum;
     }
+  }
   if (joints_.factorise())
     return true;
   failed_joint_ = joints_.failed();
