@@ -33,5 +33,12 @@ INSTANTIATE_TEST_SUITE_P(Twin, FoundMachines, ::testing::Values(4267));
 /// An unbalance takes what rounding leaves of a gear to the frame; what drives a rotor, behind the begin of a start.
 INSTANTIATE_TEST_SUITE_P(Accelerations, FoundMachines, ::testing::Values(2300, 5257));
 
+/// What sticks from the start on, with the average force; a body held against a force while a switch looks at it.
+INSTANTIATE_TEST_SUITE_P(HeldFromTheStart, FoundMachines, ::testing::Values(6070, 7149, 7198));
+/// A mode that hardly turns in a step and grows by rounding.
+INSTANTIATE_TEST_SUITE_P(Guard, FoundMachines, ::testing::Values(7021));
+/// Weight moves it further than its scale says; extremes between fixed steps; a play that the start closes.
+INSTANTIATE_TEST_SUITE_P(Judge, FoundMachines, ::testing::Values(6015, 7041, 7122));
+
 } // namespace
 } // namespace gestell::tests

@@ -1,5 +1,7 @@
 #include "tests/random_machines/train.h"
 
+#include <algorithm>
+
 namespace gestell::tests
 {
 
@@ -79,6 +81,8 @@ void Train::start()
       if (dice_.chance(0.7))
         values += (values.empty() ? "" : ", ") + body + " = " +
                   digits((*key == 'q' ? scale_.length : scale_.speed()) * dice_.between(-1., 1.));
+      else if (*key == 'v') // else the program warns of a play that the others close
+        values += (values.empty() ? "" : ", ") + body + " = 0";
     draft_.line(std::string(key) + " = { " + values + " }");
   }
 }
@@ -92,8 +96,13 @@ void write_train(Draft &draft)
   set_times(draft, scale, 1.5, 10.);
   if (!turns && draft.dice.chance(0.2))
   {
-    draft.machine.loadless = false;
-    draft.line("gravity = [" + digits(9.81 * draft.dice.sign()) + ", 0, 0]");
+    constexpr double g    = 9.81;
+    RandomMachine   &made = draft.machine;
+    made.loadless         = false;
+    made.length           = std::max(made.length, g / (scale.omega * scale.omega)); // released, it falls that far
+    made.speed            = std::max(made.speed, g / scale.omega);
+    made.force            = std::max(made.force, scale.mass * g);
+    draft.line("gravity = [" + digits(g * draft.dice.sign()) + ", 0, 0]");
   }
   for (int i = 0, n = 1 + draft.dice.whole(4); i < n; ++i)
     train.add_body();

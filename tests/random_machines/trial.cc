@@ -13,8 +13,6 @@ namespace gestell::tests
 
 namespace
 {
-constexpr double patience = 10.; ///< [s] of CPU time for one run
-
 double cpu_seconds()
 {
   timespec now{};

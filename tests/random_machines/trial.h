@@ -10,6 +10,8 @@
 namespace gestell::tests
 {
 
+constexpr double patience = 10.; ///< [s] of CPU time for one run
+
 /// One way to compute a machine's motion.
 struct Way
 {
