@@ -9,7 +9,6 @@ namespace gestell::tests
 
 namespace
 {
-constexpr double at_rest   = 1e-4; ///< of the size that motions have: what is smaller is rest
 constexpr double tolerance = 1e-8; ///< of controlled steps
 
 /// Of fixed steps, fifty in the fastest period: inside them forces and accelerations are straight lines, which miss

@@ -16,9 +16,8 @@ namespace gestell::tests
 namespace
 {
 
-constexpr double at_rest    = 1e-4; ///< of the size that motions have: what is smaller is rest
-constexpr double too_open   = 0.1;  ///< share of the energy exchanged: steps are too long for the motion
-constexpr double affordable = 1.;   ///< [s] of CPU time for fixed steps, before they are divided by four
+constexpr double too_open   = 0.1; ///< share of the energy exchanged: steps are too long for the motion
+constexpr double affordable = 1.;  ///< [s] of CPU time for fixed steps, before they are divided by four
 constexpr int    dense_rows = 20000, most_tries = 3;
 constexpr int    twin_rows      = 500;   ///< in a run, of the judge that uses nothing of the program
 constexpr double twin_tolerance = 1e-11; ///< far below those it judges, far above rounding
@@ -39,34 +38,6 @@ coupling::MethodOptions fixed(const std::string &method, int order)
   options.method = method;
   options.order  = order;
   return options;
-}
-
-/// The largest of the mean differences of all signals, each relative to the largest value of its kind; a signal that
-/// jumps is so compared by area, and the instant of the jump counts by its error.
-struct Distance
-{
-  double      value = 0.;
-  std::string signal;
-};
-
-Distance distance(const RandomMachine &machine, const Told &a, const Told &b)
-{
-  Distance  largest;
-  const int rows = std::min(a.n_rows(), b.n_rows());
-  for (const coupling::SignalSummary &signal : a.run.signals)
-  {
-    const int i = a.column(signal.name), j = b.column(signal.name);
-    double    sum = 0., size = at_rest * size_of(machine, signal.name);
-    for (int row = 0; row < rows; ++row)
-    {
-      sum += std::abs(a.at(row, i) - b.at(row, j));
-      size = std::max(size, std::abs(a.at(row, i)));
-    }
-    const double value = size > 0. ? sum / (rows * size) : 0.;
-    if (!(value <= largest.value))
-      largest = {value, signal.name};
-  }
-  return largest;
 }
 
 /// That of a run and the twin's history, row by row of the latter, in the same sense.

@@ -18,10 +18,10 @@ public:
   void parameters()
   {
     draft_.table("parameters");
-    const double r = draft_.number("r", scale_.length);
-    draft_.number("l", r * dice_.between(2.5, 8.));
-    draft_.number("phi", dice_.between(0.3, 5.9));
-    draft_.number("w", scale_.omega);
+    draft_.text("r", digits(scale_.length) + " m");
+    draft_.text("l", digits(rounded(scale_.length) * dice_.between(2.5, 8.)) + " m");
+    draft_.text("phi", digits(dice_.between(0.3, 5.9)) + " rad");
+    draft_.text("w", digits(scale_.omega) + " rad/s");
   }
 
   void frame()

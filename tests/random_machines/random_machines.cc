@@ -1,6 +1,7 @@
 // Machines at random, computed by unrelated methods and judged by invariants: docs/random_machines.md.
 
 #include "tests/random_machines/judge.h"
+#include "tests/random_machines/other_units.h"
 #include "tests/random_machines/trial.h"
 
 #include <CLI/CLI.hpp>
@@ -30,7 +31,7 @@ struct Settings
   std::uint64_t         first = 1, last = 200;
   int                   jobs = 1;
   std::filesystem::path folder;
-  bool                  verbose = false;
+  bool                  verbose = false, other_units = false;
 
   std::set<std::uint64_t> left_out;
 };
@@ -73,8 +74,8 @@ void work(const Settings &settings, int job, std::uint64_t from, Board &board)
     board.at[job]               = seed;
     board.began[job]            = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
     const RandomMachine machine = random_machine(seed);
-    const Verdict       verdict = judge(machine, scratch);
-    const auto          kept    = settings.folder / std::to_string(seed);
+    const Verdict verdict = settings.other_units ? judge_in_other_units(machine, scratch) : judge(machine, scratch);
+    const auto    kept    = settings.folder / std::to_string(seed);
     if (!verdict.findings.empty() && !settings.folder.empty())
       write_scene(machine, kept);
     std::string lines;
@@ -165,6 +166,7 @@ int main(int argc, char **argv)
   app.add_option("--but", but, "seeds that are left out, as their findings are known")->delimiter(',');
   app.add_option("--write", one, "only write the scene of this seed into -o");
   app.add_option("-o,--output", folder, "folder for scenes of findings");
+  app.add_flag("--other-units", settings.other_units, "each machine in other units instead of by other methods");
   app.add_flag("--verbose", settings.verbose, "a line for every machine");
   CLI11_PARSE(app, argc, argv);
   settings.folder   = folder;

@@ -60,7 +60,16 @@ std::filesystem::path write_scene(const RandomMachine &machine, const std::files
 }
 
 Trial::Trial(const RandomMachine &machine, const std::filesystem::path &folder)
-    : scene_(apps::read_scene(write_scene(machine, folder).string()))
+    : Trial(apps::read_scene(write_scene(machine, folder).string()))
+{
+}
+
+Trial::Trial(const apps::SceneNode &tree, const std::filesystem::path &folder)
+    : Trial(apps::read_scene(tree, (folder / "scene.toml").string(), fem::Scripts::harmless))
+{
+}
+
+Trial::Trial(apps::Scene scene) : scene_(std::move(scene))
 {
   apps::check_scene(scene_);
   find_start();
@@ -130,6 +139,26 @@ Told Trial::computed(const coupling::RunOptions &options) const
   }
   told.cpu_s = cpu_seconds() - began;
   return told;
+}
+
+Distance distance(const RandomMachine &machine, const Told &a, const Told &b)
+{
+  Distance  largest;
+  const int rows = std::min(a.n_rows(), b.n_rows());
+  for (const coupling::SignalSummary &signal : a.run.signals)
+  {
+    const int i = a.column(signal.name), j = b.column(signal.name);
+    double    sum = 0., size = at_rest * size_of(machine, signal.name);
+    for (int row = 0; row < rows; ++row)
+    {
+      sum += std::abs(a.at(row, i) - b.at(row, j));
+      size = std::max(size, std::abs(a.at(row, i)));
+    }
+    const double value = size > 0. ? sum / (rows * size) : 0.;
+    if (!(value <= largest.value))
+      largest = {value, signal.name};
+  }
+  return largest;
 }
 
 } // namespace gestell::tests

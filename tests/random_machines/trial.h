@@ -11,6 +11,7 @@ namespace gestell::tests
 {
 
 constexpr double patience = 10.; ///< [s] of CPU time for one run
+constexpr double at_rest = 1e-4; ///< of the size that motions have: what is smaller is rest
 
 /// One way to compute a machine's motion.
 struct Way
@@ -40,6 +41,8 @@ public:
   /// Writes the scene's files into the folder.
   /// @throws std::invalid_argument if the scene is refused
   Trial(const RandomMachine &machine, const std::filesystem::path &folder);
+  /// A scene as a tree, whose files are in the folder.
+  Trial(const apps::SceneNode &tree, const std::filesystem::path &folder);
 
   const apps::Scene            &scene() const { return scene_; }
   const coupling::InitialState &initial() const { return initial_; }
@@ -55,6 +58,7 @@ public:
   Told forced(const coupling::MethodOptions &method, double steps) const;
 
 private:
+  explicit Trial(apps::Scene scene);
   void find_start();
   Told computed(const coupling::RunOptions &options) const;
 
@@ -62,6 +66,15 @@ private:
   coupling::InitialState initial_;
   double                 fastest_ = 0.;
 };
+
+/// The largest of the mean differences of all signals, each relative to the largest value of its kind; a signal that
+/// jumps is so compared by area, and the instant of the jump counts by its error.
+struct Distance
+{
+  double      value = 0.;
+  std::string signal;
+};
+Distance distance(const RandomMachine &machine, const Told &a, const Told &b);
 
 /// The whole scene as `gestell run` takes it.
 std::string whole_scene(const RandomMachine &machine);

@@ -122,7 +122,7 @@ private:
   void scale(SceneNode &value, const Key &key, const std::vector<Key> &beside, const SceneNode &table,
              bool turning) const
   {
-    const Kind &kind = turning && key.angular ? *key.angular : key.kind;
+    const Kind kind = kind_of(key, table, turning);
     scale(value, kind);
     if (value.type == Type::table)
       scale_numbers(value, key.keys, turning);
@@ -135,6 +135,15 @@ private:
       }
       else
         scale(element, key, beside, table, turning);
+  }
+
+  /// A stiffness is one of N/m^n beside an exponent n.
+  static Kind kind_of(const Key &key, const SceneNode &table, bool turning)
+  {
+    Kind kind = turning && key.angular ? *key.angular : key.kind;
+    if (const SceneNode *n = table.find("exponent"); n && key.name == "stiffness" && !turning)
+      kind.dimension[0] += 1. - n->number;
+    return kind;
   }
 
   static Kind argument(const std::vector<Key> &keys, const SceneNode &table, bool turning)

@@ -63,7 +63,7 @@ std::string unit_at_begin(const std::string &text)
 
 std::string scaled_expression(const std::string &text)
 {
-  static const std::regex operand(R"((\)|\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(?=[A-Za-z1%\xC2-\xCF]))");
+  static const std::regex operand(R"((\)|\d+\.?\d*(?:[eE][+-]?\d+)?)\s*(?=[A-Za-z1%\xC2-\xCF]|/s\b))");
   std::string             made;
   std::size_t             at = 0;
   for (std::smatch found; at < text.size();)
