@@ -26,8 +26,9 @@ public:
   /// To be filled, then factorised.
   Eigen::MatrixXd &matrix() { return a_; }
 
-  /// False: singular, which is when a pivot is rounding of the row it stands in; or, where nothing sticks and
-  /// `redundant` rows cannot be, only when it is zero.
+  /// False: singular, which is when a pivot is rounding of the row it stands in, and of the products that elimination
+  /// subtracted from it: unknowns of other units, such as states of drives, may make the row as large as they like. Or,
+  /// where nothing sticks and `redundant` rows cannot be, only when it is zero.
   bool factorise(bool redundant = true)
   {
     return with_size([&](const auto n) { return factorise_sized(n, redundant); });
@@ -112,7 +113,7 @@ private:
       pivot_[k] = pivot;
       idle_[k]  = below == 0.;
       failed_   = k;
-      if (!(largest > rounding * row_size_[pivot]) || !std::isfinite(largest))
+      if (!(largest > rounding * row_size_[pivot] || largest > rounding * terms(pivot, k)) || !std::isfinite(largest))
         return false;
       least_ = std::min(least_, pivot == k ? a[k + n * k] : -1.);
       if (pivot != k)
@@ -132,6 +133,15 @@ private:
             a[i + n * j] -= a[i + n * k] * factor;
     }
     return true;
+  }
+
+  /// Sum of the magnitudes that elimination has subtracted from an entry so far, in any units of rows and columns.
+  double terms(int row, int column) const
+  {
+    double sum = 0.;
+    for (int m = 0; m < column; ++m)
+      sum += std::abs(a_(row, m) * a_(m, column));
+    return sum;
   }
 
   Eigen::MatrixXd   a_;
