@@ -138,7 +138,7 @@ private:
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       const double force = seats_[i].force.norm();
-      if (force > no_force * balance_.forces())
+      if (force > no_force * balance_.forces().sum())
         seats_[i].target = -(own[i].play.gap + own[i].structure->yielding(force)) / force * seats_[i].force;
     }
   }

@@ -83,7 +83,7 @@ void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double s
   residual.resize(n_ + n_l);
   residual.head(n_)  = elastic - share * load_ - W * local_.p + saddle.topRightCorner(n_, n_g_) * lambda.tail(n_g_);
   residual.tail(n_l) = open;
-  forces_            = elastic.lpNorm<1>() + load_.lpNorm<1>() + (W.cwiseAbs() * local_.p.cwiseAbs()).sum();
+  forces_            = elastic.cwiseAbs() + load_.cwiseAbs() + W.cwiseAbs() * local_.p.cwiseAbs();
   if (moves_)
     return;
   for (const int i : machine_.linear().virtual_coordinates()) // states of laws keep the value they start with

@@ -29,14 +29,14 @@ public:
   StaticBalance(Machine &machine, const InitialState &from, const KnownStart *held,
                 const SteadyMotion *motion = nullptr);
 
-  int             n() const { return n_; }               ///< coordinates
-  int             n_joints() const { return n_c_; }      ///< equations of joints
-  int             n_rows() const { return n_c_ + n_g_; } ///< and of what is held
-  const Machine  &machine() const { return machine_; }
-  bool            holds() const { return held_ != nullptr; }
-  double          forces() const { return forces_; } ///< sum of magnitudes whose rest the last residual is
-  LocalState     &local() { return local_; }         ///< of the last evaluation
-  Eigen::VectorXd multipliers(const Eigen::VectorXd &q, double share); ///< that come nearest to equilibrium
+  int                    n() const { return n_; }               ///< coordinates
+  int                    n_joints() const { return n_c_; }      ///< equations of joints
+  int                    n_rows() const { return n_c_ + n_g_; } ///< and of what is held
+  const Machine         &machine() const { return machine_; }
+  bool                   holds() const { return held_ != nullptr; }
+  const Eigen::VectorXd &forces() const { return forces_; } ///< [n] magnitudes whose rest the last residual is
+  LocalState            &local() { return local_; }         ///< of the last evaluation
+  Eigen::VectorXd        multipliers(const Eigen::VectorXd &q, double share); ///< that come nearest to equilibrium
 
   void evaluate(const Eigen::VectorXd &q, const Eigen::VectorXd &lambda, double share, Eigen::MatrixXd &saddle,
                 Eigen::VectorXd &residual);
@@ -53,12 +53,12 @@ private:
   bool               moves_;
   int                n_, n_c_, n_g_ = 0;
   std::vector<int>   given_; ///< held coordinates
-  double             t_, forces_ = 0.;
+  double             t_;
   Eigen::VectorXd    zero_, v_, a_; ///< [n]
   Eigen::MatrixXd    S_, MS_;       ///< [n x n_g] of a machine that moves
   ConstraintJacobian G_;
   Eigen::MatrixXd    C_;
-  Eigen::VectorXd    load_, acts_;
+  Eigen::VectorXd    load_, acts_, forces_;
   LocalState         local_;
 };
 

@@ -29,11 +29,12 @@ constexpr double stays     = 1e-6;  ///< a start this near an equilibrium is mea
 constexpr double soft      = 1e-8;  ///< stiffness of a coordinate beside the stiffest, below which it counts as this
 constexpr double long_way  = 0.5;   ///< a correction beyond is gone in parts
 
-// Relaxation.
+// Relaxation.  Steps count in the time in which the machine's forces move its masses by its size: about 0.3 s of a
+// metre under its weight.
 constexpr int    most_steps = 1000, most_of_step = 15, most_pushes = 5;
-constexpr double first_step = 0.01, shortest_step = 1e-9, longest_step = 1e3; ///< [s]
+constexpr double first_step = 0.03, shortest_step = 3e-9, longest_step = 3e3;
 constexpr double way_of_step = 0.3, growing_way = 0.1; ///< in a step; share of the way so far, for lengths
-constexpr double settled_at = 10.;                     ///< [s] a step so long is ruled by stiffness, not by inertia
+constexpr double settled_at = 30.;                     ///< a step so long is ruled by stiffness, not by inertia
 constexpr double settled    = 1e-7;                    ///< its motion, against the size of q
 constexpr double push       = 0.01;                    ///< off an unstable equilibrium
 constexpr double cancelled  = 1e-10; ///< share of an energy that is rounding: motions of a reduced frame that cost none
@@ -280,15 +281,17 @@ private:
    */
   bool relax(const VectorXd &begin)
   {
-    q_            = begin;
-    lambda_       = balance_.multipliers(q_, 1.);
-    double h      = first_step;
-    int    pushes = 0;
+    q_         = begin;
+    lambda_    = balance_.multipliers(q_, 1.);
+    int pushes = 0;
     loose_.clear();
     VectorXd moves;
     MatrixXd saddle;
     VectorXd residual;
-    for (int k = 0; k < most_steps && h > shortest_step; ++k)
+    balance_.evaluate(q_, lambda_, 1., saddle, residual);
+    const double time = time_of_motions();
+    double       h    = first_step * time;
+    for (int k = 0; k < most_steps && h > shortest_step * time; ++k)
     {
       const VectorXd before = q_, forces = lambda_;
       balance_.evaluate(q_, lambda_, 1., saddle, residual);
@@ -305,7 +308,7 @@ private:
         continue;
       }
       moves = way;
-      if (h >= settled_at && rests)
+      if (h >= settled_at * time && rests)
       {
         if (!finish())
           return false;
@@ -313,13 +316,21 @@ private:
         if (!growth.falls() || ++pushes > most_pushes)
           return !growth.falls();
         q_ += push / largest(growth.motion) * growth.motion;
-        h = first_step;
+        h = first_step * time;
       }
-      h = std::min(longest_step, h * (iterations <= 4 ? 4. : iterations <= 8 ? 2. : 1.));
+      h = std::min(longest_step * time, h * (iterations <= 4 ? 4. : iterations <= 8 ? 2. : 1.));
     }
-    if (h > shortest_step)
+    if (h > shortest_step * time)
       loose_ = mechanism_mode_text(machine_, moves); // still on its way
     return false;
+  }
+
+  /// [s] sqrt(sum M_ii s_i^2 / sum |F_i| s_i), with the sizes s_i; 1 without mass or forces, as then nothing takes
+  /// time.
+  double time_of_motions() const
+  {
+    const double inertia = M_.diagonal().dot(sizes_.cwiseAbs2()), work = balance_.forces().dot(sizes_);
+    return inertia > 0. && work > 0. ? std::sqrt(inertia / work) : 1.;
   }
 
   /// Largest share of what each coordinate may move in a step.
@@ -368,7 +379,7 @@ private:
     MatrixXd saddle;
     VectorXd residual;
     balance_.evaluate(q_, lambda_, 1., saddle, residual);
-    return residual.head(n_).lpNorm<1>() <= balanced * balance_.forces();
+    return residual.head(n_).cwiseAbs().dot(sizes_) <= balanced * balance_.forces().dot(sizes_);
   }
 
   Machine                 &machine_;

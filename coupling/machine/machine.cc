@@ -206,8 +206,9 @@ void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
   }
 }
 
-/// A contact that is described as just touching may be closed by rounding.
-constexpr double touching = 1e-9; // m or rad
+/// [m, rad] A contact that is described as just touching may be closed by rounding.  Absolute, for a warning alone:
+/// what starts a nanometre deep is pushed away with no force to speak of.
+constexpr double touching = 1e-9;
 
 std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
 {

@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr double no_share  = 1e-6; ///< below it, of all modes, a spring is left out
-constexpr double no_motion = 1e-6; ///< [rad/s] below it a mode has no strain
+constexpr double no_strain = 1e-8; ///< of the highest frequency, the rounding of its square: below it a mode has none
 
 double dot(const Measure &u, const Eigen::VectorXd &v)
 {
@@ -137,10 +137,13 @@ bool flutters(const Mode &mode)
 Eigen::RowVectorXd stiffnesses(const std::vector<Mode> &modes)
 {
   Eigen::RowVectorXd result(Eigen::Index(modes.size()));
+  double             highest = 0.;
+  for (const Mode &mode : modes)
+    highest = std::max(highest, two_pi * mode.frequency_hz);
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
     const double omega = two_pi * modes[j].frequency_hz, fall = modes[j].growth * modes[j].growth;
-    result[Eigen::Index(j)] = flutters(modes[j]) ? not_defined : omega > no_motion ? omega * omega : -fall;
+    result[Eigen::Index(j)] = flutters(modes[j]) ? not_defined : omega > no_strain * highest ? omega * omega : -fall;
   }
   return result;
 }

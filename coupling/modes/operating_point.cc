@@ -2,6 +2,7 @@
 
 #include "coupling/integration/step/consistent_start.h"
 #include "coupling/integration/system/turning_forces.h"
+#include "coupling/machine/configuration/coordinate_sizes.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
 #include <array>
@@ -33,7 +34,7 @@ Eigen::MatrixXd stiffness_of_joints(const Machine &machine, const LocalState &lo
   return K;
 }
 
-constexpr double beside_point  = 1e-9; ///< [m, rad] to both sides of a contact that is about to touch
+constexpr double beside_point  = 1e-9; ///< of a large motion, to both sides of a contact that is about to touch
 constexpr double another_slope = 0.01; ///< difference of two slopes, of the largest
 constexpr double least_contact = 1e-6; ///< share of the stiffness of a closed element that tells it from an open one
 
@@ -42,6 +43,7 @@ struct Contact
 {
   const std::string &name;
   int                first;      ///< of its measures
+  double             size;       ///< of a large motion of them
   Eigen::MatrixXd    open, more; ///< stiffness when it is open, and what it has more when it is closed
   Eigen::MatrixXd    here;       ///< -dp/du
 };
@@ -63,7 +65,8 @@ void for_contacts(const Machine &machine, const LocalState &local, const Look &l
     open_branch(*placement.element, local.u.data() + first, open.data(), open_D.data());
     K -= open;
     if (!K.isZero(0.))
-      look(Contact{placement.name, first, open, K, -dp.block(first, first, k, k)});
+      look(Contact{placement.name, first, measure_size(machine.model(), placement), open, K,
+                   -dp.block(first, first, k, k)});
     first += k;
   }
 }
@@ -83,7 +86,7 @@ void tell_contacts(const Machine &machine, MachinePoint &at)
 
 /// Whether the force of a measure has one slope dp/du at the point and on both sides of it, laws following the motion
 /// itself.
-bool is_smooth(const Machine &machine, const LocalState &local, int measure, double slope)
+bool is_smooth(const Machine &machine, const LocalState &local, int measure, double size, double slope)
 {
   LocalState      beside = local;
   Eigen::VectorXd here = local.p, there = local.p;
@@ -91,7 +94,7 @@ bool is_smooth(const Machine &machine, const LocalState &local, int measure, dou
   double slopes[2];
   for (const int side : {0, 1})
   {
-    const double way  = side == 0 ? -beside_point : beside_point;
+    const double way  = (side == 0 ? -beside_point : beside_point) * size;
     beside.u[measure] = local.u[measure] + way;
     machine.forces().force(beside, there);
     slopes[side] = (there[measure] - here[measure]) / way;
@@ -111,8 +114,8 @@ void tell_touching(Machine &machine, MachinePoint &at)
                  machine.events().follow_history(false);
                  bool smooth = true;
                  for (int i = 0; i < contact.more.rows() && smooth; ++i)
-                   smooth =
-                       contact.more(i, i) == 0. || is_smooth(machine, local, contact.first + i, -contact.here(i, i));
+                   smooth = contact.more(i, i) == 0. ||
+                            is_smooth(machine, local, contact.first + i, contact.size, -contact.here(i, i));
                  machine.events().follow_history(true);
                  if (!smooth)
                    at.touching.push_back(contact.name);
@@ -156,11 +159,12 @@ Slope extrapolated_slope(const std::function<double(double)> &f, double first_st
   return best;
 }
 
-constexpr double step_of_measure = 1e-4;  ///< [m, rad] first step; of rates and accelerations ten and a hundred times
-constexpr double smooth          = 1e-5;  ///< error of a slope beside the largest one of its kind that a kink leaves
-constexpr double finest          = 256.;  ///< first step beside the last one
-constexpr double no_jump         = 1e-9;  ///< second difference beside the values that rounding leaves
-constexpr double rounding        = 1e-12; ///< what it leaves of a value in quotients with the smallest step
+constexpr double first_way = 1e-4; ///< first step, of a large motion; of rates and accelerations ten and a hundred
+                                   ///< times as large, with such a motion in a second
+constexpr double smooth   = 1e-5;  ///< error of a slope beside the largest one of its kind that a kink leaves
+constexpr double finest   = 256.;  ///< first step beside the last one
+constexpr double no_jump  = 1e-9;  ///< second difference beside the values that rounding leaves
+constexpr double rounding = 1e-12; ///< what it leaves of a value in quotients with the smallest step
 
 /// Whether the slope of f jumps at 0: second differences over h fall with the step where f is smooth.
 bool has_kink(const std::function<double(double)> &f, double first_step)
@@ -183,15 +187,17 @@ public:
   Eigen::VectorXd &v() { return v_; }
   LocalState      &local() { return local_; }
 
-  /// d signal / d x_i at indices first .. first + count - 1 of x, a vector of this motion; zero elsewhere.
-  Eigen::VectorXd find(Eigen::VectorXd &x, Eigen::Index first, Eigen::Index count, double step)
+  /// d signal / d x_i at indices first, first + 1 ... of x, a vector of this motion; zero elsewhere.
+  /// @param way    first step, of the larger of |x_i| and its size
+  /// @param sizes  of the numbers there
+  Eigen::VectorXd find(Eigen::VectorXd &x, Eigen::Index first, double way, const Eigen::VectorXd &sizes)
   {
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(x.size());
     double          largest = 0., worst = 0.;
     bool            kink = false;
-    for (Eigen::Index i = first; i < first + count; ++i)
+    for (Eigen::Index i = first; i < first + sizes.size(); ++i)
     {
-      const double there = x[i], first_step = step * std::max(1., std::abs(there));
+      const double there = x[i], first_step = way * std::max(sizes[i - first], std::abs(there));
       const auto   moved = [&](double d)
       {
         x[i] = there + d;
@@ -233,13 +239,15 @@ void add_quantity(const Machine &machine, const Signal &signal, const MachinePoi
   quantity.element  = signal.element;
   quantity.quantity = signal.quantity;
   quantity.scale    = signal.scale;
-  SignalSlopes slopes(machine, quantity, at);
-  LocalState  &local = slopes.local();
-  answer.q += W * slopes.find(local.u, first, k, step_of_measure);
-  answer.v += W * slopes.find(local.v, first, k, 10. * step_of_measure);
-  answer.a += W * slopes.find(local.a, first, k, 100. * step_of_measure);
-  answer.p      = slopes.find(local.p, first, k, step_of_measure);
-  answer.lambda = slopes.find(local.lambda, 0, local.lambda.size(), step_of_measure);
+  SignalSlopes          slopes(machine, quantity, at);
+  LocalState           &local = slopes.local();
+  const Eigen::VectorXd sizes = Eigen::VectorXd::Constant(k, measure_size(machine.model(), elements[signal.element]));
+  answer.q += W * slopes.find(local.u, first, first_way, sizes);
+  answer.v += W * slopes.find(local.v, first, 10. * first_way, sizes);
+  answer.a += W * slopes.find(local.a, first, 100. * first_way, sizes);
+  // Quantities are linear in forces, of whatever size.
+  answer.p      = slopes.find(local.p, first, first_way, Eigen::VectorXd::Ones(k));
+  answer.lambda = slopes.find(local.lambda, 0, first_way, Eigen::VectorXd::Ones(local.lambda.size()));
 }
 
 /// ds/dq [n] of a measure: its rate g . q' at unit velocities.
@@ -265,11 +273,11 @@ void add_measure(const Machine &machine, const Signal &signal, const MachinePoin
   *by_derivative[signal.quantity] += gradient(machine, signal, at);
   if (signal.quantity == 0 || (at.state.v.isZero(0.) && (signal.quantity == 1 || at.a.isZero(0.))))
     return;
-  SignalSlopes       slopes(machine, signal, at);
-  const Eigen::Index n = at.state.q.size();
-  answer.q += slopes.find(slopes.q(), 0, n, step_of_measure);
+  SignalSlopes          slopes(machine, signal, at);
+  const Eigen::VectorXd sizes = coordinate_sizes(machine);
+  answer.q += slopes.find(slopes.q(), 0, first_way, sizes);
   if (signal.quantity == 2)
-    answer.v += slopes.find(slopes.v(), 0, n, 10. * step_of_measure);
+    answer.v += slopes.find(slopes.v(), 0, 10. * first_way, sizes);
 }
 
 void add(const Measure &weights, double scale, Eigen::VectorXd &to)

@@ -24,12 +24,12 @@ constexpr double longer            = 8.; ///< a window without two passages
 constexpr int    most_windows      = 64;
 constexpr double settled           = 1e-3; ///< change of the largest excursions, of themselves
 constexpr double rests             = 1e-6; ///< of the largest excursions since the start
-constexpr double at_rest           = 1e-6; ///< [m/s], [rad/s]
+constexpr double at_rest           = 1e-6; ///< [m/s], [rad/s] slower than any machine swings: such a start is pushed
 constexpr double runs_away         = 1e9;  ///< of the excursions of the first window
 constexpr double larger            = 0.1;  ///< share by which a motion is made larger, to see whether it comes back
-constexpr double push              = 1e-3; ///< [m/s], [rad/s] of what rests
-constexpr int    most_passages     = 16;   ///< of a coordinate through its middle in one period
-constexpr double comes_back        = 0.02; ///< distance of two states, of the largest excursions
+constexpr double push          = 1e-3; ///< [m/s], [rad/s] of what rests; the user is told, and may start it otherwise
+constexpr int    most_passages = 16;   ///< of a coordinate through its middle in one period
+constexpr double comes_back    = 0.02; ///< distance of two states, of the largest excursions
 
 /// Samples of a window of the motion.
 struct Window

@@ -170,7 +170,7 @@ void AngleInvariance::make_samples(const PeriodicGuess &about, double t)
 /// Joints whose equations change with the time.
 void AngleInvariance::find_driven()
 {
-  constexpr double later[] = {0.37, 1.9, 7.3}; // [s], of no period that a motion is likely to have
+  constexpr double later[] = {0.3819660112501052, 1.902113032590307, 7.320508075688773}; // [s] of no period: irrational
   for (std::size_t k = 0; k < samples_.size(); ++k)
     for (const double time : later)
     {

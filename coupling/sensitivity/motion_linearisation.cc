@@ -19,7 +19,8 @@ constexpr double wider = 3.;   ///< times as far for quotients that tell how wel
 constexpr double sure =
     10.; ///< times what quotients of both differ by, and rounding: a difference that is none of theirs
 constexpr double digit = 1e-15; ///< of the terms of a force, their rounding
-constexpr double slow  = 1e-3;  ///< [m/s, rad/s] speed below which measures are moved as if they had it
+constexpr double slow  = 1e-3;  ///< [m/s, rad/s] speed below which measures are moved as if they had it: quotients with
+                                ///< wider ways tell whether that was right
 
 /// (plus - minus)/2 step as a sparse matrix; empty if it is zero.
 Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, const Eigen::SparseMatrix<double> &plus,

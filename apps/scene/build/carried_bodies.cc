@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double on_axis  = 1e-9; ///< [m], or share of a unit vector
+constexpr double on_axis  = 1e-9; ///< share of the places' distances, or of a unit vector
 constexpr double far_away = 0.1;  ///< share of the size of the machine
 
 /// The carrier if it is a body that turns by any angle about an axis of its own.
@@ -49,7 +49,8 @@ void check_carrier(const coupling::MachineModel &machine, const BodyRequest &bod
     return;
   const Eigen::Vector3d n          = vector(carrier->axis).normalized();
   const Eigen::Vector3d arm        = vector(body.position) - vector(carrier->centre);
-  const bool            off        = body.position != Vector3{} && n.cross(arm).norm() > on_axis;
+  const double          size       = vector(body.position).norm() + vector(carrier->centre).norm();
+  const bool            off        = body.position != Vector3{} && n.cross(arm).norm() > on_axis * size;
   const bool            turns_axis = n.cross(vector(body.axis).normalized()).norm() > on_axis;
   const bool            slider     = body.kind == coupling::BodyKind::slider;
   if (!off && !turns_axis)

@@ -22,7 +22,7 @@ using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
 
 constexpr double parallel = 1e-12; ///< 1 - cosine: rounding of unit vectors, enlarged by bodies of some hundred metres
-constexpr double closed   = 1e-10; ///< [m] by which the assembly of a machine leaves its joints open
+constexpr double closed   = 1e-10; ///< share of the numbers of its places by which the assembly leaves a joint open
 /// Sine of the angle between directions from which one is told across the other; less would enlarge rounding as much.
 constexpr double apart = 1e-3;
 
@@ -230,7 +230,7 @@ void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string
 /// What no motion can close must be closed as described.
 void JointEquations::require_closed(const Vector3d &a, double gap) const
 {
-  if (std::abs(gap) <= closed * std::max(1., pair_.size()))
+  if (std::abs(gap) <= closed * pair_.size())
     return;
   std::ostringstream message;
   message << "stays open by " << std::abs(gap) << " m along [" << a[0] << ", " << a[1] << ", " << a[2]

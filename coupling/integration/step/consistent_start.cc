@@ -13,7 +13,18 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double closed = 1e-10; ///< what joints may be open by, in m or rad: rounding of large machines
+constexpr double closed = 1e-10; ///< share of its terms that a joint may be open by where rounding stops progress
+
+/// Largest g of a joint against the size of the numbers whose difference it is.
+double largest_gap(const Eigen::VectorXd &g, const std::vector<ConstraintBlock> &blocks)
+{
+  double largest = 0.;
+  for (const ConstraintBlock &block : blocks)
+    for (int i = block.first_row; i < block.first_row + block.n_rows; ++i)
+      if (const double gap = std::abs(g[i]) / (block.size > 0. ? block.size : 1.); !(gap <= largest))
+        largest = gap;
+  return largest;
+}
 
 /// A coordinate without mass, or how the solver puts it.
 [[noreturn]] void refuse_singular(const SecondOrderSystem &system, const std::string &method, const std::string &why)
@@ -151,15 +162,13 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
 {
   if (G_.n_rows() == 0)
     return;
-  double rounding = std::numeric_limits<double>::infinity(); // of the numbers whose difference g is
-  for (const ConstraintBlock &block : G_.blocks())
-    rounding = std::min(rounding, std::numeric_limits<double>::epsilon() * block.size);
-  double open = std::numeric_limits<double>::infinity();
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
+  double           open     = std::numeric_limits<double>::infinity();
   for (int iteration = 0;; ++iteration)
   {
     system_.joints().constraints(local, g_, G_);
     const double before = open;
-    open                = g_.cwiseAbs().maxCoeff();
+    open                = largest_gap(g_, G_.blocks());
     if (open <= rounding || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
       break;
     if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)

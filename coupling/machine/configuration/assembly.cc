@@ -135,7 +135,7 @@ private:
         continue;
       const LeastSquaresSolver solver(P, threshold);
       const Eigen::VectorXd    rate = place.G * state_.v, x = solver.solve(-rate);
-      const double             still = closed * std::max(1., state_.v.cwiseAbs().maxCoeff());
+      const double             still = closed * machine_length(machine_.model()) * relative_speed(machine_, state_.v);
       if (rate.cwiseAbs().maxCoeff() > still)
       {
         if ((P * x + rate).cwiseAbs().maxCoeff() > still)
@@ -358,8 +358,8 @@ private:
       return true;
     int          worst = 0;
     const double open  = residual.cwiseAbs().maxCoeff(&worst);
-    if (what == "velocities" ? open <= closed * std::max(1., state_.v.cwiseAbs().maxCoeff())
-                             : residual.cwiseQuotient(terms(demands)).cwiseAbs().maxCoeff() <= closed)
+    const double rate  = what == "velocities" ? relative_speed(machine_, state_.v) : 1.;
+    if (residual.cwiseQuotient(terms(demands)).cwiseAbs().maxCoeff() <= closed * rate)
       return true;
     if (!yielding_.empty() || !torn_.empty())
       return false;

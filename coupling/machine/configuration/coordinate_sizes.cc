@@ -72,4 +72,14 @@ Eigen::VectorXd coordinate_sizes(const Machine &machine)
   return sizes;
 }
 
+double measure_size(const MachineModel &model, const ElementPlacement &placement)
+{
+  return placement.kind == MeasureKind::displacement ? machine_length(model) : 1.;
+}
+
+double relative_speed(const Machine &machine, const Eigen::VectorXd &v)
+{
+  return v.size() > 0 ? v.cwiseQuotient(coordinate_sizes(machine)).cwiseAbs().maxCoeff() : 0.;
+}
+
 } // namespace gestell::coupling

@@ -16,4 +16,10 @@ int n_displacements(BodyKind kind);
 /// of elements.  Motions divided by them are numbers, the same in any unit of length.
 Eigen::VectorXd coordinate_sizes(const Machine &machine);
 
+/// The same of each measure of an element.
+double measure_size(const MachineModel &model, const ElementPlacement &placement);
+
+/// [1/s] largest |v_i|/size_i: how many of its sizes a coordinate moves in a second.
+double relative_speed(const Machine &machine, const Eigen::VectorXd &v);
+
 } // namespace gestell::coupling

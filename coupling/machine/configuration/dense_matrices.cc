@@ -1,5 +1,6 @@
 #include "coupling/machine/configuration/dense_matrices.h"
 
+#include "coupling/machine/configuration/coordinate_sizes.h"
 #include "coupling/machine/configuration/local_stiffness.h"
 #include "fem/values/nearest_name.h"
 
@@ -165,13 +166,12 @@ void open_matrices(const Machine &machine, const Eigen::VectorXd &q, Eigen::Matr
 namespace
 {
 
-/// Stiff or damping somewhere near u: a cubic spring is neither where it is relaxed.
-bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u)
+/// Stiff or damping within `beside` of u: a cubic spring is neither where it is relaxed.
+bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u, double beside)
 {
-  constexpr double beside = 1e-3; // m or rad
-  const auto       k      = u.size();
-  Eigen::MatrixXd  K(k, k), D(k, k);
-  const auto       acts_at = [&](const Eigen::VectorXd &at)
+  const auto      k = u.size();
+  Eigen::MatrixXd K(k, k), D(k, k);
+  const auto      acts_at = [&](const Eigen::VectorXd &at)
   {
     engaged(element, at.data(), K.data(), D.data());
     return !K.isZero(0.) || !D.isZero(0.);
@@ -186,13 +186,14 @@ bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u)
 
 Eigen::VectorXd acting_measures(const Machine &machine, const Eigen::VectorXd &u, Acting acting)
 {
-  Eigen::VectorXd acts  = Eigen::VectorXd::Ones(u.size());
-  int             first = 0;
+  constexpr double near  = 1e-3; // of a large motion
+  Eigen::VectorXd  acts  = Eigen::VectorXd::Ones(u.size());
+  int              first = 0;
   for (const ElementPlacement &placement : machine.model().elements())
   {
     const int k = placement.element->n_measures();
     if (acting == Acting::structure && !placement.element->ideal_joint() &&
-        !is_structure(*placement.element, u.segment(first, k)))
+        !is_structure(*placement.element, u.segment(first, k), near * measure_size(machine.model(), placement)))
       acts.segment(first, k).setZero();
     first += k;
   }
