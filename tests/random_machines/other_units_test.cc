@@ -22,7 +22,7 @@ TEST_P(RandomUnits, DoNotChangeWhatAMachineDoes)
   std::filesystem::remove_all(folder);
 }
 
-INSTANTIATE_TEST_SUITE_P(Machines, RandomUnits, ::testing::Values(2204, 2210, 2223, 2225, 2228, 2233));
+INSTANTIATE_TEST_SUITE_P(Machines, RandomUnits, ::testing::Values(2204, 2210, 2223, 2225, 2228, 2233, 2280, 2299));
 
 } // namespace
 } // namespace gestell::tests

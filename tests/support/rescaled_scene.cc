@@ -125,7 +125,7 @@ private:
     const Kind kind = kind_of(key, table, turning);
     scale(value, kind);
     if (value.type == Type::table)
-      scale_numbers(value, key.keys, turning);
+      scale_numbers(value, keys_within(key, turning), turning);
     const bool rows = key.form == Key::Form::rows || (key.name == "table" && value.type == Type::array);
     for (SceneNode &element : value.elements)
       if (rows && element.elements.size() == 2)
@@ -144,6 +144,21 @@ private:
     if (const SceneNode *n = table.find("exponent"); n && key.name == "stiffness" && !turning)
       kind.dimension[0] += 1. - n->number;
     return kind;
+  }
+
+  /// Keys of a table that is a value: levels of a force, and rates of these, are those of a torque on an angle.
+  static std::vector<Key> keys_within(const Key &key, bool turning)
+  {
+    std::vector<Key> keys = key.keys;
+    const auto      &from = key.kind.dimension;
+    for (Key &own : keys)
+      if (Kind kind = own.kind; turning && key.angular && !own.angular && kind.dimension[0] == from[0] && from[1] != 0.)
+      {
+        for (std::size_t i = 0; i < 3; ++i)
+          kind.dimension[i] += key.angular->dimension[i] - from[i];
+        own.angular = kind;
+      }
+    return keys;
   }
 
   static Kind argument(const std::vector<Key> &keys, const SceneNode &table, bool turning)
@@ -204,6 +219,8 @@ private:
         return true;
       if (type == "position function")
         return is_angle(text_of(*table, "to"));
+      if (const SceneNode *terms = table->find("terms"); type == "sum" && !terms->elements.empty())
+        return is_angle(text_of(terms->elements.front(), "of"));
     }
     if (table->find("about"))
       return true;
