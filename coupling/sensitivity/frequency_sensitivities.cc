@@ -3,6 +3,7 @@
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/machine/configuration/local_stiffness.h"
+#include "coupling/modes/energy_shares.h"
 
 #include <cmath>
 #include <limits>
@@ -19,17 +20,30 @@ using Eigen::VectorXd;
 constexpr double meet = 1e-7; ///< relative difference of frequencies whose shapes are not told apart
 constexpr double rest = 1e-6; ///< of the highest frequency: it is zero
 
+double amount_of(const Measure &u, const VectorXd &v)
+{
+  double sum = 0.;
+  for (const auto &[i, weight] : u)
+    sum += weight * v[i];
+  return sum;
+}
+
 struct Matrices
 {
   MatrixXd                    M, K, G;
-  MatrixXd                    frame, of_measures; ///< K = frame + W of_measures W^T
+  MatrixXd                    frame, of_measures; ///< K = frame + linear springs + W of_measures W^T
+  std::vector<LinearSpring>   springs;
   Eigen::SparseMatrix<double> W;
 
-  /// w^T K v, of elements by what they are compressed: where a motion moves their ends nearly alike, it is not what is
-  /// left of the large terms of K, and quotients of it do not lose their digits.
+  /// w^T K v, of springs and elements by what they are compressed: where a motion moves their ends nearly alike, it is
+  /// not what is left of the large terms of K, and quotients of it do not lose their digits.
   double stiffness(const VectorXd &w, const VectorXd &v) const
   {
-    return w.dot(frame * v) + (W.transpose() * w).dot(of_measures * (W.transpose() * v));
+    const Index n   = frame.rows();
+    double      sum = w.head(n).dot(frame * v.head(n)) + (W.transpose() * w).dot(of_measures * (W.transpose() * v));
+    for (const LinearSpring &spring : springs)
+      sum += amount_of(spring.displacement, w) * amount_of(spring.force, v);
+    return sum;
   }
 };
 
@@ -38,7 +52,7 @@ Matrices matrices(const LinearisedAt &at)
   const Machine &machine = *at.machine;
   Matrices       found;
   found.M             = dense_mass(machine);
-  found.frame         = dense_stiffness(machine);
+  found.springs       = linear_springs(machine.model());
   found.W             = machine.forces().directions();
   const VectorXd zero = VectorXd::Zero(machine.size());
   LocalState     local;
@@ -54,14 +68,16 @@ Matrices matrices(const LinearisedAt &at)
     found.G = joint_jacobian(machine, G);
   }
   found.of_measures = stiffness_of_measures(machine, local, *at.open);
-  found.K           = found.frame + found.W * found.of_measures * found.W.transpose();
+  found.K           = dense_stiffness(machine) + found.W * found.of_measures * found.W.transpose();
+  if (const ReducedFrame *frame = machine.model().reduced_frame())
+    found.frame = frame->C;
   return found;
 }
 
 /// Of M, K and G.
 Matrices mean(const Matrices &a, const Matrices &b)
 {
-  return {0.5 * (a.M + b.M), 0.5 * (a.K + b.K), 0.5 * (a.G + b.G), {}, {}, {}};
+  return {0.5 * (a.M + b.M), 0.5 * (a.K + b.K), 0.5 * (a.G + b.G), {}, {}, {}, {}};
 }
 
 /// A mode with its left eigenvector, and what joints have to hold of both.

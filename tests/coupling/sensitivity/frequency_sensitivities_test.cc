@@ -67,6 +67,30 @@ TEST(FrequencySensitivities, OfTwoMassesAreThoseOfTheClosedFormula)
     }
 }
 
+// omega^2 = c_1/(m_1 + m_2) (1 + O(c_1/c_2)): beside c_2 the soft spring is lost in the rounding of the stiffness
+// matrix, whose entry c_1 + c_2 keeps c_1 to 1e-6 and the quotient's 2e-6 c_1 not at all.
+TEST(FrequencySensitivities, OfAFrequencyNearZeroBesideStiffSpringsKeepTheirDigits)
+{
+  const VectorXd                 x = (VectorXd(4) << 3., 1.5, 0.7, 0.7e10).finished();
+  const std::vector<std::string> open;
+  const VectorXd                 rest    = VectorXd::Zero(2);
+  const Machine                  machine = two_masses(x);
+  const auto                     modes   = linearised_modes(machine, rest, {}, 2);
+  const double                   f       = std::sqrt(x[2] / (x[0] + x[1])) / (2. * M_PI);
+  ASSERT_NEAR(modes[0].frequency_hz, f, 1e-5 * f);
+  const VectorXd shares = (VectorXd(4) << -0.5 * x[0] / (x[0] + x[1]), -0.5 * x[1] / (x[0] + x[1]), 0.5, 0.).finished();
+  for (int k = 0; k < 4; ++k)
+  {
+    const double step  = 1e-6 * x[k];
+    VectorXd     below = x, above = x;
+    below[k] -= step;
+    above[k] += step;
+    const Machine         minus = two_masses(below), plus = two_masses(above);
+    const Eigen::MatrixXd found = frequency_sensitivities(modes, {{{&minus, rest, &open}, {&plus, rest, &open}, step}});
+    EXPECT_NEAR(found(0, 0) * x[k], shares[k] * f, 1e-5 * f) << k; // of the eigenvalue, rounding of c_2 over c_1
+  }
+}
+
 /// ground - c - m_1, which a gear of the ratio n joins to m_2: x_2 = n x_1; x = (m_1, m_2, c, n)
 Machine geared(const VectorXd &x)
 {
