@@ -174,4 +174,40 @@ TEST(RunSensitivities, OfInstantsAtWhichMasslessStatesTurnAreInProportionToAllTi
   EXPECT_NEAR(found["M.max"].derivative[0], -2. * found["M.max"].value, 1e-6 * found["M.max"].value);
 }
 
+/// x = (m, c, v_0): q = cos(omega t) + v_0/omega sin(omega t), omega^2 = c/m, beside a mass of 1 g that rings at
+/// 1e5 1/s, as all parameters do.
+Made slow_and_ringing(const VectorXd &x)
+{
+  constexpr double mass = 1e-3, fast = 1e5, amplitude = 1e-4;
+  MachineModel     model;
+  const int        slow = model.add_slider("slow", {1., 0., 0.}, x[0], "ground"),
+            rings       = model.add_slider("rings", {1., 0., 0.}, mass, "ground");
+  model.add_linear("spring", {{slow, 1.}}, {x[1], 0., 0., 0.}, "N");
+  model.add_linear("stiff", {{rings, 1.}}, {mass * fast * fast, 0., 0., 0.}, "N");
+  Machine             machine(std::move(model));
+  std::vector<Signal> signals = {machine.signal("q", "slow.displacement")};
+  InitialState        initial;
+  initial.q = (VectorXd(2) << 1., amplitude * x.sum()).finished();
+  initial.v = (VectorXd(2) << x[2], 0.).finished();
+  return {std::move(machine), initial, std::move(signals)};
+}
+
+TEST(RunSensitivities, OfInstantsOfASignalSlowBesideTheStepsAreKnown)
+{
+  // Over a step of a us the signal changes by (omega h)^2 = 1e-12, and over the shorter ways by rounding alone.
+  const double omega = 1., v = 0.006;
+  RunOptions   options;
+  options.method.order  = 5;
+  options.method.step   = 1e-6;
+  options.end           = 0.012;
+  const auto      found = differentiated(slow_and_ringing, (VectorXd(3) << 2., 2., v).finished(), options);
+  const VectorXd &t     = found["q.t_max"].derivative;
+  // t = atan(v_0/omega)/omega, dt/domega = -t/omega - v_0/(1 + v_0^2)
+  const double of_omega = -std::atan(v) - v / (1. + v * v);
+  EXPECT_NEAR(found["q.t_max"].value, std::atan(v), 1e-6 * v);
+  EXPECT_NEAR(t[0], -of_omega * omega / 4., 1e-4 * v / 2.);
+  EXPECT_NEAR(t[1], of_omega * omega / 4., 1e-4 * v / 2.);
+  EXPECT_NEAR(t[2], 1. / (1. + v * v), 1e-4);
+}
+
 } // namespace
