@@ -25,6 +25,7 @@ constexpr double weights[5][4] = {{0., 0., 0., 0.},
                                   {25. / 24., -49. / 48., 125. / 16., -85. / 12.}};
 /// Weights of the method less those of the embedded one.
 constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96., 125. / 16. - 225. / 32., 0., 1. / 4.};
+constexpr double nearly         = 1.0001;   ///< steps: what is left is one step, not one and a hair
 constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
 constexpr double weak           = 0.1;      ///< coordinates that move less, in the norm of the mass, count as that
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
@@ -34,7 +35,20 @@ constexpr int    most_halvings  = 30;
 constexpr std::size_t looks     = 7;        ///< at a piece at least, for what acts on it
 constexpr std::size_t nodes_of_a_look = 20; ///< what is zero at each look and acts between them lasts no longer
 
+constexpr int middle = 3; ///< stage at half a step
+
 constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The equations without what parameters change.
+Linearised homogeneous(const Linearised &at)
+{
+  Linearised bare = at;
+  for (MatrixXd *right : {&bare.r, &bare.p, &bare.g, &bare.g_rate, &bare.gamma})
+    right->setZero();
+  for (MatrixXd *right : {&bare.u, &bare.v, &bare.a})
+    right->resize(0, 0);
+  return bare;
+}
 } // namespace
 
 void PieceReader::begin(const SmoothPiece &piece)
@@ -125,8 +139,8 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
     state->local.resize(equation.machine());
   root_mass_ = equation.mass_diagonal().cwiseSqrt();
   accuracy_.off.setZero(equation.n_parameters());
-  of_run_   = accuracy_.off;
-  beyond_q_ = beyond_v_ = size_q_;
+  of_run_ = settled_ = accuracy_.off;
+  left_.q = left_.v = size_q_;
 }
 
 /// Some of its instants.
@@ -168,6 +182,17 @@ void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, c
   columns_.v = s_rate;
   equation_.solve(at_, 0., columns_);
   note_sizes();
+  settle_errors();
+}
+
+void VariationalSteps::settle_errors()
+{
+  if (!leaves_ || equation_.machine().forces().held().empty())
+    return;
+  settled_ += relative_sizes(left_.q, left_.v);
+  left_.q.setZero();
+  left_.v.setZero();
+  leaves_ = false;
 }
 
 void VariationalSteps::note_sizes()
@@ -185,7 +210,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
       return false;
     const double from   = state_.t;
     const double left   = t - from;
-    const bool   last   = left <= 1.0001 * step_;
+    const bool   last   = left <= nearly * step_;
     const double length = last ? left : step_;
     const bool   made   = try_step(last ? t : from + length);
     const double err    = error(length);
@@ -194,7 +219,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
       if (++halvings > most_halvings)
         throw ConvergenceFailure("the derivatives of the motion cannot be carried beyond t = " + std::to_string(from) +
                                  " s: their steps became too short");
-      while (step_ >= length)
+      while (nearly * step_ >= length)
         step_ *= 0.5;
       continue;
     }
@@ -204,6 +229,8 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     std::swap(at_, stage_at_);
     std::swap(columns_, stage_);
     equation_.close_joints(at_, columns_);
+    if (leaves_)
+      equation_.close_joints(homogeneous(at_), left_);
     ++n_steps_;
     note_sizes();
     if (!last && (err < growth || 2. * step_ <= shortest_share * reader_.spacing()))
@@ -223,6 +250,13 @@ bool VariationalSteps::try_step(double to)
     reader_.read(0.25 * H, stage_state_);
     equation_.linearisation().complete(stage_state_);
     equation_.linearisation().linearise(stage_state_, stage_at_);
+    if (leaves_ && i == middle)
+    {
+      left_next_ = left_;
+      equation_.solve(homogeneous(stage_at_), 0.5 * H, left_next_);
+      left_next_.q = 2. * left_next_.q - left_.q;
+      left_next_.v = 2. * left_next_.v - left_.v;
+    }
     stage_.q = columns_.q;
     stage_.v = columns_.v;
     for (int j = 0; j < i; ++j)
@@ -247,15 +281,24 @@ double VariationalSteps::error(double length)
   return relative_sizes(e_q_, e_v_).maxCoeff() / tolerance_;
 }
 
-/// What steps left beyond their tolerance, with its sign: where quotients of the machines are rounding, no step meets
-/// the tolerance, and what these leave has no direction.  And what steps of the run would have left, as h y''/2 of
-/// order 1 and h^2 y'''/3 of order 2 tell, over their length.
+/// What steps left beyond their tolerance, and has become of it: where quotients of the machines are rounding, no step
+/// meets the tolerance, and what these leave has no direction.  And what steps of the run would have left, as h y''/2
+/// of order 1 and h^2 y'''/3 of order 2 tell, over their length.
 void VariationalSteps::note_accuracy(double error, double length)
 {
+  if (leaves_)
+    std::swap(left_, left_next_);
   if (error > 1.)
   {
-    beyond_q_ += e_q_;
-    beyond_v_ += e_v_;
+    left_.q += e_q_;
+    left_.v += e_v_;
+    leaves_ = true;
+  }
+  if (leaves_)
+  {
+    const auto &W = equation_.machine().forces().directions();
+    left_.u       = W.transpose() * left_.q;
+    left_.u_rate  = W.transpose() * left_.v;
   }
   if (run_order_ > 0)
   {
@@ -265,7 +308,7 @@ void VariationalSteps::note_accuracy(double error, double length)
                            : MatrixXd(16. / 3. * h * h / length * ((*f)[0] - 2. * (*f)[3] + (*f)[1]));
     of_run_ += relative_sizes(e_q_, e_v_);
   }
-  accuracy_.off = accuracy_.off.cwiseMax(of_run_ + relative_sizes(beyond_q_, beyond_v_));
+  accuracy_.off = accuracy_.off.cwiseMax(of_run_ + settled_ + relative_sizes(left_.q, left_.v));
   if (accuracy_.off.maxCoeff() > accuracy_.believed && accuracy_.behind == never)
     accuracy_.behind = state_.t;
 }

@@ -39,7 +39,7 @@ struct VariationalAccuracy
 {
   static constexpr double believed = 0.02; ///< errors up to it are not told
 
-  Eigen::RowVectorXd off; ///< of each parameter: largest sum of the errors of steps so far
+  Eigen::RowVectorXd off; ///< of each parameter: largest error that steps have left so far
   double             behind = std::numeric_limits<double>::infinity(); ///< [s] from where one of them is not believed
 };
 
@@ -47,9 +47,13 @@ struct VariationalAccuracy
  * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
  * stages and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the
  * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are
- * divided down to a sixteenth; what that leaves counts to the accuracy, as does what the method of the run, with its
- * step, would make of these derivatives: y'' and y''' by differences of the stages.  The run did make the motion by
- * that method, so that the motion errs alike.
+ * divided down to a sixteenth.  What that leaves, e, goes on as derivatives do, E'' = ... without what parameters
+ * change, by the implicit midpoint rule, and counts to the accuracy: errors of truncation add up from period to period
+ * of an oscillation, whose phase they have, while those of rounding have none.  Events do not change E; where something
+ * sticks from then on its size stays.
+ *
+ * To the accuracy counts, too, what the method of the run, with its step, would make of these derivatives: y'' and y'''
+ * by differences of the stages.  The run did make the motion by that method, so that the motion errs alike.
  *
  * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6).
  */
@@ -88,6 +92,7 @@ private:
   double             error(double length);
   Eigen::RowVectorXd relative_sizes(const Eigen::MatrixXd &e_q, const Eigen::MatrixXd &e_v) const;
   void               note_accuracy(double error, double length);
+  void               settle_errors();
   void               note_sizes();
 
   VariationalEquation                  &equation_;
@@ -99,11 +104,13 @@ private:
   MotionState                           state_, stage_state_;
   Linearised                            at_, stage_at_;
   MotionColumns                         columns_, stage_;
-  std::array<Eigen::MatrixXd, n_stages> v_, a_;               ///< s', s'' of the stages
-  Eigen::MatrixXd                       size_q_, size_v_;     ///< largest |s|, |s'| so far
-  Eigen::MatrixXd                       e_q_, e_v_;           ///< errors of a step
-  Eigen::MatrixXd                       beyond_q_, beyond_v_; ///< sum of those beyond the tolerance
-  Eigen::RowVectorXd                    of_run_;              ///< sum of what steps of the run would have left
+  std::array<Eigen::MatrixXd, n_stages> v_, a_;            ///< s', s'' of the stages
+  Eigen::MatrixXd                       size_q_, size_v_;  ///< largest |s|, |s'| so far
+  Eigen::MatrixXd                       e_q_, e_v_;        ///< errors of a step
+  MotionColumns                         left_, left_next_; ///< what those beyond the tolerance have become
+  bool                                  leaves_ = false;   ///< there are some
+  Eigen::RowVectorXd                    settled_;          ///< sizes of those before something stuck
+  Eigen::RowVectorXd                    of_run_;           ///< sum of what steps of the run would have left
   VariationalAccuracy                   accuracy_;
   Eigen::VectorXd                       root_mass_;
 };

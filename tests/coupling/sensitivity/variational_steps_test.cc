@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace
 {
@@ -87,6 +88,48 @@ TEST(VariationalSteps, TellWhatTheMethodOfTheRunWouldMakeOfDerivatives)
   EXPECT_NEAR(std::log(told_accuracy(800, 2) / (h * h / 3. * omega * omega * omega * T)), 0., std::log(3.));
   EXPECT_NEAR(std::log(told_accuracy(800, 1) / (h / 2. * omega * omega * T)), 0., std::log(3.));
   EXPECT_EQ(told_accuracy(800, 0), 0.);
+}
+
+/// Error that is told, and the error, of ds/dx = cos(omega t) after so many periods, by steps of a 25th of one.
+std::pair<double, double> of_oscillation(int periods)
+{
+  const double period = 2. * M_PI / omega, spacing = 0.8 * period;
+  Machine      machine = oscillator(stiffness), below = oscillator(stiffness), above = oscillator(stiffness);
+  const std::vector<ParameterTwins> twins = {{"q_0", "m", q_0, 1e-6 * q_0, {&below, {}, {}, T}, {&above, {}, {}, T}}};
+  VariationalEquation               equation(machine, twins);
+  VariationalSteps                  steps(equation, spacing / 20., 1e-12); // which none of them meets
+  SmoothPiece                       piece;
+  for (int i = 0; i <= int(periods / 0.8); ++i)
+    piece.nodes.push_back({i * spacing, VectorXd::Zero(1), VectorXd::Zero(1)});
+  steps.begin(piece, VectorXd(), MatrixXd::Identity(1, 1), MatrixXd::Zero(1, 1));
+  const double end = piece.nodes.back().t;
+  steps.advance_to(end);
+  EXPECT_EQ(steps.steps(), 20 * long(piece.nodes.size() - 1));
+  return {steps.accuracy().off[0], std::abs(steps.columns().q(0, 0) - std::cos(omega * end))};
+}
+
+TEST(VariationalSteps, TellErrorsThatOscillateWithWhatTheyAreOf)
+{
+  // Half of these are positive, half negative, and their sum over whole periods vanishes; what they make of the motion
+  // grows in proportion to the periods.
+  const auto [told, error]            = of_oscillation(16);
+  const auto [told_longer, its_error] = of_oscillation(32);
+  EXPECT_GT(told, error);
+  EXPECT_GT(told_longer, its_error);
+  EXPECT_NEAR(told_longer / told, 2., 0.2);
+}
+
+TEST(VariationalSteps, DivideALastStepThatIsAHairLongerThanTheirOwn)
+{
+  Machine machine = oscillator(stiffness), below = oscillator(stiffness), above = oscillator(stiffness);
+  const std::vector<ParameterTwins> twins = {{"q_0", "m", q_0, 1e-6 * q_0, {&below, {}, {}, T}, {&above, {}, {}, T}}};
+  VariationalEquation               equation(machine, twins);
+  constexpr double                  step = 0.02, hair = 1.00005;
+  VariationalSteps                  steps(equation, step, 1e-12);
+  const SmoothPiece                 piece = exact_motion(10); // of 0.1 s: steps are divided down to 6 ms
+  steps.begin(piece, VectorXd(), MatrixXd::Identity(1, 1), MatrixXd::Zero(1, 1));
+  EXPECT_TRUE(steps.advance_to(hair * step));
+  EXPECT_GT(steps.steps(), 2);
 }
 
 } // namespace
