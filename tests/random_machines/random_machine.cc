@@ -2,7 +2,9 @@
 
 #include "tests/random_machines/draft.h"
 
+#include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace gestell::tests
 {
@@ -43,6 +45,15 @@ void write_wide(Draft &draft)
     add_switches(draft);
 }
 
+/// What is released moves as far as weight takes it.
+RandomMachine with_falls(RandomMachine machine)
+{
+  machine.length = std::max(machine.length, machine.fall_length);
+  machine.speed  = std::max(machine.speed, machine.fall_speed);
+  machine.force  = std::max(machine.force, machine.weight);
+  return machine;
+}
+
 } // namespace
 
 RandomMachine random_machine(std::uint64_t seed)
@@ -55,7 +66,7 @@ RandomMachine random_machine(std::uint64_t seed)
   if (seed > last_narrow)
   {
     write_wide(draft);
-    return machine;
+    return with_falls(std::move(machine));
   }
   const double kind = dice.share();
   if (seed > last_without_presses && dice.chance(0.25))
@@ -70,7 +81,7 @@ RandomMachine random_machine(std::uint64_t seed)
     write_spatial(draft);
   else
     write_gears(draft);
-  return machine;
+  return with_falls(std::move(machine));
 }
 
 } // namespace gestell::tests

@@ -53,9 +53,10 @@ struct RandomMachine
   std::vector<PinFact>               pins;
   std::shared_ptr<const Twin>        twin; ///< its equations by another formulation, where they are known
 
-  double period = 1.;                         ///< [s] of the slow motion
-  double end    = 1.;                         ///< [s]
-  double length = 1., speed = 1., force = 1.; ///< of the motion [m or rad, ...]
+  double period = 1.;                                    ///< [s] of the slow motion
+  double end    = 1.;                                    ///< [s]
+  double length = 1., speed = 1., force = 1.;            ///< of the motion [m or rad, ...]
+  double fall_length = 0., fall_speed = 0., weight = 0.; ///< of what is released; levels of switches do not count them
   bool   jointed      = false;
   bool   bdf_only     = false; ///< a law has a state without mass
   bool   accelerated  = false; ///< forces depend on accelerations

@@ -1,7 +1,5 @@
 #include "tests/random_machines/train.h"
 
-#include <algorithm>
-
 namespace gestell::tests
 {
 
@@ -99,9 +97,9 @@ void write_train(Draft &draft)
     constexpr double g    = 9.81;
     RandomMachine   &made = draft.machine;
     made.loadless         = false;
-    made.length           = std::max(made.length, g / (scale.omega * scale.omega)); // released, it falls that far
-    made.speed            = std::max(made.speed, g / scale.omega);
-    made.force            = std::max(made.force, scale.mass * g);
+    made.fall_length      = g / (scale.omega * scale.omega);
+    made.fall_speed       = g / scale.omega;
+    made.weight           = scale.mass * g;
     draft.line("gravity = [" + digits(g * draft.dice.sign()) + ", 0, 0]");
   }
   for (int i = 0, n = 1 + draft.dice.whole(4); i < n; ++i)

@@ -103,7 +103,7 @@ TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
   result.long_run    = run;
   EXPECT_EQ(section_csv(result), "period,slide,slide',F [N]\n64,-1,-3,5\n65,-2,-4,6\n");
   EXPECT_THAT(long_run_text(run), HasSubstr("quasi-periodic"));
-  EXPECT_EQ(described_json(run)["kind"], "quasi-periodic");
+  EXPECT_EQ(described_json(run.motion)["kind"], "quasi-periodic");
 }
 
 } // namespace gestell::apps

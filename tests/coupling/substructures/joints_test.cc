@@ -210,7 +210,7 @@ TEST(JointDampers, ActAsTheSpringsBesideThemDoAtTheRateInPlaceOfTheWay)
   }
 }
 
-std::string refused(const std::vector<Piece> &pieces, const FrameOfParts &frame)
+std::string joint_refusal(const std::vector<Piece> &pieces, const FrameOfParts &frame)
 {
   return refusal([&] { joined(pieces, frame, 2); });
 }
@@ -221,31 +221,31 @@ TEST(BadJoints, AreRefusedWithTheirPlaceAndAWayOut)
   using ::testing::HasSubstr;
   const std::vector<Piece> bars{bar("first", averaged, held_rigid), bar("second", held_rigid, averaged, part_length)};
   const auto               good = weld("middle", {"first", "front"}, {"second", "rear"});
-  EXPECT_EQ(refused(bars, described(bars, {good})), "");
+  EXPECT_EQ(joint_refusal(bars, described(bars, {good})), "");
 
   auto apart            = bars;
   apart[1].placement.at = {part_length + 0.02, 0., 0.};
-  EXPECT_THAT(refused(apart, described(apart, {good})),
+  EXPECT_THAT(joint_refusal(apart, described(apart, {good})),
               AllOf(HasSubstr("frame.joint.middle: the interfaces do not meet"), HasSubstr("20 mm apart"),
                     HasSubstr("(0.42, 0.05, 0.04) m"), HasSubstr("tolerance = \"22 mm\"")));
   auto wide      = good;
   wide.tolerance = 0.021;
-  EXPECT_EQ(refused(apart, described(apart, {wide})), "");
+  EXPECT_EQ(joint_refusal(apart, described(apart, {wide})), "");
 
-  EXPECT_THAT(refused(bars, described(bars, {weld("middle", {"frist", "front"}, {"second", "rear"})})),
+  EXPECT_THAT(joint_refusal(bars, described(bars, {weld("middle", {"frist", "front"}, {"second", "rear"})})),
               HasSubstr("there is no part 'frist'; did you mean 'first'?"));
-  EXPECT_THAT(refused(bars, described(bars, {weld("middle", {"first", "top"}, {"second", "rear"})})),
+  EXPECT_THAT(joint_refusal(bars, described(bars, {weld("middle", {"first", "top"}, {"second", "rear"})})),
               HasSubstr("part 'first' has no interface 'top'"));
-  EXPECT_THAT(refused(bars, described(bars, {weld("middle", {"first", "front"}, {"first", "rear"})})),
+  EXPECT_THAT(joint_refusal(bars, described(bars, {weld("middle", {"first", "front"}, {"first", "rear"})})),
               HasSubstr("joins part 'first' with itself"));
-  EXPECT_THAT(refused(bars, described(bars, {good, weld("again", {"first", "front"}, {"second", "rear"})})),
+  EXPECT_THAT(joint_refusal(bars, described(bars, {good, weld("again", {"first", "front"}, {"second", "rear"})})),
               HasSubstr("frame.joint.again: interface 'first.front' is joined by 'middle' already"));
-  EXPECT_THAT(refused(bars, described(bars, {})),
+  EXPECT_THAT(joint_refusal(bars, described(bars, {})),
               HasSubstr("frame.part.second: no joint connects this part with 'first'"));
   auto loose            = good;
   loose.kind            = JointKind::bolts;
   loose.bolts.stiffness = {1e8, 1e8, 1e8}; // one bolt, about which the parts turn
-  EXPECT_THAT(refused(bars, described(bars, {loose})), HasSubstr("move freely against the others"));
+  EXPECT_THAT(joint_refusal(bars, described(bars, {loose})), HasSubstr("move freely against the others"));
 }
 
 TEST(Contacts, AreToldToOpenWhereNothingPressesThem)
