@@ -24,9 +24,17 @@ std::string cell_text(const DescribedTable::Cell &cell, std::string (*number)(do
   return std::get<std::string>(cell);
 }
 
+constexpr double near_one = 0.01;
+
+/// Five digits; of a number near one, as a growth per step, five of its distance from one.
 std::string short_number(double x)
 {
-  return std::isnan(x) ? "–" : short_text(x, 5);
+  return std::isnan(x) ? "–" : short_text(x, std::abs(x - 1.) < near_one ? 8 : 5);
+}
+
+bool ends_with(const std::string &text, const std::string &end)
+{
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 } // namespace
@@ -34,8 +42,9 @@ std::string short_number(double x)
 std::string DescribedTable::Column::head() const
 {
   std::string text = name;
-  if (unit == "Hz" && text.size() > 3 && text.substr(text.size() - 3) == "_hz")
-    text.resize(text.size() - 3);
+  for (const auto &[own, suffix] : {std::pair("Hz", "_hz"), std::pair("s", "_s")})
+    if (unit == own && ends_with(text, suffix))
+      text.resize(text.size() - std::string(suffix).size());
   std::replace(text.begin(), text.end(), '_', ' ');
   return unit.empty() ? text : text + " [" + unit + "]";
 }

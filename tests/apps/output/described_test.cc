@@ -76,6 +76,13 @@ TEST(Described, TablesHaveAColumnForEachValue)
   EXPECT_NE(table.html().find("inner value [Hz]"), std::string::npos);
 }
 
+// A growth of 1.000067 per step would be 1 in five digits.
+TEST(Described, NumbersNearOneAreReadByTheirDistanceFromOne)
+{
+  const std::string text = table_of(std::vector<Inner>{{1.0000672}, {2.1234567}}).terminal();
+  EXPECT_EQ(text, "  value [Hz]\n   1.0000672\n      2.1235\n");
+}
+
 TEST(Described, ReferenceListsWhatIsInside)
 {
   std::set<std::string> paths;
