@@ -108,6 +108,7 @@ std::string DescribedTable::terminal() const
       const std::string space(widths[j] - n_letters(line[j]), ' ');
       text += "  " + (columns[j].numeric ? space + line[j] : line[j] + space);
     }
+    text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
   return text;
