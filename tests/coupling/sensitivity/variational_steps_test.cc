@@ -94,7 +94,8 @@ TEST(VariationalSteps, TellWhatTheMethodOfTheRunWouldMakeOfDerivatives)
 std::pair<double, double> of_oscillation(int periods)
 {
   const double period = 2. * M_PI / omega, spacing = 0.8 * period;
-  Machine      machine = oscillator(stiffness), below = oscillator(stiffness), above = oscillator(stiffness);
+  Machine      machine = damped_oscillator(stiffness), below = damped_oscillator(stiffness),
+          above                           = damped_oscillator(stiffness);
   const std::vector<ParameterTwins> twins = {{"q_0", "m", q_0, 1e-6 * q_0, {&below, {}, {}, T}, {&above, {}, {}, T}}};
   VariationalEquation               equation(machine, twins);
   VariationalSteps                  steps(equation, spacing / 20., 1e-12); // which none of them meets
@@ -121,7 +122,8 @@ TEST(VariationalSteps, TellErrorsThatOscillateWithWhatTheyAreOf)
 
 TEST(VariationalSteps, DivideALastStepThatIsAHairLongerThanTheirOwn)
 {
-  Machine machine = oscillator(stiffness), below = oscillator(stiffness), above = oscillator(stiffness);
+  Machine machine = damped_oscillator(stiffness), below = damped_oscillator(stiffness),
+          above                           = damped_oscillator(stiffness);
   const std::vector<ParameterTwins> twins = {{"q_0", "m", q_0, 1e-6 * q_0, {&below, {}, {}, T}, {&above, {}, {}, T}}};
   VariationalEquation               equation(machine, twins);
   constexpr double                  step = 0.02, hair = 1.00005;
