@@ -119,7 +119,8 @@ void describe(Visitor &v, const ExtremeSwing &x)
     "1/(2 time) between the turning points of the swing; null: it does not turn there, or rows are too far apart");
   v("mode", x.mode < 0 ? std::nullopt : std::optional(x.mode + 1), "",
     "number, in the table of modes, of the mode that makes most of the swing; null: none has its shape");
-  v("mode_hz", x.mode_hz, "Hz", "its frequency where the swing turns; null: no states were kept");
+  v("mode_hz", x.mode_hz, "Hz",
+    "its frequency where the swing turns; null: no states were kept, or positions do not tell the force");
   v("share", x.share, "1", "what it makes of the force's change in the swing");
   v("sum_of_shares", x.sum, "1", "over all modes; far from 1: positions alone do not tell the force");
   v("strain_energy_in", x.strain, "", "part with most strain energy of the mode");

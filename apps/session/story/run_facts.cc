@@ -117,11 +117,14 @@ void add_mode(ExtremeSwing &swing, const coupling::Signal &signal, const couplin
 {
   const Eigen::VectorXd shares = swing_changes(signal, machine, there.modes, path) / change;
   Eigen::Index          most   = 0;
-  swing.share                  = shares.maxCoeff(&most);
+  const double          share  = shares.maxCoeff(&most);
   swing.sum                    = shares.sum();
-  swing.mode                   = there.numbers[std::size_t(most)];
-  swing.mode_hz                = there.modes[std::size_t(most)].frequency_hz;
-  swing.strain                 = there.strain(std::size_t(most));
+  if (!(share > 0.))
+    return; // positions tell nothing of the force
+  swing.share   = share;
+  swing.mode    = there.numbers[std::size_t(most)];
+  swing.mode_hz = there.modes[std::size_t(most)].frequency_hz;
+  swing.strain  = there.strain(std::size_t(most));
 }
 
 } // namespace

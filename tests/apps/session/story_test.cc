@@ -252,6 +252,7 @@ TEST(Extremes, OfForcesThatPositionsDoNotTellHaveNoShares)
 {
   const apps::Result press = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   EXPECT_NEAR(extreme_of(press, "M_mot", false).sum, 0., 1e-3);
+  EXPECT_TRUE(std::isnan(extreme_of(press, "F_u", true).share)); // a law of the tool's way
   const apps::Result joints = told(shipped("crank_press_joints.toml"));
   ASSERT_TRUE(joints.story);
   for (const apps::ExtremeSwing &swing : joints.story->extremes)
