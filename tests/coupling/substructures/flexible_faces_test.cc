@@ -144,7 +144,7 @@ TEST(FlexibleFaces, MayBeTurnedInTheirPlane)
     EXPECT_NEAR(turned[j], straight[j], 5e-3 * straight[j]) << j; // diagonals of the cells lie otherwise
 }
 
-std::string refusal(const std::vector<Piece> &bars, const coupling::FrameJoint &joint)
+std::string refusal_of_faces(const std::vector<Piece> &bars, const coupling::FrameJoint &joint)
 {
   try
   {
@@ -162,23 +162,24 @@ TEST(FlexibleFaces, AreRefusedWhereTheyCannotMoveAlike)
   const auto joint = weld("middle", {"first", "front"}, {"second", "rear"});
   auto       other = halves(3);
   make_flexible(other[1], "rear", 2);
-  EXPECT_NE(refusal(other, joint).find("give both coupling = \"flexible\" of one 'degree'"), std::string::npos);
+  EXPECT_NE(refusal_of_faces(other, joint).find("give both coupling = \"flexible\" of one 'degree'"),
+            std::string::npos);
 
   auto tilted           = halves(3);
   tilted[1].placement.Q = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()).toRotationMatrix();
   auto wide             = joint;
   wide.tolerance        = 1.;
-  EXPECT_NE(refusal(tilted, wide).find("parallel planes"), std::string::npos);
+  EXPECT_NE(refusal_of_faces(tilted, wide).find("parallel planes"), std::string::npos);
 
   auto beside = halves(3);
   beside[1].placement.at += 2. * part_width * Eigen::Vector3d::UnitY();
-  EXPECT_NE(refusal(beside, wide).find("lie beside each other"), std::string::npos);
+  EXPECT_NE(refusal_of_faces(beside, wide).find("lie beside each other"), std::string::npos);
 
   auto unjoined = halves(3);
   make_flexible(unjoined[0], "rear", 3);
-  EXPECT_NE(refusal(unjoined, joint).find("no joint holds it"), std::string::npos);
+  EXPECT_NE(refusal_of_faces(unjoined, joint).find("no joint holds it"), std::string::npos);
 
-  EXPECT_NE(refusal(halves(8), joint).find("too few to tell fields of degree 8 apart"), std::string::npos);
+  EXPECT_NE(refusal_of_faces(halves(8), joint).find("too few to tell fields of degree 8 apart"), std::string::npos);
 }
 
 TEST(Contact, NeedsANormalAcrossItsFaces)
@@ -187,9 +188,9 @@ TEST(Contact, NeedsANormalAcrossItsFaces)
   joint.kind      = coupling::JointKind::contact;
   joint.normal    = Eigen::Vector3d::UnitZ();
   const auto bars = halves(1);
-  EXPECT_NE(refusal(bars, joint).find("90 degrees off the normal of 'first.front'"), std::string::npos);
+  EXPECT_NE(refusal_of_faces(bars, joint).find("90 degrees off the normal of 'first.front'"), std::string::npos);
   joint.normal = Eigen::Vector3d::UnitX();
-  EXPECT_EQ(refusal(bars, joint), "");
+  EXPECT_EQ(refusal_of_faces(bars, joint), "");
 }
 
 } // namespace
