@@ -10,6 +10,7 @@
 #include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/values/line_extremes.h"
 #include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/session.h"

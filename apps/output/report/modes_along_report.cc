@@ -5,6 +5,7 @@
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
+#include "apps/output/values/line_extremes.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/output/describe/described.h"
-#include "apps/output/tables/modes_along_table.h"
+#include "apps/output/values/line_extremes.h"
 #include "apps/output/values/periodic_description.h"
 #include "apps/output/values/result.h"
 

@@ -20,12 +20,12 @@ TEST(CompareOption, OfModesWritesPairsAndTheirPicture)
   EXPECT_NE(read(folder.results() / "report.html").find("<section id=\"compared-modes\""), std::string::npos);
 }
 
-TEST(CompareOption, OfARunDrawsBothAndTellsTheStory)
+TEST(CompareOption, OfARunDrawsBothAndTellsItsLoads)
 {
   const Folder      folder("compare_run");
   const std::string press = scene("press_minimal.toml");
   expect_answer(gestell("run " + press + " --set run.step='\"50 us\"' --compare " + press + folder.option()), 0,
-                {"beside press_minimal", "F_u acts from 0.194", "rod with play swings"});
+                {"beside press_minimal", "F_u above 1 % of its peak from 0.194", "cycles through a play"});
   const std::string report = read(folder.results() / "report.html");
   for (const char *id : {"compared-run", "compared-modes", "story"})
     EXPECT_NE(report.find("<section id=\"" + std::string(id) + "\""), std::string::npos) << id;

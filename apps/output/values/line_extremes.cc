@@ -1,0 +1,48 @@
+#include "apps/output/values/line_extremes.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double no_damping_ratio = 1e-12; ///< what rounding leaves
+
+} // namespace
+
+LineExtremes line_extremes(const coupling::ModesAlong &along, std::size_t line)
+{
+  LineExtremes own;
+  own.min = own.least_damping = own.largest_damping = own.least_assurance = std::nan("");
+  for (const coupling::ModesAt &at : along.positions)
+  {
+    if (line >= at.modes.size())
+      continue;
+    const coupling::Mode &mode = at.modes[line];
+    if (std::isnan(own.min) || mode.frequency_hz < own.min)
+    {
+      own.min   = mode.frequency_hz;
+      own.x_min = at.x;
+    }
+    if (mode.frequency_hz > own.max)
+    {
+      own.max   = mode.frequency_hz;
+      own.x_max = at.x;
+    }
+    if (mode.growth > own.growth)
+    {
+      own.growth   = mode.growth;
+      own.x_growth = at.x;
+    }
+    const double damping = std::abs(mode.damping_ratio) < no_damping_ratio ? 0. : mode.damping_ratio;
+    own.least_damping    = std::fmin(own.least_damping, damping); // nan gives way
+    own.largest_damping  = std::fmax(own.largest_damping, damping);
+    if (line < at.assurance.size())
+      own.least_assurance = std::fmin(own.least_assurance, at.assurance[line]);
+  }
+  return own;
+}
+
+} // namespace gestell::apps
