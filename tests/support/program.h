@@ -40,10 +40,10 @@ inline double json_number(const std::string &json, const std::vector<std::string
   std::size_t at = 0;
   for (const std::string &name : path)
   {
-    at = json.find('"' + name + '"', at);
+    at = json.find('"' + name + "\":", at); // as a key, not as a text
     if (at == std::string::npos)
       throw std::invalid_argument("no " + name);
-    at += name.size() + 2;
+    at += name.size() + 3;
   }
   return std::stod(json.substr(json.find_first_of("0123456789-", at)));
 }
