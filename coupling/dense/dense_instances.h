@@ -3,7 +3,8 @@
 #include <Eigen/Dense>
 
 /// Decompositions and products of dense matrices of any size: compiled once, in dense_instances.cc, and not in each of the files
-/// that use them.  Precompiled headers hold this header; a file that does not see it compiles its own and gives the same numbers.
+/// that use them.  Precompiled headers hold this header; a file that does not see it compiles its own, with the same numbers but
+/// for rounding.
 namespace Eigen
 {
 namespace internal
