@@ -54,7 +54,7 @@ void describe(Visitor &v, const MappedInterval &x)
 {
   v("method", x.method, "", "with its parameters");
   v("damping_ratio", x.zeta, "1", "of the mode");
-  v("from_omega_h", x.interval.from, "1", "begin of the interval; 0: grows however small the step");
+  v("from_omega_h", x.interval.from, "1", "start of the interval; 0: grows however small the step");
   v("to_omega_h", x.interval.to, "1", "its end; null: none");
   v("growth_per_step", x.interval.growth, "1", "largest in the interval");
   v("at_omega_h", x.interval.at_omega_h, "1", "where it is largest");

@@ -76,7 +76,7 @@ void describe(Visitor &v, const OrderMeeting &x)
 {
   v("order", x.order, "", "multiple of the speed");
   v("line", x.line + 1, "", "number of the line");
-  v("from", x.begin, "", "begin of the stretch of the coordinate");
+  v("from", x.begin, "", "start of the stretch of the coordinate");
   v("to", x.end, "", "its end");
   v("nearest_at", x.x, "", "coordinate where they are nearest");
   v("frequency_hz", x.frequency_hz, "Hz", "natural frequency there");
@@ -131,7 +131,7 @@ void describe(Visitor &v, const Recurrence &x)
   v("repeats", x.repeats, "", "periods after which it repeats; 0: none up to 16");
   v("exponent", x.exponent, "1/s", "largest Lyapunov exponent");
   v("error", x.error, "1/s", "its standard error");
-  v("periods", x.periods, "", "periods that were looked at");
+  v("periods", x.periods, "", "periods that were examined");
 }
 
 } // namespace gestell::coupling

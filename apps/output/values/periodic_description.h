@@ -46,7 +46,7 @@ void describe(Visitor &v, const DescribedMotion &x)
   v.maybe(!std::isnan(s.share), "share", s.share, "1", "of the starts that led there");
   v("multipliers", multipliers, "1", "Floquet multipliers, real and imaginary part");
   v("signals", by_name(entry.signals, &SignalOrbit::name), "", "each signal over a period");
-  v("initial", initial, "", "by coordinate: value and rate at the begin, as `[start]` takes them");
+  v("initial", initial, "", "by coordinate: value and rate at the start, as `[start]` takes them");
 }
 
 /// A point of the backbone.
@@ -92,7 +92,7 @@ void describe(Visitor &v, const BasinMap &x)
   v("y", PlaneAxis{x.y_name, plane.y_begin, plane.y_end}, "", "second axis");
   v("points", plane.points, "", "starts along each axis");
   v("shares", shares, "1", "of the starts, by number of the motion that they settle to; 0: none of them");
-  v("complete", x.basins.is_complete(), "", "every start was looked at");
+  v("complete", x.basins.is_complete(), "", "every start was examined");
 }
 
 template <class Visitor>

@@ -54,7 +54,7 @@ void describe(Visitor &v, const ModelFacts &x)
   const auto count = [&](const char *name, int n, const char *meaning) { v.maybe(n >= 0, name, n, "", meaning); };
   count("dofs", x.dofs, "coordinates integrated");
   count("interface", x.interface, "coordinates q1 of the frame");
-  count("modes", x.modes, "internal modes kept");
+  count("modes", x.modes, "internal modes retained");
   count("nonlinear", x.nonlinear, "measures of nonlinear elements");
   count("frame_dofs", x.frame_dofs, "coordinates of the unreduced frame");
   count("cells", x.cells, "finite elements");
@@ -70,7 +70,7 @@ void describe(Visitor &v, const ModelFacts &x)
   v.maybe(cells, "rigid_energy", x.frame.rigid_energy, "1",
           "share of elastic energies that does not cancel in a rigid motion of the frame without supports");
   v.maybe(frame, "free_motions", x.free_motions, "", "modes of frequency zero");
-  v.maybe(frame, "free_motion_names", x.frame.free_motions, "", "these motions in words");
+  v.maybe(frame, "free_motion_names", x.frame.free_motions, "", "names of these motions");
   v.maybe(frame, "damping", x.damping, "", "of the frame, a text");
   v.maybe(frame && !x.mesh.empty(), "mesh", x.mesh, "", "what is not known of its mesh");
   v.maybe(frame, "statements", x.statements, "", "what was checked of the frame and holds");
@@ -85,7 +85,7 @@ void describe(Visitor &v, const Request &x)
   v.maybe(x.run.has_value(), "method", x.run ? coupling::method_name(run.method) : "", "", "method of integration");
   v.maybe(x.run.has_value(), "tolerance", unless_zero(run.method.tolerance), "1", "null: the step is fixed");
   v.maybe(x.run.has_value(), "step", unless_zero(run.method.step), "s", "null: the step is controlled");
-  v.maybe(x.run.has_value(), "begin", run.begin, "s", "begin of the run");
+  v.maybe(x.run.has_value(), "begin", run.begin, "s", "start of the run");
   v.maybe(x.run.has_value(), "end", run.end, "s", "end asked for");
   v.maybe(x.run.has_value(), "from", std::max(run.from, run.begin), "s", "where extremes begin to count");
   v.maybe(x.run.has_value(), "events", run.events, "", "events are located");
@@ -205,7 +205,7 @@ template <class Visitor>
 void describe(Visitor &v, const Outcome &x)
 {
   v("method", x.method, "", "that ran");
-  v("begin", x.begin, "s", "begin of the run");
+  v("begin", x.begin, "s", "start of the run");
   v("end", x.end, "s", "end that it reached");
   v("events_located", x.events_located, "", "number of events");
   v("complete", x.complete, "", "the run came to its end");

@@ -144,7 +144,7 @@ void describe(Visitor &v, const PlayEstimate &x)
   v("element", x.element, "", "with play");
   v("signal", x.signal, "", "of its measure");
   v("unit", x.unit, "", "of `amplitude` and `mean`");
-  v("begin", x.begin, "s", "begin of the oscillation");
+  v("begin", x.begin, "s", "start of the oscillation");
   v("end", x.end, "s", "its end");
   v("amplitude", x.amplitude, "", "of the measure");
   v("mean", x.mean, "", "of the measure");

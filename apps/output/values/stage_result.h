@@ -74,7 +74,7 @@ void describe(Visitor &v, const RingingMode &x)
 {
   v("damped_frequency_hz", x.frequency_hz, "Hz", "damped frequency");
   v("damping_ratio", x.damping_ratio, "1", "damping ratio");
-  v("amplitudes", x.amplitudes, "", "by signal, at the begin of the window");
+  v("amplitudes", x.amplitudes, "", "by signal, at the start of the window");
   v("combination", unless_empty(x.combination), "", "of stronger oscillations; null: it is a mode");
   v("linearised", x.linearised, "", "nearest mode of the machine linearised at rest; null: none is near");
 }
@@ -92,7 +92,7 @@ struct Ringing
 template <class Visitor>
 void describe(Visitor &v, const Ringing &x)
 {
-  v("begin", x.begin, "s", "begin of the window");
+  v("begin", x.begin, "s", "start of the window");
   v("end", x.end, "s", "its end");
   v("step", x.step, "s", "between samples");
   v("signals", x.signals, "", "signals that were fitted");
