@@ -262,6 +262,7 @@ void MachineParts::refresh_guards()
                         {elements[e].name, own[i].kind}});
     }
   }
+  find_held_too();
   for (std::size_t i = 0; i < switches.size(); ++i)
     if (is_active(switches[i]))
       guards.push_back({-1,

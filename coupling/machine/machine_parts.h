@@ -146,8 +146,8 @@ struct MachineParts
   std::vector<Load>                   loads;
   std::array<Measure, 3>              acceleration_load; ///< of the bodies for a unit acceleration in x, y, z
 
-  std::map<std::string, Signal>       known_signals;          ///< of an assembled machine: all there are, by path
-  Eigen::VectorXd                     superposed_frequencies; ///< [m] rad/s; empty: it is not in modes
+  std::map<std::string, Signal> known_signals;          ///< of an assembled machine: all there are, by path
+  Eigen::VectorXd               superposed_frequencies; ///< [m] rad/s; empty: it is not in modes
 
   // finished
   std::unique_ptr<LinearBase>  base;
@@ -162,6 +162,8 @@ struct MachineParts
   std::vector<PlacedGuard>     guards; ///< of elements, then of switches
   std::vector<PlacedSwitch>    switches;
   std::vector<HeldMeasure>     held;
+  std::vector<HeldMeasure>     held_too;      ///< measures whose rate follows from those that are held
+  LocalState                   watched_state; ///< of guards: with these rates
   bool                         by_history = false, reads_joints = false;
 
   int  size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
@@ -181,17 +183,18 @@ struct MachineParts
   Vector3                position_of(const std::string &marker) const;
   bool                   moves_with_frame(const Marker &marker) const;
 
-  void   finish();
+  void finish();
   /// Machine::in_modes(), assembled.
   std::unique_ptr<MachineParts> in_modes(const ModalCoordinates &modes) const;
-  void   assemble_dense(int n);
-  void   assemble_sparse(int n);
-  void   assemble_mechanism(int n);
-  bool   has_joints() const;
-  void   place_elements(int n);
-  void   refresh_guards();
-  void   find_stopped(const LocalState &state);
-  double held_rate(int measure) const; ///< of a measure that sticks
+  void                          assemble_dense(int n);
+  void                          assemble_sparse(int n);
+  void                          assemble_mechanism(int n);
+  bool                          has_joints() const;
+  void                          place_elements(int n);
+  void                          refresh_guards();
+  void                          find_stopped(const LocalState &state);
+  void                          find_held_too();
+  double                        held_rate(int measure) const; ///< of a measure that sticks
   /// lambda . G u' with G u' = -rate, as the joint prescribes it: what drives it feeds.
   double prescribed_power(const PlacedElement &joint, const LocalState &state) const;
   /// -p . u' - dE/dt of its law; forces of the state carry what an iteration has left.

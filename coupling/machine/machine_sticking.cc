@@ -1,6 +1,7 @@
 #include "coupling/machine/machine_parts.h"
 
 #include <algorithm>
+#include <set>
 
 namespace gestell::coupling
 {
@@ -150,6 +151,52 @@ void MachineParts::find_stopped(const LocalState &state)
       const Eigen::VectorXd own = rows.of(part);
       history[part.stop]        = !by_joints(own) && span.contains(own) ? 1. : 0.;
     }
+}
+
+/**
+ * Rates of measures whose directions are combinations of those that are held, w = W_H c: w . q' = c . rates.  The
+ * motion has them but for what an iteration leaves, whose sign must not throw a guard.  What would come to stick too is
+ * left out: how such elements share the force is not defined, which the step tells.
+ */
+void MachineParts::find_held_too()
+{
+  held_too.clear();
+  if (held.empty())
+    return;
+  std::set<int> sticking;
+  for (const HeldMeasure &h : held)
+    sticking.insert(h.measure);
+  for (const PlacedGuard &own : guards)
+    if (own.guard.kind == "stick")
+      sticking.insert(placed[own.element].first_measure);
+  std::map<Eigen::Index, Eigen::Index> places; // of the coordinates that they move
+  for (const HeldMeasure &h : held)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, h.measure); it; ++it)
+      places.emplace(it.row(), Eigen::Index(places.size()));
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(places.size()), Eigen::Index(held.size()));
+  Eigen::VectorXd rates(columns.cols()), w(columns.rows());
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+  {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, held[i].measure); it; ++it)
+      columns(places.at(it.row()), i) = it.value();
+    rates[i] = held[i].rate;
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  for (int j = 0; j < W.cols(); ++j)
+  {
+    bool others = sticking.count(j) > 0;
+    w.setZero();
+    for (Eigen::SparseMatrix<double>::InnerIterator it(W, j); it && !others; ++it)
+      if (const auto place = places.find(it.row()); place != places.end())
+        w[place->second] = it.value();
+      else
+        others = it.value() != 0.;
+    if (others)
+      continue;
+    const Eigen::VectorXd c = qr.solve(w);
+    if ((columns * c - w).norm() <= Span::dependent * w.norm())
+      held_too.push_back({j, rates.dot(c)});
+  }
 }
 
 } // namespace gestell::coupling

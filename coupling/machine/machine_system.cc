@@ -159,9 +159,14 @@ int MachineEvents::n_guards() const
   return static_cast<int>(parts_.guards.size());
 }
 
-void MachineEvents::guard_values(const LocalState &state, Eigen::VectorXd &g) const
+void MachineEvents::guard_values(const LocalState &motion, Eigen::VectorXd &g) const
 {
-  int first = 0;
+  if (!parts_.held_too.empty())
+    parts_.watched_state = motion;
+  for (const HeldMeasure &h : parts_.held_too)
+    parts_.watched_state.v[h.measure] = h.rate;
+  const LocalState &state = parts_.held_too.empty() ? motion : parts_.watched_state;
+  int               first = 0;
   for (const auto &part : parts_.placed)
   {
     if (!part.branches || parts_.is_stopped(part))

@@ -35,10 +35,15 @@ INSTANTIATE_TEST_SUITE_P(Accelerations, FoundMachines, ::testing::Values(2300, 5
 
 /// What sticks from the start on, with the average force; a body held against a force while a switch looks at it.
 INSTANTIATE_TEST_SUITE_P(HeldFromTheStart, FoundMachines, ::testing::Values(6070, 7149, 7198));
+/// A formula of the rate that dry friction holds: rounding must not throw its kink.
+INSTANTIATE_TEST_SUITE_P(HeldByAnother, FoundMachines, ::testing::Values(8712));
+/// Gears carry a given speed to the body with play: its start fits.
+INSTANTIATE_TEST_SUITE_P(PlayBehindGears, FoundMachines, ::testing::Values(9452));
 /// A mode that hardly turns in a step and grows by rounding.
 INSTANTIATE_TEST_SUITE_P(Guard, FoundMachines, ::testing::Values(7021));
-/// Weight moves it further than its scale says; extremes between fixed steps; a play that the start closes.
-INSTANTIATE_TEST_SUITE_P(Judge, FoundMachines, ::testing::Values(6015, 7041, 7122));
+/// Weight moves it further than its scale says; extremes between fixed steps; a play that the start
+/// closes; a mode that nothing moves; friction within the tolerance; a piston at its end.
+INSTANTIATE_TEST_SUITE_P(Judge, FoundMachines, ::testing::Values(6015, 7041, 7122, 8275, 8666, 8884, 8999));
 
 } // namespace
 } // namespace gestell::tests

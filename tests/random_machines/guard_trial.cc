@@ -97,12 +97,25 @@ private:
     return !told.run.failure.empty() || !(grown < factor);
   }
 
+  /// A body that nothing moves holds modes that no motion shows.
+  static bool has_body_at_rest(const Told &told)
+  {
+    return std::any_of(told.run.signals.begin(), told.run.signals.end(),
+                       [](const coupling::SignalSummary &signal)
+                       {
+                         const std::string quantity = signal.name.substr(signal.name.rfind('.') + 1);
+                         return (quantity == "speed" || quantity == "velocity") && signal.min == 0. && signal.max == 0.;
+                       });
+  }
+
   void refused(double radius)
   {
     // The mode may begin with a millionth of the motion.
     const double steps = 3. * std::log(1e6 * growth) / std::log(radius);
-    if (steps < most_steps && !grew(forced(options_, std::max(100., steps)), growth).value_or(true))
-      find("guard refused what does not grow", options_, radius, 1.);
+    if (steps < most_steps)
+      if (const Told told = forced(options_, std::max(100., steps));
+          !grew(told, growth).value_or(true) && !has_body_at_rest(told))
+        find("guard refused what does not grow", options_, radius, 1.);
     coupling::MethodOptions offered = options_;
     offered.step                    = coupling::StabilityGuard(spectrum_, options_).largest_stable_step();
     if (!(offered.step > 0.))

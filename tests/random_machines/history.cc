@@ -9,7 +9,7 @@ namespace gestell::tests
 
 namespace
 {
-constexpr double tolerance = 1e-8; ///< of controlled steps
+constexpr double finest = 1e-8; ///< tolerance to which anything is judged
 
 /// Of fixed steps, fifty in the fastest period: inside them forces and accelerations are straight lines, which miss
 /// (omega h)^2/8 of a swing, while what is told of extremes comes from the ends.
@@ -31,8 +31,9 @@ std::string at_time(const std::string &what, double t)
 } // namespace
 
 History::History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary,
-                 bool accurate)
-    : machine_(machine), way_(way), dense_(dense), summary_(summary), accurate_(accurate)
+                 double tolerance)
+    : machine_(machine), way_(way), dense_(dense), summary_(summary), accurate_(tolerance > 0.),
+      tolerance_(std::max(tolerance, finest))
 {
 }
 
@@ -133,7 +134,7 @@ void History::extreme(int column, double sign, double told, double t_told)
   for (int i = beside - 2; i <= beside + 3; ++i)
     step = std::max(step, std::min(std::abs(value(i) - value(i - 1)), std::abs(value(i + 1) - value(i))));
   const double beyond = sign * told - std::max(value(beside), value(beside + 1));
-  const double noise  = (accurate_ ? 1e-6 : 1e-4) * size + tolerance * size_of(machine_, name);
+  const double noise  = (accurate_ ? 1e-6 : 1e-4) * size + tolerance_ * size_of(machine_, name);
   if (beyond > 2. * step + noise && !between_rows(t_told))
     find(beyond_history, at_time(what + ", told", t_told), told, sign * value(beside));
 }
@@ -143,7 +144,7 @@ void History::frictions()
   for (const FrictionFact &fact : machine_.frictions)
   {
     const int    force = dense_.column(fact.name + ".force"), rate = dense_.column(fact.name + ".rate");
-    const double none = (accurate_ ? 1e-6 : 1e-5) * fact.holding; // of forces that are solved for
+    const double none = (accurate_ ? std::max(1e-6, tolerance_) : 1e-5) * fact.holding; // of forces that are solved for
     Finding      worst{"friction above its limit", way_, "", 0., 0.}, off{"friction off its law", way_, "", 0., 0.};
     for (int i = 0; i < dense_.n_rows(); ++i)
     {
@@ -188,7 +189,7 @@ void History::contacts()
     {
       const double side = fact.side ? fact.side : std::copysign(1., dense_.at(i, motion));
       if (const double pull = -side * dense_.at(i, force);
-          pull > std::max((accurate_ ? tolerance : 1e-6) * size, worst.value))
+          pull > std::max((accurate_ ? tolerance_ : 1e-6) * size, worst.value))
         worst = {worst.kind, way_, at_time(fact.name, dense_.at(i, 0)), pull, 0.};
     }
     if (!worst.what.empty())
@@ -224,7 +225,7 @@ bool History::rests() const
 {
   for (const coupling::SignalSummary &signal : dense_.run.signals)
     if (const std::string last = signal.name.substr(signal.name.rfind('.') + 1); last == "velocity" || last == "speed")
-      if (std::max(signal.max, -signal.min) > tolerance * size_of(machine_, signal.name))
+      if (std::max(signal.max, -signal.min) > tolerance_ * size_of(machine_, signal.name))
         return false;
   return true;
 }
@@ -235,8 +236,10 @@ void History::energy()
     return;
   const auto  &energy = dense_.run.energy;
   const double size   = std::max(energy.exchanged, at_rest * at_rest * machine_.force * machine_.length);
-  if (accurate_ && energy.residual > 1e-3 * size)
-    find("energy open", "residual", energy.residual, 1e-3 * size);
+  // Each step may err by its tolerance.
+  const double open = std::max(1e-3, tolerance_ * double(dense_.run.work.steps)) * size;
+  if (accurate_ && energy.residual > open)
+    find("energy open", "residual", energy.residual, open);
   const int dissipated = dense_.column("energy dissipated"), input = dense_.column("energy input");
   double    most = 0., back = 0., t = 0.;
   for (int i = 0; i < dense_.n_rows(); ++i)

@@ -14,8 +14,9 @@ class History
 public:
   /// @param dense    with many rows
   /// @param summary  of the same run with few rows, whose extremes are judged
-  /// @param accurate with a tolerance, not with fixed steps
-  History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary, bool accurate);
+  /// @param tolerance  of controlled steps; 0: steps are fixed
+  History(const RandomMachine &machine, const std::string &way, const Told &dense, const Told &summary,
+          double tolerance);
 
   std::vector<Finding> judge();
 
@@ -37,6 +38,7 @@ private:
   std::string          way_;
   const Told          &dense_, &summary_;
   bool                 accurate_;
+  double               tolerance_;
   std::vector<Finding> findings_;
 };
 

@@ -94,6 +94,14 @@ bool has_cause(const RandomMachine &machine, const std::string &warning, const T
   return false;
 }
 
+/// A piston at the end of its stroke: its law ends there, which the run tells.
+bool leaves_its_law(const Told &told)
+{
+  return std::any_of(told.run.warnings.begin(), told.run.warnings.end(),
+                     [](const std::string &warning)
+                     { return warning.find("the end of its stroke") != std::string::npos; });
+}
+
 /// Of order 2 for a way of omega h in a step: (omega h)^3/4.5 <= tolerance omega h.  1e-7, or more where that would
 /// take too many steps.
 double tolerance_of_order_2(double way)
@@ -114,6 +122,8 @@ public:
               exact     = {"exact 1e-8", controlled("exact", 4, 1e-8)},
               low_order = {"bdf to order 2", controlled("bdf", 2, tolerance_of_order_2(machine_.end * fastest()))};
     const Motion bdf    = computed(reference, true);
+    if (leaves_law_)
+      return verdict_; // of that machine no method knows more
     fixed_steps(bdf, reference, "bdf 2 fixed", fixed("bdf", 2));
     if (machine_.twin)
       compare_with_twin(bdf, reference);
@@ -161,7 +171,8 @@ private:
       find({"refused", way.name, dense.refused});
     if (dense.slow)
       find({"slow", way.name, "at t", dense.run.rows[(dense.n_rows() - 1) * dense.run.columns.size()], machine_.end});
-    if (!dense.run.failure.empty())
+    leaves_law_ = !dense.run.failure.empty() && leaves_its_law(dense);
+    if (!dense.run.failure.empty() && !leaves_law_)
       find({"failed", way.name, dense.run.failure});
     if (!dense.complete())
       return {};
@@ -177,10 +188,12 @@ private:
   std::vector<Finding> judged(const Way &way, const Told &dense, bool accurate)
   {
     const Told                 summary = run(way.method, 1);
-    const std::vector<Finding> found   = History(machine_, way.name, dense, summary, accurate).judge();
+    const std::vector<Finding> found =
+        History(machine_, way.name, dense, summary, accurate ? way.method.tolerance : 0.).judge();
     if (std::none_of(found.begin(), found.end(), [](const Finding &f) { return f.kind == beyond_history; }))
       return found;
-    return History(machine_, way.name, run(way.method, 32 * dense_rows), summary, accurate).judge();
+    return History(machine_, way.name, run(way.method, 32 * dense_rows), summary, accurate ? way.method.tolerance : 0.)
+        .judge();
   }
 
   /// Histories must agree as well as either agrees with itself at a tenth of its tolerance, and as well as the machine
@@ -302,6 +315,7 @@ private:
   Verdict               verdict_;
   std::optional<double> sensitivity_;             ///< once it is known
   bool                  too_long_        = false; ///< fixed steps of the last run: it lost the motion
+  bool                  leaves_law_      = false; ///< of an element, at the end of the last run
   double                last_cpu_s_      = 0.;
   bool                  may_be_too_long_ = true; ///< then nothing else is judged, and shorter ones are tried
 };

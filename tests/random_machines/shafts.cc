@@ -177,9 +177,11 @@ private:
       draft_.number("mass", carried_);
       if (dice_.chance(0.8))
       {
-        // The matrix of masses stays positive.
-        U   = draft_.number("unbalance", std::sqrt(J * (m_frame_ + carried_)) * dice_.log_between(0.01, 0.4));
-        psi = draft_.number("unbalance_phase", dice_.between(0., 6.));
+        // The matrix of masses stays positive, and about its axis the mass has no more inertia than J.
+        const double share = dice_.log_between(0.01, 0.4);
+        U                  = draft_.number("unbalance",
+                                           std::sqrt(J) * std::min(std::sqrt(m_frame_ + carried_) * share, 0.95 * std::sqrt(carried_)));
+        psi                = draft_.number("unbalance_phase", dice_.between(0., 6.));
       }
     }
     const int   kind = i == 0 ? dice_.whole(4) : dice_.whole(5);

@@ -1,5 +1,7 @@
 #include "coupling/machine/configuration/plays.h"
 
+#include "coupling/machine/configuration/dense_matrices.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -73,19 +75,50 @@ double free_threshold(const Eigen::MatrixXd &P, double whole)
   return part > least ? least / part : 1.;
 }
 
+namespace
+{
+
+/// A motion that the joints allow moves the play while the frame and all coordinates whose speeds are given stand
+/// still.
+bool is_free_to_move(const Machine &machine, const std::vector<char> &v_given, const LocalState &state,
+                     const Eigen::MatrixXd &play)
+{
+  std::vector<int> free;
+  for (int i = machine.model().n_frame(); i < machine.size(); ++i)
+    if (!v_given[i])
+      free.push_back(i);
+  const int       n_c = machine.joints().n_rows(), n_f = int(free.size());
+  Eigen::MatrixXd own(play.rows(), n_f), joints(n_f, n_c);
+  for (int i = 0; i < n_f; ++i)
+    own.col(i) = play.col(free[i]);
+  if (n_c == 0 || n_f == 0)
+    return own.norm() > rounding * play.norm();
+  ConstraintJacobian G(machine.joints().blocks());
+  Eigen::VectorXd    g = Eigen::VectorXd::Zero(n_c);
+  machine.joints().constraints(state, g, G);
+  const Eigen::MatrixXd rows = joint_jacobian(machine, G);
+  for (int i = 0; i < n_f; ++i)
+    joints.row(i) = rows.col(free[i]);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(joints);
+  const Eigen::MatrixXd                             Q = qr.householderQ();
+  return (own * Q.rightCols(n_f - qr.rank())).norm() > rounding * play.norm();
+}
+
+} // namespace
+
 std::vector<std::string> closing_warnings(const Machine &machine, const std::vector<char> &v_given,
                                           const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  const double             turning = fastest_turning(machine, v);
+  const double turning = fastest_turning(machine, v);
+  LocalState   state;
+  state.resize(machine);
+  machine.gather(0., q, v, Eigen::VectorXd::Zero(machine.size()), state);
   std::vector<std::string> warnings;
   for (const PlacedPlay &own : plays(machine, q, v))
   {
     const double speed = own.rate().norm();
-    bool         open  = false; // something whose speed is not given moves it
-    for (int i = machine.model().n_frame(); i < machine.size(); ++i)
-      open = open || (!v_given[i] && !own.G.col(i).isZero(0.));
-    if (!own.play.both || !(own.play.gap > 0.) || !open || speed <= crossings * own.play.gap * turning ||
-        speed <= rounding * v.norm())
+    if (!own.play.both || !(own.play.gap > 0.) || speed <= crossings * own.play.gap * turning ||
+        speed <= rounding * v.norm() || !is_free_to_move(machine, v_given, state, own.G))
       continue;
     std::ostringstream text;
     text << "the start closes the play of \"" << own.name << "\" at " << std::setprecision(3) << speed

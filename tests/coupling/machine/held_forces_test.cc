@@ -3,6 +3,7 @@
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/propagation/force_rule.h"
 #include "mechanism/elements/coulomb_friction.h"
+#include "mechanism/elements/formula_force.h"
 #include "mechanism/elements/spring_damper.h"
 #include "tests/support/methods.h"
 
@@ -200,6 +201,38 @@ TEST(HeldForces, OfADamperAreKnownInTheShortestSteps)
     driver.advance();
   EXPECT_NEAR(integrator->instant().v[0], 0., 1e-16 * v);            // rounding
   EXPECT_NEAR(integrator->local().p[1], -d * v, 5. * h * d * d * v); // v falls by d v/m in a second
+}
+
+// Kinks of |v| where v is a combination of rates that are held look at these rates, not at what an iteration leaves of
+// them; where v is free, at v itself.
+TEST(HeldForces, KeepGuardsOfOtherElementsFromRounding)
+{
+  using mechanism::Formula, mechanism::FormulaForce;
+  const auto drag =
+      std::make_shared<FormulaForce>(FormulaForce::Parameters{-2. * abs(Formula::variable(FormulaForce::rate))});
+  MachineModel model;
+  const int    a = model.add_slider("a", {1., 0., 0.}, 1., "ground"),
+            b    = model.add_slider("b", {1., 0., 0.}, 1., "ground"),
+            c    = model.add_slider("c", {1., 0., 0.}, 1., "ground");
+  model.attach("on c", drag, {{{c, 1.}}});
+  model.attach("on both", drag, {{{a, 3.}, {b, -1.}}});
+  model.attach("brake between", dry(1., 1.), {{{a, 1.}, {b, -1.}}});
+  model.attach("brake of b", dry(1., 1.), {{{b, 2.}}});
+  Machine    machine(std::move(model));
+  LocalState state;
+  state.resize(machine);
+  const auto gather = [&](const Vector &v) { machine.gather(0., Vector::Zero(3), v, Vector::Zero(3), state); };
+  gather(Vector::Zero(3));
+  machine.events().start(state);
+  ASSERT_EQ(machine.forces().held().size(), 2u);
+  Vector g(machine.events().n_guards());
+  for (const double left : {-1e-17, 1e-17})
+  {
+    gather(Vector::Constant(3, left));
+    machine.events().guard_values(state, g);
+    EXPECT_EQ(g[0], left);
+    EXPECT_EQ(g[1], 0.);
+  }
 }
 
 } // namespace
