@@ -68,7 +68,7 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
                              &middle_[0], &middle_[1], &middle_[2], &end_[0], &end_[1], &end_[2]})
     x->setZero(size);
   for (Eigen::VectorXd *x :
-       {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_, &no_v_})
+       {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_, &a_inside_, &no_v_})
     x->setZero(n_);
   no_rate_.setZero(n_u_);
   dp_du_.setZero(n_u_, n_u_);
@@ -320,12 +320,30 @@ void BdfControlled::interpolate(double t, LocalState &state) const
   differences_.at(s, degree, 2 * n_ + 2 * n_u_, state.a);
   differences_.at(s, degree, 2 * n_ + 3 * n_u_, state.p);
   differences_.at(s, degree, 2 * n_ + 4 * n_u_, state.lambda);
+  if (started_ && n_c_ > 0 && consistent_ && system_.joints().wants_multipliers())
+    return solve_inside(t, state);
   if (!finds_held())
     return;
   // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
   differences_.at(s, degree, 0, q_inside_);
   differences_.at(s, degree, n_, v_inside_);
   consistent_->hold(q_inside_, v_inside_, state, work_);
+}
+
+/// Three instants of a start give the forces of joints a parabola, its motion a quintic: they follow from the motion.
+void BdfControlled::solve_inside(double t, LocalState &state) const
+{
+  IntegrationWork work; // of looking, not of the step
+  interpolate_part(t, 0, n_, q_inside_, v_inside_);
+  inside_ = state;
+  try
+  {
+    consistent_->solve(q_inside_, v_inside_, a_inside_, inside_, work);
+    state = inside_;
+  }
+  catch (const ConvergenceFailure &) // the parabola stays
+  {
+  }
 }
 
 void BdfControlled::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const

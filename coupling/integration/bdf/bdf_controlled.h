@@ -113,6 +113,7 @@ private:
   bool               is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
   bool               has_consistent();
   bool               finds_held() const;
+  void               solve_inside(double t, LocalState &state) const;
   void               find_implied(Eigen::VectorXd &z, double t);
   void               keep_forces(Eigen::VectorXd &z) const;
   void               close_joints();
@@ -168,7 +169,8 @@ private:
   mutable bool                     now_known_  = false;
   bool                             load_known_ = false;
   Eigen::VectorXd                  f_t_, f_, h_q_, h_v_, x_, product_;
-  mutable Eigen::VectorXd          q_inside_, v_inside_;
+  mutable Eigen::VectorXd          q_inside_, v_inside_, a_inside_;
+  mutable LocalState               inside_;
   Eigen::VectorXd                  no_v_, no_rate_; ///< zeros, for errors of positions alone [n], [n_u]
 };
 
