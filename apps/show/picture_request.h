@@ -22,6 +22,7 @@ struct PictureSeries
   std::string               caption; ///< "{t}" stands for the time, "{times}" the enlargement, "{frequency}" a mode's
   std::vector<PictureFrame> frames;
   bool                      swings = false; ///< one frame that is drawn over a cycle, of a mode
+  bool                      rests  = false; ///< without its displacements
 };
 
 struct PictureRequest

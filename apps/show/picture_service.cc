@@ -159,8 +159,11 @@ public:
       // of the frame; of a mode, which has no size, of all that moves
       most = std::max(most, largest_displacement(series.swings ? parts : Parts{parts.front()}));
     }
+    if (series.rests)
+      most = 0.;
     const double size  = diagonal(box);
-    double       times = series.swings               ? mode_in_files
+    double       times = series.rests                ? 0.
+                         : series.swings             ? mode_in_files
                          : request_.enlargement > 0. ? request_.enlargement
                          : most > 0. && size > 0.    ? round_number(shown_size * size / most)
                                                      : 1.;
@@ -218,7 +221,7 @@ private:
       const Parts         parts = read_parts(frame);
       tell(series, static_cast<double>(k) / static_cast<double>(series.frames.size()));
       const auto image =
-          renderer_.draw(parts, times, most, caption(series, frame, parts, times), Renderer::Sizes::told);
+          renderer_.draw(parts, times, most, caption(series, frame, parts, times), Renderer::Sizes::known);
       char digits[32];
       std::snprintf(digits, sizeof digits, "%05zu", k);
       write(one ? series.name + ".png" : series.name + '/' + series.name + "_" + digits + ".png", image);

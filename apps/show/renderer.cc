@@ -1,6 +1,6 @@
 #include "apps/show/renderer.h"
 
-#include "apps/output/values/body_colours.h"
+#include "apps/output/values/colours.h"
 
 #include <vtkActor.h>
 #include <vtkActor2DCollection.h>
@@ -37,23 +37,18 @@ namespace gestell::apps
 namespace
 {
 
-constexpr const char *displacement = "displacement [m]";
+constexpr const char *displacement = "displacement [m]", *stress = "von Mises stress [Pa]";
 
-/// Dark blue to yellow, as in the report.
-vtkSmartPointer<vtkLookupTable> displacement_colours(double most)
+/// From 0 to `most`; of vectors their length counts.
+vtkSmartPointer<vtkLookupTable> field_colours(double most)
 {
-  const double stops[5][3] = {{64, 67, 135}, {42, 120, 142}, {34, 168, 132}, {122, 209, 81}, {253, 231, 37}};
   vtkSmartPointer<vtkLookupTable> table = vtkSmartPointer<vtkLookupTable>::New();
   constexpr int                   n     = 64;
   table->SetNumberOfTableValues(n);
   for (int i = 0; i < n; ++i)
   {
-    const double at = 4. * i / (n - 1);
-    const int    k  = std::min(static_cast<int>(at), 3);
-    double       c[3];
-    for (int d = 0; d < 3; ++d)
-      c[d] = (stops[k][d] + (at - k) * (stops[k + 1][d] - stops[k][d])) / 255.;
-    table->SetTableValue(i, c[0], c[1], c[2]);
+    const Colour c = scale_colour(i / (n - 1.));
+    table->SetTableValue(i, c[0] / 255., c[1] / 255., c[2] / 255.);
   }
   table->SetVectorModeToMagnitude();
   table->SetTableRange(0., most > 0. ? most : 1.);
@@ -71,6 +66,13 @@ vtkSmartPointer<vtkLookupTable> bodies_table(int n)
   }
   table->SetTableRange(1., std::max(n, 2));
   return table;
+}
+
+/// Of a frame under stress the largest value away from rigid surfaces, which ends the colours; 0: of another.
+double largest_stress(vtkPolyData *part)
+{
+  vtkDataArray *most = part->GetFieldData()->GetArray("largest stress [Pa]");
+  return most && part->GetPointData()->GetArray(stress) ? most->GetTuple1(0) : 0.;
 }
 
 vtkStringArray *names_of(vtkPolyData *part)
@@ -190,20 +192,24 @@ void Renderer::add_part(vtkPolyData *part, double enlargement, double most)
     mapper->SelectColorArray("body");
     mapper->SetLookupTable(bodies_table(static_cast<int>(names->GetNumberOfValues())));
   }
-  else
+  else if (const double top = largest_stress(part); top > 0. || most > 0.)
   {
     mapper->SetScalarModeToUsePointFieldData();
-    mapper->SelectColorArray(displacement);
-    mapper->SetLookupTable(displacement_colours(most));
-    bar_->SetLookupTable(displacement_colours(1e3 * most));
+    mapper->SelectColorArray(top > 0. ? stress : displacement);
+    mapper->SetLookupTable(field_colours(top > 0. ? top : most));
+    bar_->SetTitle(top > 0. ? "stress [MPa]" : "frame [mm]");
+    bar_->SetLookupTable(field_colours(top > 0. ? 1e-6 * top : 1e3 * most));
   }
+  else
+    mapper->ScalarVisibilityOff();
   mapper->UseLookupTableScalarRangeOn();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetInterpolationToFlat();
   actor->GetProperty()->SetPointSize(10.);
+  actor->GetProperty()->SetColor(frame_colour[0] / 255., frame_colour[1] / 255., frame_colour[2] / 255.);
   if (!names)
-    actor->GetProperty()->SetOpacity(part->GetNumberOfPolys() > 0 ? .55 : 1.);
+    actor->GetProperty()->SetOpacity(part->GetNumberOfPolys() > 0 && !(largest_stress(part) > 0.) ? .55 : 1.);
   scene_->AddActor(actor);
 
   vtkNew<vtkFeatureEdges> edges;
@@ -250,7 +256,7 @@ vtkSmartPointer<vtkImageData> Renderer::draw(const Parts &parts, double enlargem
   }
   caption_->SetInput(caption.c_str());
   scene_->AddActor2D(caption_);
-  if (has_frame && most > 0. && sizes == Sizes::told)
+  if (has_frame && most > 0. && sizes == Sizes::known)
     scene_->AddActor2D(bar_);
   scene_->ResetCameraClippingRange();
   window_->Render();

@@ -35,10 +35,10 @@ public:
   /// Looks so that the box [xmin, xmax, ymin, ...; m] fills the picture.
   void look_at(const double *box);
 
-  /// Whether displacements have a size, which a bar of colours tells; those of modes have none.
+  /// Whether displacements have a size, which a bar of colours shows; those of modes have none.
   enum class Sizes
   {
-    told,
+    known,
     unknown
   };
 

@@ -114,6 +114,14 @@ void add_modes(const std::vector<PictureFrame> &modes, const std::string &name, 
     series.push_back({name + "_" + std::to_string(j + 1), words + " {t}: {frequency}", {modes[j]}, true});
 }
 
+void add_stresses(const std::vector<PictureFrame> &instants, std::vector<PictureSeries> &series)
+{
+  for (std::size_t k = 0; k < instants.size(); ++k)
+    series.push_back({"stress_" + std::to_string(k + 1),
+                      "Equivalent stress at t = {t} s, displacements {times} times",
+                      {instants[k]}});
+}
+
 } // namespace
 
 std::vector<PictureFrame> read_collection(const fs::path &pvd)
@@ -160,12 +168,19 @@ std::vector<PictureSeries> pictures_of(const fs::path &results, std::size_t most
     refuse(results, "is no folder of results; name the folder that `gestell run` or `gestell modes` wrote");
   const auto motion = collection_or_nothing(results / "motion.pvd");
 
+  const auto coupled = collection_or_nothing(results / "coupled_modes.pvd");
+
   std::vector<PictureSeries> series;
+  if (!motion.empty())
+    series.push_back({"machine", "The machine at t = {t} s", {motion.front()}, false, true});
+  else if (!coupled.empty())
+    series.push_back({"machine", "The machine where its modes are taken", {coupled.front()}, false, true});
   if (const auto t = peak_time(results); t && !motion.empty())
     series.push_back(at_peak(motion, *t));
   if (!motion.empty())
     series.push_back({"motion", "t = {t} s, displacements {times} times", motion});
-  add_modes(collection_or_nothing(results / "coupled_modes.pvd"), "mode", "Coupled mode", most_modes, series);
+  add_stresses(collection_or_nothing(results / "stress.pvd"), series);
+  add_modes(coupled, "mode", "Coupled mode", most_modes, series);
   add_modes(collection_or_nothing(results / "frame_modes.pvd"), "frame_mode", "Mode of the frame", most_modes, series);
   if (series.empty())
     refuse(results,

@@ -81,18 +81,20 @@ int show(const ShowOptions &options)
 Command show_command()
 {
   const auto own = std::make_shared<ShowOptions>();
-  return {"show",
-          "draw a result: the machine at its peak, its motion, its modes, as PNG pictures and films (APNG, OGV)",
-          {"gestell show results/press", "gestell show results/press --no-films --times 500"},
-          CommandInput::none,
-          {{"DIR", &own->folder, "folder that `gestell run` or `gestell modes` wrote"},
-           {"-o,--output", &own->pictures, "folder for the pictures (default DIR/pictures)"},
-           CommandOption{"--times", &own->times, "enlargement of displacements (default: a round number)"}.above_zero(),
-           CommandOption{"--modes", &own->modes, "modes of each kind (default 6)"}.above_zero(),
-           CommandOption{"--width", &own->width, "of a picture in pixels (default 1000)"}.above_zero(),
-           {"--films,!--no-films", &own->films, "films of the motion and of the modes, beside pictures"},
-           {"--quiet", &own->quiet, "no progress on standard error"}},
-          [own](const CommonOptions &) { return show(*own); }};
+  return {
+      "show",
+      "draw a result: the machine at its start and its peak, its motion, stresses and modes, as PNG pictures and films "
+      "(APNG, OGV)",
+      {"gestell show results/press", "gestell show results/press --no-films --times 500"},
+      CommandInput::none,
+      {{"DIR", &own->folder, "folder that `gestell run` or `gestell modes` wrote"},
+       {"-o,--output", &own->pictures, "folder for the pictures (default DIR/pictures)"},
+       CommandOption{"--times", &own->times, "enlargement of displacements (default: a round number)"}.above_zero(),
+       CommandOption{"--modes", &own->modes, "modes of each kind (default 6)"}.above_zero(),
+       CommandOption{"--width", &own->width, "of a picture in pixels (default 1000)"}.above_zero(),
+       {"--films,!--no-films", &own->films, "films of the motion and of the modes, beside pictures"},
+       {"--quiet", &own->quiet, "no progress on standard error"}},
+      [own](const CommonOptions &) { return show(*own); }};
 }
 
 } // namespace gestell::apps

@@ -154,4 +154,29 @@ Result with_stress(Result result)
   return result;
 }
 
+coupling::MeshReport chequered(int n, int m)
+{
+  coupling::MeshReport report;
+  const int            k = n * m;
+  for (int j = 0; j <= k; ++j)
+    for (int i = 0; i <= k; ++i)
+      report.picture.points.push_back({double(i) / k, double(j) / k, 0.});
+  for (int j = 0; j < k; ++j)
+    for (int i = 0; i < k; ++i)
+    {
+      const int a = j * (k + 1) + i;
+      report.picture.triangles.push_back({a, a + 1, a + k + 2});
+      report.picture.triangles.push_back({a, a + k + 2, a + k + 1});
+      report.picture.face.insert(report.picture.face.end(), 2, j / m * n + i / m);
+    }
+  for (int face = 0; face < n * n; ++face)
+  {
+    report.surfaces.push_back(
+        {face + 1, face == 3 ? "</script>" : "", "plane", "box = {}\n", 1. / (n * n), {}, {1., 1., 0.}, {}});
+    report.surfaces.back().kind = "plane";
+  }
+  report.unit = {1e-3, "mm"};
+  return report;
+}
+
 } // namespace gestell::apps

@@ -1,6 +1,5 @@
 #include "apps/output/charts/mode_charts.h"
 
-#include "apps/output/pictures/skin_picture.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
@@ -52,18 +51,6 @@ std::string bar_chart(const std::string &title, const std::vector<Bar> &bars, co
   return svg + svg_line("axis", zero, top, zero, bottom) + svg_text(10., bottom + 20., note, "small") + "</svg>\n";
 }
 
-std::string heading(std::size_t j, const coupling::Mode &mode)
-{
-  return "Mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz" +
-         (mode.growth > 0. ? ", grows by exp(" + short_text(mode.growth, 3) + " t/s)" : "");
-}
-
-std::string damping_text(const coupling::Mode &mode)
-{
-  return std::isnan(mode.damping_ratio) ? "does not vibrate"
-                                        : "damping ratio " + short_text(100. * mode.damping_ratio, 3) + " %";
-}
-
 /// Whether coordinate i of the machine is an angle: of a rotor or a planar body, or a rotation of an interface.
 bool is_angle(const Result &result, std::size_t i)
 {
@@ -105,24 +92,16 @@ double angle_arm(const Result &result)
   return arm(result.scenery);
 }
 
-std::string frame_mode_svg(const Result &result, std::size_t j)
+std::string mode_heading(std::size_t j, const coupling::Mode &mode)
 {
-  const coupling::Mode &mode = result.frame_modes[j];
-  if (!result.scenery.has_skin())
-    return shape_svg(result, "Frame " + heading(j, mode), mode);
-  return mode_picture_svg(skin_of(result.scenery, mode.shape), heading(j, mode), damping_text(mode));
+  return "Mode " + std::to_string(j + 1) + ": " + short_text(mode.frequency_hz) + " Hz" +
+         (mode.growth > 0. ? ", grows by exp(" + short_text(mode.growth, 3) + " t/s)" : "");
 }
 
-std::string coupled_mode_svg(const Result &result, std::size_t j)
+std::string damping_text(const coupling::Mode &mode)
 {
-  return shape_svg(result, heading(j, result.coupled_modes[j]), result.coupled_modes[j]);
-}
-
-std::string coupled_mode_picture(const Result &result, const Scenery &scenery, std::size_t j)
-{
-  const coupling::Mode &mode  = result.coupled_modes[j];
-  const MachineState    state = mode_state(scenery, result.modes_at, mode.shape);
-  return machine_state_svg(state, mode_enlargement(state), heading(j, mode), damping_text(mode));
+  return std::isnan(mode.damping_ratio) ? "does not vibrate"
+                                        : "damping ratio " + short_text(100. * mode.damping_ratio, 3) + " %";
 }
 
 std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode)

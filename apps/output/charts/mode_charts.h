@@ -7,21 +7,16 @@
 namespace gestell::apps
 {
 
+/// "Mode 3: 12.5 Hz", and its damping in words.
+std::string mode_heading(std::size_t j, const coupling::Mode &mode);
+std::string damping_text(const coupling::Mode &mode);
+
 /**
- * Picture of the frame mode j (from 0): the deformed skin, or for a frame without one its coordinates as bars.
+ * The bars of any shape in the machine's coordinates, at most the ten largest.
  *
- * Bars show the coordinates that have a physical meaning, the largest one as 1.  Rotations are compared with
- * displacements by a length, the radius of the first crank or else 1 m, that stands below.
+ * They show the coordinates that have a physical meaning, the largest one as 1.  Rotations are compared with
+ * displacements by a length, angle_arm(), that stands below.
  */
-std::string frame_mode_svg(const Result &result, std::size_t j);
-
-/// The coordinates of coupled mode j (from 0) as bars: interfaces of the frame and bodies, at most the ten largest.
-std::string coupled_mode_svg(const Result &result, std::size_t j);
-
-/// Frame and mechanism in coupled mode j (from 0), deformed, as drawn of that scenery; empty if nothing is to be seen.
-std::string coupled_mode_picture(const Result &result, const Scenery &scenery, std::size_t j);
-
-/// The bars of any shape in the machine's coordinates.
 std::string shape_svg(const Result &result, const std::string &title, const coupling::Mode &mode);
 
 /// Length [m] that scales angles for display beside displacements: crank radius, or half the size of the machine.

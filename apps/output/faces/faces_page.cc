@@ -1,11 +1,12 @@
 #include "apps/output/faces/faces_page.h"
 
-#include "apps/output/faces/face_pictures.h"
 #include "apps/output/faces/faces_script.h"
+#include "apps/output/pictures/skin.h"
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/json.h"
 #include "apps/output/text/svg.h"
+#include "apps/output/values/colours.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ namespace
 using coupling::MeshReport;
 using coupling::SurfaceReport;
 using Triple = std::array<double, 3>;
+
+constexpr std::size_t most_triangles = 55000; ///< four numbers of four bytes each, in base64 1.2 MB of the page
 
 /// "(0, -520, 2560) mm"; OpenCASCADE widens boxes by 1e-7 m, which is not shown.
 std::string place(const Triple &x, const coupling::LengthUnit &unit)
@@ -117,6 +120,29 @@ Json list_of(const MeshReport &report)
   return list;
 }
 
+/// The picture on so few triangles that a page with it stays small; what is finer than some thousandths of the frame is
+/// drawn together where there are more.
+coupling::FacePicture light_picture(const coupling::FacePicture &picture)
+{
+  if (picture.triangles.size() <= most_triangles)
+    return picture;
+  Skin skin;
+  for (const auto &x : picture.points)
+    skin.points.emplace_back(x[0], x[1], x[2]);
+  skin.triangles    = picture.triangles;
+  double     edge   = skin.size() / 1000.;
+  CoarseMesh coarse = coarse_mesh(skin, edge);
+  while (coarse.triangles.size() > most_triangles)
+    coarse = coarse_mesh(skin, edge *= 1.3);
+  coupling::FacePicture light;
+  light.triangles = coarse.triangles;
+  for (const int point : coarse.points)
+    light.points.push_back(picture.points[static_cast<std::size_t>(point)]);
+  for (const int triangle : coarse.source)
+    light.face.push_back(picture.face[static_cast<std::size_t>(triangle)]);
+  return light;
+}
+
 /// The mesh in few bytes: points in steps of 1/65535 of the box.
 Json frame_json(const MeshReport &report)
 {
@@ -189,13 +215,11 @@ std::string face_entry(const SurfaceReport &surface)
 
 std::string faces_page(const MeshReport &report, const std::string &file, const std::string &version)
 {
-  std::string entries, sides;
+  std::string entries;
   for (const SurfaceReport &face : report.surfaces)
     entries += face_entry(face) + "\n";
-  for (const auto &[caption, svg] : face_pictures(report))
-    sides += figure(svg, caption);
   const std::string body =
-      note_box(report.notes) + board + section("sides", "From all sides", "<div class=\"sides\">" + sides + "</div>") +
+      note_box(report.notes) + board + section("sides", "From all sides", "<div class=\"sides\"></div>") +
       section("faces", "All faces",
               "<p class=\"filter\"><label>only with <input type=\"search\" id=\"filter\" placeholder=\"plane, "
               "cylinder, a name, a number\"></label></p>" +

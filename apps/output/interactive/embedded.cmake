@@ -6,7 +6,7 @@ set(libraries
   synchronizer dygraphs/src/extras/synchronizer.js
   three three/three.min.js
   orbit_controls three/examples/js/controls/OrbitControls.js)
-set(scripts page_script page.js chart_script charts.js machine_script machine.js page_style page.css licence licence.txt)
+set(scripts page_script page.js chart_script charts.js machine_script machine.js picture_script pictures.js page_style page.css licence licence.txt)
 
 # gestell_embed(name FILE): the symbols gestell_NAME_begin and gestell_NAME_end about the file's bytes.
 set(GESTELL_EMBEDDED "")

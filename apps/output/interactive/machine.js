@@ -1,7 +1,7 @@
 "use strict";
 // The machine in three.js: it turns, moves as computed, in its modes and under stress.  Elements of class "machine" hold the data.
 (function () {
-  const frame_colour = [0.72, 0.75, 0.79], loop_seconds = 8, mode_seconds = 2;
+  const loop_seconds = 8, mode_seconds = 2;
   const slow = 1 / 34, coarsest = 0.4; // seconds between pictures at which they get fewer pixels, and the fewest
 
   function element(kind, properties, ...children) {
@@ -9,6 +9,7 @@
     made.append(...children);
     return made;
   }
+  const from = new THREE.Vector3(0.55, -0.75, 0.36).normalize(); // where the eye is at first: front, right and above
   const rgb = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255);
 
   /** A motion in short form: whole shapes with weights over instants. */
@@ -120,6 +121,11 @@
     displacement(i) {
       return Math.hypot(this.moved[3 * i], this.moved[3 * i + 1], this.moved[3 * i + 2]);
     }
+    largest_displacement() {
+      let most = 0;
+      for (let i = 0; i < this.moved.length / 3; ++i) most = Math.max(most, this.displacement(i));
+      return most;
+    }
   }
 
   class Show {
@@ -145,6 +151,25 @@
     }
   }
 
+  const lamp_of = (camera) => new THREE.Vector3(-0.4, 0.55, 0.75).normalize().applyQuaternion(camera.quaternion);
+
+  /** The axes as a camera sees them, about (x, y). */
+  function draw_axes(paper, camera, x, y) {
+    const turn = camera.quaternion.clone().inverse();
+    paper.font = "13px system-ui, sans-serif";
+    paper.lineWidth = 2;
+    const axes = [["x", "#d03030"], ["y", "#209040"], ["z", "#3060d0"]].map(([name, colour], i) =>
+      [name, colour, new THREE.Vector3(i === 0, i === 1, i === 2).applyQuaternion(turn)]);
+    for (const [name, colour, way] of axes.sort((a, b) => a[2].z - b[2].z)) {
+      paper.strokeStyle = paper.fillStyle = colour;
+      paper.beginPath();
+      paper.moveTo(x, y);
+      paper.lineTo(x + 30 * way.x, y - 30 * way.y);
+      paper.stroke();
+      paper.fillText(name, x + 38 * way.x - 4, y - 38 * way.y + 4);
+    }
+  }
+
   class View {
     constructor(box) {
       this.box = box;
@@ -166,7 +191,7 @@
     }
 
     colour_of(i) {
-      if (this.data.has_frame && i === 0) return frame_colour;
+      if (this.data.has_frame && i === 0) return rgb(this.data.frame_colour);
       const { body_colours } = this.data;
       return rgb(body_colours[(i - (this.data.has_frame ? 1 : 0)) % body_colours.length]);
     }
@@ -224,9 +249,10 @@
           "Only displacements are enlarged, not the ideal motion of the mechanism." }));
     }
 
-    name_of(part) {
+    name_of(part, can_hide = true) {
       const square = element("i", {}), box = element("input", { type: "checkbox", checked: true });
       square.style.background = "rgb(" + part.colour.map((x) => Math.round(255 * x)).join(",") + ")";
+      if (!can_hide) return element("span", {}, square, part.name);
       box.onchange = () => {
         part.faces.visible = part.lines.visible = box.checked;
         this.stale = true;
@@ -240,8 +266,8 @@
       this.list.selectedIndex = i;
       const motion = this.show.kind === "motion";
       this.time_label.style.display = motion ? "" : "none";
-      this.play.style.display = this.show.kind === "stress" ? "none" : "";
-      this.paint_label.style.display = this.show.paints ? "none" : "";
+      this.play.style.display = motion || this.show.kind === "mode" ? "" : "none";
+      this.paint_label.style.display = motion || this.show.kind === "mode" ? "" : "none";
       this.phase = 0.25;
       if (motion) this.t = this.show.times[0];
       this.scale.value = 0;
@@ -261,10 +287,10 @@
 
     repaint() {
       if (this.data.has_frame) this.parts[0].see_through(this.glass.checked ? 0.5 : 0);
-      this.legend.style.visibility = this.show.paints || this.paint.selectedIndex === 0 ? "" : "hidden";
+      const by_displacement = this.paint.selectedIndex === 0 && this.show.kind !== "rest";
+      this.legend.style.visibility = this.show.paints || by_displacement ? "" : "hidden";
       this.bar_text.textContent = this.show.scale || (this.show.kind === "mode" ? "displacement, against the largest"
         : "displacement 0 to " + gestell.number(1000 * this.show.top, 3) + " mm");
-      if (!this.show.paints && this.paint.selectedIndex === 1) for (const part of this.parts) part.paint_plain();
       this.stale = true;
     }
 
@@ -328,58 +354,50 @@
     }
 
     draw() {
-      const [k, share] = this.show.instant(this.t), mode = this.show.kind === "mode";
-      const swing = mode ? Math.sin(2 * Math.PI * this.phase) : 1;
-      this.parts.forEach((part, i) => {
-        const fields = this.show.fields[i];
-        part.place(fields, k, share, this.enlarge, swing);
-        if (this.show.paints && this.data.has_frame)
-          i === 0 ? part.paint(this.table, (point) => this.show.paints[point] / 255) : part.paint_plain();
-        else if (this.paint.selectedIndex === 0 && (mode || (this.data.has_frame && i === 0)))
-          part.paint(this.table, (point) => part.displacement(point) / this.show.top);
-        else if (this.paint.selectedIndex === 0) part.paint_plain();
-      });
+      const mode = this.show.kind === "mode", swing = mode ? Math.sin(2 * Math.PI * this.phase) : 1;
+      const top = this.show.kind === "rest" || this.paint.selectedIndex === 1 ? 0 : this.show.top;
+      this.pose(this.show, { t: this.t, enlarge: this.enlarge, swing, top, bodies: mode });
       if (this.show.times) {
         const { times } = this.show, span = times[times.length - 1] - times[0];
         this.slider.value = span > 0 ? (1000 * (this.t - times[0])) / span : 0;
         this.now.textContent = gestell.number(this.t, 4) + " s";
       }
-      const lamp = new THREE.Vector3(-0.4, 0.55, 0.75).normalize().applyQuaternion(this.camera.quaternion);
       const stutters = this.playing && this.moving_pixels < 0.7;
       for (const part of this.parts) {
         part.lines.visible = part.faces.visible && !stutters;
-        if (part.faces.visible) part.show_faces(this.camera.position, lamp);
+        if (part.faces.visible) part.show_faces(this.camera.position, lamp_of(this.camera));
       }
       this.renderer.render(this.scene, this.camera);
-      this.draw_triad();
+      const paper = this.triad.getContext("2d");
+      paper.clearRect(0, 0, 90, 90);
+      draw_axes(paper, this.camera, 45, 45);
       ++this.frames;
     }
 
-    draw_triad() {
-      const canvas = this.triad.getContext("2d"), turn = this.camera.quaternion.clone().inverse(), middle = 45;
-      canvas.clearRect(0, 0, 90, 90);
-      canvas.font = "13px system-ui, sans-serif";
-      canvas.lineWidth = 2;
-      const axes = [["x", "#d03030"], ["y", "#209040"], ["z", "#3060d0"]].map(([name, colour], i) =>
-        [name, colour, new THREE.Vector3(i === 0, i === 1, i === 2).applyQuaternion(turn)]);
-      for (const [name, colour, way] of axes.sort((a, b) => a[2].z - b[2].z)) {
-        canvas.strokeStyle = canvas.fillStyle = colour;
-        canvas.beginPath();
-        canvas.moveTo(middle, middle);
-        canvas.lineTo(middle + 30 * way.x, middle - 30 * way.y);
-        canvas.stroke();
-        canvas.fillText(name, middle + 38 * way.x - 4, middle - 38 * way.y + 4);
-      }
+    /**
+     * Puts the parts where a show has them and colours the frame, with `bodies` all parts, by displacement, of which
+     * `top` has the last colour, or by the show's stress; with 0 each part in its own colour.
+     */
+    pose(show, { t, enlarge, swing = 1, top, bodies = false }) {
+      show.prepare();
+      const [k, share] = show.instant(t);
+      this.parts.forEach((part, i) => {
+        const is_frame = this.data.has_frame && i === 0;
+        part.place(show.fields[i], k, share, enlarge, swing);
+        if (is_frame && show.paints) part.paint(this.table, (point) => show.paints[point] / 255);
+        else if (!show.paints && top > 0 && (is_frame || bodies)) part.paint(this.table, (point) => part.displacement(point) / top);
+        else part.paint_plain();
+      });
     }
 
-    /** From front, right and above, as pictures are; all parts in sight. */
+    /** All parts in sight. */
     fit() {
       const box = new THREE.Box3();
       for (const part of this.parts) box.union(new THREE.Box3().setFromArray(part.rest));
       const ball = box.getBoundingSphere(new THREE.Sphere()), wide = Math.min(1, this.camera.aspect);
       const away = (1.05 * ball.radius) / Math.sin((this.camera.fov * Math.PI) / 360) / wide;
       this.controls.target.copy(ball.center);
-      this.camera.position.copy(ball.center).add(new THREE.Vector3(0.55, -0.75, 0.37).normalize().multiplyScalar(away));
+      this.camera.position.copy(ball.center).add(from.clone().multiplyScalar(away));
       this.controls.update();
       this.stale = true;
     }
@@ -399,11 +417,13 @@
   function build(box) {
     try {
       gestell.machine = new View(box);
+      gestell.draw_pictures(gestell.machine);
     } catch (problem) {
       box.textContent = "This browser draws no three-dimensional view: " + problem.message;
       box.style.display = "block";
     }
   }
+  Object.assign(gestell, { element, lamp_of, draw_axes, from });
   // The page is read while the view is made.
   window.addEventListener("load", () => setTimeout(() => document.querySelectorAll(".machine").forEach(build), 0));
 })();

@@ -1,13 +1,13 @@
 #include "apps/output/interactive/machine_view.h"
 
+#include "apps/output/interactive/machine_animation.h"
 #include "apps/output/interactive/page_scripts.h"
-#include "apps/output/interactive/seen_machine.h"
 #include "apps/output/interactive/short_motion.h"
-#include "apps/output/pictures/projection.h"
+#include "apps/output/pictures/skin.h"
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/json.h"
-#include "apps/output/values/body_colours.h"
+#include "apps/output/values/colours.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr double      exactness    = 1e-4; ///< of the drawn positions, of the m
 constexpr double      smooth_turn  = 0.1;  ///< way off the straight line between neighbours, of a part's own size
 
 /// Parts of a thing at rest.
-Json parts_json(const SeenMachine &machine)
+Json parts_json(const MachineAnimation &machine)
 {
   Json parts = Json::array();
   for (const Shape &part : machine.parts())
@@ -74,7 +74,8 @@ double largest_of(const Displacements &all)
 }
 
 /// Whether the straight line between neighbouring instants tells what lies between.
-bool is_smooth(const std::vector<PartMotion> &motions, const std::vector<double> &times, const SeenMachine &machine)
+bool is_smooth(const std::vector<PartMotion> &motions, const std::vector<double> &times,
+               const MachineAnimation &machine)
 {
   for (std::size_t i = 0; i < motions.size(); ++i)
   {
@@ -101,10 +102,10 @@ std::size_t instants_of(std::size_t n_parts)
   return n_parts <= most_instants ? most_instants : std::max(fewest, most_instants * most_instants / n_parts);
 }
 
-Json motion_json(const SeenMachine &machine, const Result &result)
+Json motion_json(const MachineAnimation &machine, const Result &result)
 {
   const std::size_t             most    = instants_of(machine.parts().size());
-  const SeenInstants            seen    = seen_instants(result, most);
+  const AnimationInstants       seen    = animation_instants(result, most);
   const bool                    thinned = most < most_instants && seen.times.size() < result.run->picture_times.size();
   const std::vector<float>      times(seen.times.begin(), seen.times.end());
   const std::vector<PartMotion> motions = machine.motion(seen.states);
@@ -114,6 +115,7 @@ Json motion_json(const SeenMachine &machine, const Result &result)
   const double enlargement = top > 0. ? round_enlargement(motion_size * machine.size() / top) : 1.;
 
   Json show = {{"kind", "motion"},
+               {"id", "motion"},
                {"name", "motion"},
                {"times", base64(times)},
                {"smooth", !thinned && is_smooth(motions, seen.times, machine)},
@@ -126,15 +128,15 @@ Json motion_json(const SeenMachine &machine, const Result &result)
   return show;
 }
 
-Json still_json(const std::string &kind, const std::string &name, const std::vector<Eigen::VectorXd> &displacements,
-                double size)
+/// @param id    see MachinePicture::show
+/// @param size  [m] of the largest displacement as drawn
+Json still_json(const std::string &kind, const std::string &id, const std::string &name,
+                const std::vector<Eigen::VectorXd> &displacements, double size)
 {
   const double most = largest_of(displacements);
-  Json         show = {{"kind", kind},
-                       {"name", name},
-                       {"top", most},
-                       {"enlarge", most > 0. ? size / most : 1.},
-                       {"parts", Json::array()}};
+  Json         show = {
+              {"kind", kind},          {"id", id}, {"name", name}, {"top", most}, {"enlarge", most > 0. ? size / most : 1.},
+              {"parts", Json::array()}};
   for (const Eigen::VectorXd &one : displacements)
     show["parts"].push_back({{"ideal", Json()}, {"moved", field_json(one, 1e-3 * most)}});
   return show;
@@ -160,7 +162,7 @@ Eigen::VectorXd state_at(const Result &result, double t)
 }
 
 /// Puts the bodies where they are at the instant of a stress, beside the frame.
-void put_bodies(Json &show, const SeenMachine &machine, const Eigen::VectorXd &q)
+void put_bodies(Json &show, const MachineAnimation &machine, const Eigen::VectorXd &q)
 {
   if (q.size() == 0)
     return;
@@ -170,7 +172,16 @@ void put_bodies(Json &show, const SeenMachine &machine, const Eigen::VectorXd &q
                         {"moved", field_json(motions[i].displacement, exactness * machine.size())}};
 }
 
-Json stress_json(const SeenMachine &machine, const StressAt &at, double top, const Eigen::VectorXd &q)
+/// Of the points that are drawn the one nearest to a place.
+std::size_t nearest_point(const Shape &shape, const Eigen::Vector3d &place)
+{
+  const auto nearer = [&](const Eigen::Vector3d &a, const Eigen::Vector3d &b)
+  { return (a - place).squaredNorm() < (b - place).squaredNorm(); };
+  return std::size_t(std::min_element(shape.points.begin(), shape.points.end(), nearer) - shape.points.begin());
+}
+
+Json stress_json(const MachineAnimation &machine, const StressAt &at, const std::string &id, double top,
+                 const Eigen::VectorXd &q)
 {
   std::vector<Eigen::VectorXd> displacements = machine.at_rest();
   std::vector<std::uint8_t>    colours;
@@ -181,41 +192,47 @@ Json stress_json(const SeenMachine &machine, const StressAt &at, double top, con
     colours.push_back(static_cast<std::uint8_t>(std::clamp(255. * at.field.von_mises(point) / top, 0., 255.)));
   }
   const DisplayUnit unit = display_unit("Pa", top);
-  Json              show =
-      still_json("stress", "stress" + (at.label.empty() ? "" : ", " + at.label) + ", t = " + short_text(at.t, 5) + " s",
-                 displacements, motion_size * machine.size());
+  Json              show = still_json("stress", id,
+                                      "stress" + (at.label.empty() ? "" : ", " + at.label) + ", t = " + short_text(at.t, 5) + " s",
+                                      displacements, motion_size * machine.size());
   put_bodies(show, machine, q);
   show["colours"] = base64(colours);
   show["t"]       = at.t;
-  show["scale"]   = "equivalent stress 0 to " + short_text(top * unit.factor, 3) + " " + unit.unit;
+  if (at.peak)
+    show["mark"] = nearest_point(machine.parts().front(), at.peak->at);
+  show["scale"] = "equivalent stress 0 to " + short_text(top * unit.factor, 3) + " " + unit.unit;
   return show;
 }
 
-void add_stresses(Json &shows, const SeenMachine &machine, const Result &result)
+void add_stresses(Json &shows, const MachineAnimation &machine, const Result &result)
 {
   if (!result.stress || !machine.has_frame() || result.stress->points.size() != result.scenery.points.size())
     return;
   double top = 0.;
   for (const StressAt &at : result.stress->instants)
     top = std::max(top, at.peak ? at.peak->von_mises : 0.);
-  for (const StressAt &at : result.stress->instants)
-    if (top > 0. && at.field.von_mises.size() == at.displacement.cols())
-      shows.push_back(stress_json(machine, at, top, state_at(result, at.t)));
+  for (std::size_t k = 0; k < result.stress->instants.size(); ++k)
+    if (const StressAt &at = result.stress->instants[k];
+        top > 0. && at.field.von_mises.size() == at.displacement.cols())
+      shows.push_back(stress_json(machine, at, "stress-" + std::to_string(k + 1), top, state_at(result, at.t)));
 }
 
-Json shows_json(const SeenMachine &machine, const Result &result)
+Json shows_json(const MachineAnimation &machine, const Result &result)
 {
   Json shows = Json::array();
   if (result.run && !result.run->picture_states.empty())
     shows.push_back(motion_json(machine, result));
   const double size = mode_size * machine.size();
   for (std::size_t j = 0; j < std::min(result.coupled_modes.size(), most_modes); ++j)
-    shows.push_back(still_json("mode", mode_name("coupled", j, result.coupled_modes[j]),
+    shows.push_back(still_json("mode", "coupled-" + std::to_string(j + 1),
+                               mode_name("coupled", j, result.coupled_modes[j]),
                                machine.machine_mode(result.coupled_modes[j].shape), size));
   for (std::size_t j = 0; j < std::min(result.frame_modes.size(), most_modes) && machine.has_frame(); ++j)
-    shows.push_back(still_json("mode", mode_name("frame", j, result.frame_modes[j]),
+    shows.push_back(still_json("mode", "frame-" + std::to_string(j + 1), mode_name("frame", j, result.frame_modes[j]),
                                machine.frame_mode(result.frame_modes[j].shape), size));
   add_stresses(shows, machine, result);
+  if (!result.run || result.run->picture_states.empty())
+    shows.push_back(still_json("rest", "rest", "at rest", machine.at_rest(), size));
   return shows;
 }
 
@@ -223,23 +240,35 @@ Json shows_json(const SeenMachine &machine, const Result &result)
 
 std::string machine_view(const Result &result)
 {
-  const SeenMachine machine(result);
+  const MachineAnimation machine(result);
   if (machine.parts().empty() || page_libraries().empty())
     return "";
-  const Json shows = shows_json(machine, result);
-  if (shows.empty())
-    return "";
+  const Json               shows = shows_json(machine, result);
   std::vector<std::string> colours, of_bodies;
   for (int i = 0; i < 32; ++i)
-    colours.push_back(hex(scale_colour((i + 0.5) / 32.), 1.));
+    colours.push_back(hex(scale_colour((i + 0.5) / 32.)));
   for (const Colour &colour : body_colours)
-    of_bodies.push_back(hex(colour, 1.));
-  const Json        data = {{"size", machine.size()},    {"has_frame", machine.has_frame()}, {"colours", colours},
-                            {"body_colours", of_bodies}, {"parts", parts_json(machine)},     {"shows", shows}};
+    of_bodies.push_back(hex(colour));
+  const Json        data = {{"size", machine.size()},
+                            {"has_frame", machine.has_frame()},
+                            {"colours", colours},
+                            {"frame_colour", hex(frame_colour)},
+                            {"body_colours", of_bodies},
+                            {"parts", parts_json(machine)},
+                            {"shows", shows}};
   const std::string json = data.dump(-1, ' ', false, Json::error_handler_t::replace);
   return "<div class=\"machine\"><script type=\"application/json\">" + inside_script(json) +
-         "</script></div>\n<noscript><p class=\"soft\">With JavaScript the machine can be turned and seen in motion "
-         "here.</p></noscript>\n";
+         "</script></div>\n<noscript><p class=\"soft\">The machine needs JavaScript: then it can be turned here, "
+         "and its pictures are next to the text. <code>gestell show</code> draws them as files.</p></noscript>\n";
+}
+
+std::string machine_picture(const MachinePicture &picture, const std::string &caption)
+{
+  const auto attribute = [](const char *name, const std::optional<double> &x)
+  { return x ? std::string(" data-") + name + "=\"" + exact_text(*x) + '"' : ""; };
+  return "<figure class=\"machine-picture\" data-show=\"" + picture.show + '"' + attribute("t", picture.t) +
+         attribute("later", picture.later) + attribute("enlarge", picture.enlargement) + "><figcaption>" + caption +
+         "</figcaption></figure>\n";
 }
 
 } // namespace gestell::apps

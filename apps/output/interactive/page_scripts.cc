@@ -9,6 +9,7 @@ GESTELL_EMBEDDED_FILE(orbit_controls)
 GESTELL_EMBEDDED_FILE(page_script)
 GESTELL_EMBEDDED_FILE(chart_script)
 GESTELL_EMBEDDED_FILE(machine_script)
+GESTELL_EMBEDDED_FILE(picture_script)
 GESTELL_EMBEDDED_FILE(page_style)
 GESTELL_EMBEDDED_FILE(licence)
 #undef GESTELL_EMBEDDED_FILE
@@ -54,7 +55,7 @@ std::string page_scripts(bool charts, bool machine)
   if (machine)
     html += library("three.js " GESTELL_THREE_VERSION, "copyright 2010-2019 three.js authors",
                     GESTELL_TEXT(three) + "\n" + GESTELL_TEXT(orbit_controls)) +
-            script(GESTELL_TEXT(machine_script));
+            script(GESTELL_TEXT(machine_script)) + script(GESTELL_TEXT(picture_script));
   return html;
 }
 

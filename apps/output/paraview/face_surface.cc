@@ -1,8 +1,8 @@
 #include "apps/output/paraview/face_surface.h"
 
-#include "apps/output/faces/face_pictures.h"
 #include "apps/output/faces/faces_page.h"
 #include "apps/output/text/write_file.h"
+#include "apps/output/values/colours.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

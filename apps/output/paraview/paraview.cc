@@ -3,12 +3,10 @@
 #include "apps/output/paraview/force_files.h"
 #include "apps/output/paraview/surface_file.h"
 #include "apps/output/paraview/view_macro.h"
+#include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/pictures/skin_picture.h"
 
 #include <vtkCellData.h>
-#include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -68,13 +66,7 @@ public:
   }
 
   double size() const { return surface_.poly->GetLength(); }
-  void   note(const char *name, double value)
-  {
-    vtkNew<vtkDoubleArray> field;
-    field->SetName(name);
-    field->InsertNextValue(value);
-    surface_.poly->GetFieldData()->AddArray(field);
-  }
+  void   note(const char *name, double value) { surface_.note(name, value); }
 
 private:
   const Scenery &scenery_;
@@ -279,6 +271,8 @@ void write_stress(OwnFolder &folder, const Result &result, std::vector<std::stri
     surface.add_field("principal stresses [Pa]", principal);
     surface.add_field("first principal direction", first);
     surface.add_field("stress xx yy zz xy yz xz [Pa]", at.field.components);
+    if (at.peak)
+      surface.note("largest stress [Pa]", at.peak->von_mises);
     const std::string file = numbered("stress/stress_", k + 1);
     names.push_back(file);
     surface.write(folder.claim(file));

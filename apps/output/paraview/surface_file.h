@@ -4,6 +4,8 @@
 #include "fem/values/number_text.h"
 
 #include <vtkCellArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -71,6 +73,15 @@ struct Surface
     for (Eigen::Index i = 0; i < values.size(); ++i)
       field->SetValue(i, static_cast<float>(values(i % values.rows(), i / values.rows())));
     poly->GetPointData()->AddArray(field);
+  }
+
+  /// A number that holds for all of it.
+  void note(const char *name, double value)
+  {
+    vtkNew<vtkDoubleArray> field;
+    field->SetName(name);
+    field->InsertNextValue(value);
+    poly->GetFieldData()->AddArray(field);
   }
 
   void set_vertices()

@@ -1,11 +1,12 @@
 #include "apps/output/pictures/machine_state.h"
 
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/pictures/picture_margin.h"
 #include "apps/output/pictures/scenery_skin.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -33,6 +34,16 @@ void move_ends(const std::vector<Vector3d> &points, std::vector<Vector3d> &displ
   }
   for (std::size_t j = 0; j < points.size(); ++j)
     displacement[j] = sum[end(j)] / n[end(j)];
+}
+
+/// The largest of 1, 2, 5, 10, 20, ... that is not above x > 0, or below one of 0.5, 0.2, ...
+double round_number(double x)
+{
+  const double power = std::pow(10., std::floor(std::log10(x) + 1e-12));
+  for (const double k : {5., 2.})
+    if (x >= k * power * (1. - 1e-9))
+      return k * power;
+  return power;
 }
 
 } // namespace
@@ -78,30 +89,38 @@ std::vector<std::vector<Vector3d>> differences(const Scenery &scenery, const std
   return moved;
 }
 
+std::vector<std::vector<Vector3d>> body_mode(const Scenery &scenery, const Eigen::VectorXd &q0,
+                                             const Eigen::VectorXd &shape)
+{
+  // Central differences: bodies on circles miss by the square of the step, 1e-12; digits lose 1e-10 of it.
+  constexpr double little = 1e-6;
+  const double     most   = shape.size() > 0 ? shape.cwiseAbs().maxCoeff() : 0.;
+  const double     step   = most > 0. ? little * scenery.size() / most : 1.;
+  auto             moved =
+      differences(scenery, mechanism_shapes(scenery, q0 - step * shape), mechanism_shapes(scenery, q0 + step * shape));
+  for (std::vector<Vector3d> &body : moved)
+    for (Vector3d &u : body)
+      u /= 2. * step;
+  return moved;
+}
+
 MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape)
 {
-  constexpr double little = 1e-6; // of the size, where places of bodies are linear in q
-  const double     most   = shape.size() > 0 ? shape.cwiseAbs().maxCoeff() : 0.;
-  const double     step   = most > 0. ? little * scenery.size() / most : 0.;
-  MachineState     state{skin_of(scenery, step * shape), mechanism_shapes(scenery, q0), 1.};
-  const auto       moved   = differences(scenery, state.shapes, mechanism_shapes(scenery, q0 + step * shape));
-  double           largest = state.skin.largest_displacement();
-  for (std::size_t i = 0; i < state.shapes.size(); ++i)
+  MachineState state{skin_of(scenery, shape), mechanism_shapes(scenery, q0), 1.};
+  auto         moved   = body_mode(scenery, q0, shape);
+  double       largest = state.skin.largest_displacement();
+  for (std::size_t i = 0; i < moved.size(); ++i)
   {
-    state.shapes[i].displacement = moved[i];
-    for (const Vector3d &u : moved[i])
+    state.shapes[i].displacement = std::move(moved[i]);
+    for (const Vector3d &u : state.shapes[i].displacement)
       largest = std::max(largest, u.norm());
   }
-  const double normal = largest > 0. ? 1. / largest : 1.;
-  const auto   scale  = [&](std::vector<Vector3d> &displacement)
-  {
-    for (Vector3d &u : displacement)
-      u *= normal;
-  };
-  state.scale = step * normal;
-  scale(state.skin.displacement);
+  state.scale = largest > 0. ? 1. / largest : 1.;
+  for (Vector3d &u : state.skin.displacement)
+    u *= state.scale;
   for (Shape &body : state.shapes)
-    scale(body.displacement);
+    for (Vector3d &u : body.displacement)
+      u *= state.scale;
   return state;
 }
 

@@ -33,8 +33,12 @@ MachineState machine_state(const Scenery &scenery, const Eigen::VectorXd &q);
 std::vector<std::vector<Eigen::Vector3d>> differences(const Scenery &scenery, const std::vector<Shape> &before,
                                                       const std::vector<Shape> &after);
 
-/// A mode shape of frame and mechanism about the configuration q0: bodies move by the derivative of their places.  The
-/// largest displacement of all is 1 m.
+/// Displacement [m] of each point of the bodies in a mode shape about the configuration q0, by shape: the derivative of
+/// their places.
+std::vector<std::vector<Eigen::Vector3d>> body_mode(const Scenery &scenery, const Eigen::VectorXd &q0,
+                                                    const Eigen::VectorXd &shape);
+
+/// The same of frame and mechanism.  The largest displacement of all is 1 m.
 MachineState mode_state(const Scenery &scenery, const Eigen::VectorXd &q0, const Eigen::VectorXd &shape);
 
 /// The enlargement, a round number, by which the largest displacement is at most a twentieth of the size; 0 where

@@ -18,30 +18,4 @@ Skin skin_of(const Scenery &scenery, const Eigen::VectorXd &p)
   return skin;
 }
 
-Scenery for_pictures(const Scenery &scenery, std::size_t triangles)
-{
-  if (scenery.triangles.size() <= triangles)
-    return scenery;
-  const Skin skin   = skin_of(scenery, Eigen::VectorXd::Zero(scenery.n_frame));
-  double     edge   = skin.size() / 100.;
-  CoarseMesh coarse = coarse_mesh(skin, edge);
-  while (coarse.triangles.size() > triangles)
-    coarse = coarse_mesh(skin, edge *= 1.4);
-
-  Scenery light   = scenery;
-  light.triangles = coarse.triangles;
-  light.points.clear();
-  for (const int i : coarse.points)
-    light.points.push_back(scenery.points[i]);
-  light.displacement = [all = scenery.displacement, chosen = coarse.points](const Eigen::VectorXd &p) -> Eigen::VectorXd
-  {
-    const Eigen::VectorXd u = all(p);
-    Eigen::VectorXd       few(3 * static_cast<long>(chosen.size()));
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      few.segment<3>(3 * static_cast<long>(i)) = u.segment<3>(3 * chosen[i]);
-    return few;
-  };
-  return light;
-}
-
 } // namespace gestell::apps

@@ -114,44 +114,9 @@ CoarseMesh coarse_mesh(const Skin &skin, double edge)
   return coarse;
 }
 
-Skin refined(const Skin &skin, double edge)
+std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
 {
-  using Corner   = std::pair<Vector3d, Vector3d>; // point and displacement
-  using Triangle = std::array<Corner, 3>;
-
-  std::vector<Triangle> open;
-  for (const auto &t : skin.triangles)
-    open.push_back({Corner{skin.points[t[0]], skin.displacement[t[0]]},
-                    Corner{skin.points[t[1]], skin.displacement[t[1]]},
-                    Corner{skin.points[t[2]], skin.displacement[t[2]]}});
-  Skin fine;
-  while (!open.empty())
-  {
-    const Triangle t = open.back();
-    open.pop_back();
-    const auto    length  = [&](int i) { return (t[(i + 1) % 3].first - t[i].first).norm(); };
-    const int     longest = length(0) >= std::max(length(1), length(2)) ? 0 : length(1) >= length(2) ? 1 : 2;
-    const Corner &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
-    if (length(longest) > edge)
-    {
-      const Corner middle(0.5 * (a.first + b.first), 0.5 * (a.second + b.second));
-      open.push_back({a, middle, c});
-      open.push_back({middle, b, c});
-      continue;
-    }
-    const int first = static_cast<int>(fine.points.size());
-    for (const Corner &corner : t)
-    {
-      fine.points.push_back(corner.first);
-      fine.displacement.push_back(corner.second);
-    }
-    fine.triangles.push_back({first, first + 1, first + 2});
-  }
-  return fine;
-}
-
-std::vector<std::array<int, 2>> edges_between(const Skin &skin, const EdgeBetween &is_edge)
-{
+  const double cosine = std::cos(degrees * 3.14159265358979323846 / 180.);
   struct Edge
   {
     std::array<int, 2> ends;
@@ -168,7 +133,7 @@ std::vector<std::array<int, 2>> edges_between(const Skin &skin, const EdgeBetwee
       const int  a = std::min(t[i], t[(i + 1) % 3]), b = std::max(t[i], t[(i + 1) % 3]);
       const long key   = static_cast<long>(a) * static_cast<long>(skin.points.size()) + b;
       const auto found = edges.emplace(key, Edge{{a, b}, n, 0, false}).first;
-      if (++found->second.n_triangles > 1 && is_edge(n, found->second.first_normal))
+      if (++found->second.n_triangles > 1 && n.dot(found->second.first_normal) < cosine)
         found->second.drawn = true;
     }
   }
@@ -178,12 +143,6 @@ std::vector<std::array<int, 2>> edges_between(const Skin &skin, const EdgeBetwee
       drawn.push_back(edge.ends);
   std::sort(drawn.begin(), drawn.end());
   return drawn;
-}
-
-std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees)
-{
-  const double cosine = std::cos(degrees * 3.14159265358979323846 / 180.);
-  return edges_between(skin, [=](const Vector3d &a, const Vector3d &b) { return a.dot(b) < cosine; });
 }
 
 } // namespace gestell::apps

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include <array>
-#include <functional>
 #include <vector>
 
 namespace gestell::apps
@@ -34,15 +33,6 @@ struct CoarseMesh
 /// planes are drawn together to the one nearest to their mean, and triangles that become lines vanish.  Planes stay
 /// plane, straight edges straight, corners where they are.
 CoarseMesh coarse_mesh(const Skin &skin, double edge);
-
-/// The skin in triangles whose edges are no longer than `edge`, by halving the longest; points are not shared.
-Skin refined(const Skin &skin, double edge);
-
-/// Whether the edge between two triangles with these outward unit normals is one.
-using EdgeBetween = std::function<bool(const Eigen::Vector3d &, const Eigen::Vector3d &)>;
-
-/// Edges (pairs of points) for which that holds, and those that have one triangle only.
-std::vector<std::array<int, 2>> edges_between(const Skin &skin, const EdgeBetween &is_edge);
 
 /// Edges (pairs of points) where neighbouring triangles meet at more than `degrees`, or that have one triangle only.
 std::vector<std::array<int, 2>> sharp_edges(const Skin &skin, double degrees = 35.);

@@ -6,7 +6,6 @@
 #include "apps/output/interactive/live_chart.h"
 #include "apps/output/interactive/machine_view.h"
 #include "apps/output/interactive/page_scripts.h"
-#include "apps/output/pictures/skin_picture.h"
 #include "apps/output/report/budget_report.h"
 #include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frame_text.h"
@@ -36,8 +35,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9, most_skins = 3, most_accuracy_rows = 40;
-constexpr double      seen_motion = 0.02; ///< of the machine's size
+constexpr std::size_t most_mode_pictures = 9, most_coupled_pictures = 6; ///< rows of three on paper
+constexpr std::size_t most_accuracy_rows = 40;
 
 /// A table of two columns for facts; those without a value are left out.
 class Facts
@@ -62,43 +61,6 @@ public:
 private:
   std::string rows_;
 };
-
-/// Whether bodies move so far that a second pose tells something.
-bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after, double machine_size)
-{
-  double way = 0.;
-  for (std::size_t i = 0; i < before.size(); ++i)
-    for (std::size_t j = 0; j < std::min(before[i].points.size(), after[i].points.size()); ++j)
-      way = std::max(way, (after[i].points[j] - before[i].points[j]).norm());
-  return way > seen_motion * machine_size;
-}
-
-/// Picture of the machine at the start of the run, without one where its modes are taken; empty if there is nothing to
-/// be seen.
-std::string machine_figure(const Result &result, Report &report)
-{
-  const Eigen::VectorXd no_motion = Eigen::VectorXd::Zero(result.scenery.n_frame);
-  const bool            runs      = result.run && !result.run->picture_states.empty();
-  const Eigen::VectorXd first     = runs ? result.run->picture_states.front() : result.modes_at;
-  std::vector<Shape>    shapes, later;
-  if (first.size() > 0)
-    shapes = mechanism_shapes(result.scenery, first);
-  if (runs)
-    later = mechanism_shapes(result.scenery, result.run->picture_states.back());
-  if (!runs || !far_apart(shapes, later, result.scenery.size()))
-    later.clear();
-  std::string caption = "The frame";
-  if (!shapes.empty())
-    caption = std::string("The mechanism") + (result.scenery.has_skin() ? ", seen through the frame," : "") +
-              (runs ? " at t = " + short_text(result.run->picture_times.front()) + " s" : " where its modes are taken");
-  if (!later.empty())
-    caption += ", in outline at t = " + short_text(result.run->picture_times.back()) + " s";
-  const std::string svg = scene_picture_svg(skin_of(result.scenery, no_motion), shapes, result.scene, later);
-  if (svg.empty())
-    return "";
-  report.charts.emplace_back("machine", svg);
-  return figure(svg, caption + ".");
-}
 
 std::string peaks_table(const Result &result)
 {
@@ -128,10 +90,9 @@ std::string window_sentence(const Result &result)
   return "<p>Extremes count from " + short_text(result.run->from, 6) + " s on, as [output] from says.</p>\n";
 }
 
-std::string answer_section(const Result &result, Report &report)
+std::string answer_section(const Result &result, bool has_view)
 {
-  const std::string table   = peaks_table(result),
-                    picture = machine_figure(result, report) + peak_figure(result, report.charts);
+  const std::string table = peaks_table(result), picture = has_view ? machine_figure(result) + peak_figure(result) : "";
   if (table.empty() && picture.empty())
     return "";
   return section("peaks", table.empty() ? "The machine" : "The answer: peaks and when they occur",
@@ -265,38 +226,32 @@ std::string pole_table(const std::vector<coupling::Pole> &poles)
   return "<h3>With drives and controllers, at the speeds of the start</h3>" + table.html();
 }
 
-/// A line that names the pictures of modes from number `first` on, of n; empty if there are none.
-std::string named_pictures(const std::string &stem, std::size_t first, std::size_t n)
+std::string modes_section(const Result &result, bool has_view, Pictures &pictures)
 {
-  std::string names;
-  for (std::size_t j = first; j <= n; ++j)
-    names += (names.empty() ? "" : ", ") + stem + std::to_string(j) + ".svg";
-  return names.empty() ? "" : "<p class=\"soft\">Pictures of further modes, in charts/: " + names + ".</p>\n";
-}
-
-std::string modes_section(const Result &result, Report &report)
-{
-  const auto pictures = [&](const std::vector<coupling::Mode> &modes, const std::string &name, auto svg_of, bool wide)
+  const auto bars = [&](const std::vector<coupling::Mode> &modes, const std::string &name, const std::string &words)
   {
-    std::string       html = wide ? "<div class=\"bars\">" : "<div class=\"modes\">";
-    const std::size_t n = std::min(modes.size(), most_mode_pictures), seen = wide ? n : std::min(n, most_skins);
-    for (std::size_t j = 0; j < n; ++j)
+    std::string html;
+    for (std::size_t j = 0; j < std::min(modes.size(), most_mode_pictures); ++j)
     {
-      report.charts.emplace_back("mode-" + name + "-" + std::to_string(j + 1), svg_of(result, j));
-      html += j < seen ? figure(report.charts.back().second) : "";
+      pictures.emplace_back("mode-" + name + "-" + std::to_string(j + 1),
+                            shape_svg(result, words + mode_heading(j, modes[j]), modes[j]));
+      html += figure(pictures.back().second);
     }
-    return html + "</div>\n" + named_pictures("mode-" + name + "-", seen + 1, n);
+    return "<div class=\"bars\">" + html + "</div>\n";
   };
   std::string html;
   if (!result.coupled_modes.empty())
     html += "<h3>Coupled machine</h3>" + mode_table(result.coupled_modes, result.model.frequency_limit) +
-            energy_shares_table(result) + coupled_mode_pictures(result, report.charts) +
-            pictures(result.coupled_modes, "coupled", coupled_mode_svg, true);
+            energy_shares_table(result) +
+            (has_view ? mode_pictures(result.coupled_modes, "coupled", most_coupled_pictures) : "") +
+            bars(result.coupled_modes, "coupled", "");
   if (!result.poles.empty())
     html += pole_table(result.poles);
   if (!result.frame_modes.empty())
     html += "<h3>Frame alone, as it is supported</h3>" + mode_table(result.frame_modes, result.model.frequency_limit) +
-            pictures(result.frame_modes, "frame", frame_mode_svg, !result.scenery.has_skin());
+            (!result.scenery.has_skin() ? bars(result.frame_modes, "frame", "Frame ")
+             : has_view                 ? mode_pictures(result.frame_modes, "frame", most_mode_pictures)
+                                        : "");
   return section("modes", "Natural frequencies and modes", html);
 }
 
@@ -402,27 +357,26 @@ std::string contents(const std::string &body)
 
 } // namespace
 
-Report make_report(const Result &full)
+Report make_report(const Result &result)
 {
-  Result result  = full;
-  result.scenery = for_pictures(full.scenery);
-
+  const std::string              view     = machine_view(result);
+  const bool                     has_view = !view.empty();
   Report                         report;
   const std::vector<SignalChart> charts = result.run ? signal_charts(*result.run) : std::vector<SignalChart>();
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
   const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, report) +
-      section("view", "The machine to turn", machine_view(full)) + compared_run_section(result, report.charts) +
+      periodic_section(result, report.charts) + answer_section(result, has_view) +
+      section("view", "The machine to turn", view) + compared_run_section(result, report.charts) +
       stage_section(result) + budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
-      stress_section(result, report.charts) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
+      stress_section(result, has_view) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
       chart_section(charts, ChartTopic::motion, "motion", "Motion") +
       chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
       story_section(result) + spectrum_section(result, report.charts) + events_section(result) +
       energy_section(result, charts) + frequency_response_section(result, report.charts) +
       along_section(result, report.charts) + compared_modes_section(result, report.charts) +
-      modes_section(result, report) + numerics_section(result);
+      modes_section(result, has_view, report.charts) + numerics_section(result);
 
   report.html = page_html(
       {result.scene, result.description,

@@ -1,6 +1,6 @@
 #include "apps/output/report/stress_report.h"
 
-#include "apps/output/pictures/skin_picture.h"
+#include "apps/output/interactive/machine_view.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
@@ -66,7 +66,7 @@ double top_of(const StressAt &at)
 
 } // namespace
 
-std::string stress_section(const Result &result, Pictures &pictures)
+std::string stress_section(const Result &result, bool has_view)
 {
   if (!result.stress || result.stress->instants.empty())
     return "";
@@ -77,24 +77,10 @@ std::string stress_section(const Result &result, Pictures &pictures)
   const DisplayUnit unit = display_unit("Pa", largest);
 
   std::string html = statement(stress) + table_html(stress, unit) + "<div class=\"modes\">";
-  for (std::size_t k = 0; k < std::min(stress.instants.size(), most_pictures); ++k)
-  {
-    const StressAt &at = stress.instants[k];
-    SkinField       field;
-    field.skin.points    = stress.points;
-    field.skin.triangles = stress.triangles;
-    for (Eigen::Index i = 0; i < at.displacement.cols(); ++i)
-      field.skin.displacement.push_back(at.displacement.col(i));
-    field.values.assign(at.field.von_mises.begin(), at.field.von_mises.end());
-    field.top  = top_of(at);
-    field.unit = unit;
-    if (at.peak)
-      field.mark = at.peak->at;
-    pictures.emplace_back("stress-" + std::to_string(k + 1),
-                          field_picture_svg(field, at.label.empty() ? "t = " + time_text(at.t) : at.label,
-                                            "σᵥ [" + unit.unit + "], t = " + time_text(at.t)));
-    html += figure(pictures.back().second);
-  }
+  for (std::size_t k = 0; k < std::min(stress.instants.size(), most_pictures) && has_view; ++k)
+    html += machine_picture({"stress-" + std::to_string(k + 1)},
+                            escape_xml(stress.instants[k].label.empty() ? "" : stress.instants[k].label + ", ") +
+                                "t = " + time_text(stress.instants[k].t));
   return section("stress", "Stress in the frame", html + "</div>\n");
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "apps/output/text/svg.h"
 #include "apps/output/values/result.h"
 
 #include <string>
@@ -8,8 +7,8 @@
 namespace gestell::apps
 {
 
-/// Stresses for the page: table of the largest and a picture of each instant, which joins `pictures`; "" if
-/// there are none.
-std::string stress_section(const Result &result, Pictures &pictures);
+/// Stresses for the page: table of the largest and, with a view of the machine, a picture of each instant; "" if there
+/// are none.
+std::string stress_section(const Result &result, bool has_view);
 
 } // namespace gestell::apps

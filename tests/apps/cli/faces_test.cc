@@ -79,8 +79,7 @@ TEST(FacesPage, OpensWithoutANetworkInLessThanFiveMegabytes)
   const std::string page = read(folder.results() / "faces.html");
   EXPECT_LT(page.size(), 5000000u);
   EXPECT_EQ(count(page, "src="), 0);
-  EXPECT_EQ(count(page, "http"), count(page, "http://www.w3.org/2000/svg")); // a name, not an address
-  EXPECT_EQ(count(page, "<svg"), 8);
+  EXPECT_EQ(count(page, "http"), 0);
   EXPECT_THAT(page, HasSubstr("the file's unit of length is mm"));
   EXPECT_GT(std::filesystem::file_size(folder.results() / "faces.vtp"), 10000u);
 }

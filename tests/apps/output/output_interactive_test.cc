@@ -1,6 +1,6 @@
 #include "apps/output/interactive/live_chart.h"
+#include "apps/output/interactive/machine_animation.h"
 #include "apps/output/interactive/page_scripts.h"
-#include "apps/output/interactive/seen_machine.h"
 #include "apps/output/interactive/short_motion.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/base64.h"
@@ -116,7 +116,7 @@ TEST(Noise, IsBelowABillionthOfTheLargestOfItsUnit)
 }
 
 /// The stroke as it was asked for ends in the last picture, and what it is looked at for is its peak.
-TEST(SeenInstants, HoldTheEndAndTheMainPeak)
+TEST(AnimationInstants, HoldTheEndAndTheMainPeak)
 {
   Result               result = example_result();
   coupling::RunResult &run    = *result.run;
@@ -126,8 +126,8 @@ TEST(SeenInstants, HoldTheEndAndTheMainPeak)
     run.picture_times.push_back(1e-3 * i);
     run.picture_states.push_back(Eigen::Vector4d::Constant(i));
   }
-  result.peak             = PeakState{"F_P", "N", 1e6, 0.2341, Eigen::Vector4d::Constant(234.1)};
-  const SeenInstants seen = seen_instants(result, 200);
+  result.peak                  = PeakState{"F_P", "N", 1e6, 0.2341, Eigen::Vector4d::Constant(234.1)};
+  const AnimationInstants seen = animation_instants(result, 200);
   ASSERT_EQ(seen.times.size(), 202u); // each fifth, the last, the peak
   EXPECT_EQ(seen.times.back(), run.picture_times.back());
   EXPECT_EQ(seen.states.back()[0], 999.);
@@ -136,7 +136,7 @@ TEST(SeenInstants, HoldTheEndAndTheMainPeak)
   EXPECT_EQ(seen.states[std::size_t(peak - seen.times.begin())][0], 234.1);
   EXPECT_TRUE(std::is_sorted(seen.times.begin(), seen.times.end()));
   result.peak->t = run.picture_times[235]; // a picture that stays anyway
-  EXPECT_EQ(seen_instants(result, 200).times.size(), 201u);
+  EXPECT_EQ(animation_instants(result, 200).times.size(), 201u);
 }
 
 /// Constant speed is straight at whatever instants; a circle of 90 degrees a step is not.
@@ -156,7 +156,7 @@ TEST(ShortMotion, IsStraightByTheTimesOfItsInstants)
 }
 
 /// Modes need no run: the crank is there, stands as at their configuration, and the mode turns it: u = phi e x (x - c).
-TEST(SeenMachine, ShowsCoupledModesAboutTheirConfiguration)
+TEST(MachineAnimation, ShowsCoupledModesAboutTheirConfiguration)
 {
   Result result   = example_result();
   result.modes_at = Eigen::Vector4d(0., 0., 2.6, 0.13);
@@ -164,8 +164,8 @@ TEST(SeenMachine, ShowsCoupledModesAboutTheirConfiguration)
   {
     if (!with_run)
       result.run.reset();
-    const SeenMachine machine(result);
-    const auto        bodies = mechanism_shapes(result.scenery, result.modes_at);
+    const MachineAnimation machine(result);
+    const auto             bodies = mechanism_shapes(result.scenery, result.modes_at);
     ASSERT_EQ(machine.parts().size(), 1 + bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i)
       EXPECT_EQ(machine.parts()[1 + i].points, bodies[i].points) << bodies[i].name;
@@ -181,12 +181,12 @@ TEST(SeenMachine, ShowsCoupledModesAboutTheirConfiguration)
 }
 
 /// From where the parts rest the motion leads to where the pictures put them.
-TEST(SeenMachine, MovesFromItsRestToThePictures)
+TEST(MachineAnimation, MovesFromItsRestToThePictures)
 {
   Result result   = example_result();
   result.modes_at = Eigen::Vector4d(0., 0., 2.6, 0.13);
-  const SeenMachine machine(result);
-  const auto        motion = machine.motion(result.run->picture_states);
+  const MachineAnimation machine(result);
+  const auto             motion = machine.motion(result.run->picture_states);
   for (std::size_t k = 0; k < 3; ++k)
   {
     const auto bodies = mechanism_shapes(result.scenery, result.run->picture_states[k]);

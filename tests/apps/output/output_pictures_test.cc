@@ -1,7 +1,7 @@
+#include "apps/output/interactive/machine_animation.h"
+#include "apps/output/pictures/machine_state.h"
 #include "apps/output/pictures/mechanism_shapes.h"
-#include "apps/output/pictures/projection.h"
 #include "apps/output/pictures/skin.h"
-#include "apps/output/pictures/skin_picture.h"
 #include "tests/support/output_example.h"
 
 #include <Eigen/Geometry>
@@ -164,16 +164,6 @@ TEST(CoarseMesh, KeepsPlanesAndIsMuchSmaller)
   EXPECT_TRUE(coarse_mesh(Skin(), 0.3).points.empty());
 }
 
-TEST(Skin, RefinedHasShortEdgesAndTheSameVolume)
-{
-  const Skin fine = refined(cube(1), 0.21);
-  for (const auto &t : fine.triangles)
-    for (int i = 0; i < 3; ++i)
-      EXPECT_LE((fine.points[t[i]] - fine.points[t[(i + 1) % 3]]).norm(), 0.21);
-  EXPECT_NEAR(volume_of({"", fine.points, {}, fine.triangles}), 1., 1e-12);
-  EXPECT_EQ(fine.displacement.size(), fine.points.size());
-}
-
 TEST(Skin, SharpEdgesOfACubeAreItsTwelve)
 {
   Skin skin;
@@ -188,66 +178,28 @@ TEST(Skin, SharpEdgesOfACubeAreItsTwelve)
   EXPECT_EQ(sharp_edges(skin, 95.).size(), 0u);
 }
 
-// A round bar seen from the side: two lines along it, and its ends, which are lines from there.
-TEST(Skin, ARoundBarHasASilhouette)
-{
-  Shape bar;
-  add_bar(bar, {0., 0., 0.}, {2., 0., 0.}, 0.1);
-  const Skin     skin{bar.points, std::vector<Vector3d>(bar.points.size(), Vector3d::Zero()), bar.triangles};
-  const Vector3d towards(0., -1., 0.1);
-  int            along = 0;
-  for (const auto &[a, b] : edges_between(skin, [&](const Vector3d &m, const Vector3d &n)
-                                          { return (m.dot(towards) > 0.) != (n.dot(towards) > 0.); }))
-    along += std::abs((skin.points[a] - skin.points[b])[0]) > 1.9;
-  EXPECT_EQ(along, 2);
-}
-
-TEST(Projection, HidesWhatStandsBehind)
-{
-  const std::vector<Vector3d> seen = {{-1., -1., -1.}, {1., 1., 1.}};
-  const View                  view(seen, 100.);
-  const Vector3d              towards(0.55, -0.75, 0.36);
-  const auto                  facet = [&](double near, double size)
-  {
-    const Vector3d shift = near * towards;
-    return Facet{{view(shift + Vector3d(-size, 0., -size)), view(shift + Vector3d(size, 0., -size)),
-                  view(shift + Vector3d(0., 0., size))},
-                 "#000000"};
-  };
-  const std::vector<Facet> facets = {facet(-0.2, 0.2), facet(0.2, 0.6)};
-  const DepthRaster        raster(facets, view);
-  ASSERT_EQ(raster.visible(facets).size(), 1u);
-  EXPECT_GT(raster.visible(facets)[0].depth(), facets[0].depth());
-  EXPECT_FALSE(raster.sees(view(Vector3d::Zero()), 0.5));
-  EXPECT_TRUE(raster.sees(view(towards), 0.5));
-}
-
-TEST(ModePicture, StaysSmallForAFineSkin)
+/// The page of a fine mesh stays small, and what is left of the skin moves as it did.
+TEST(MachineAnimation, DrawsAFineSkinOnFewTriangles)
 {
   const Skin fine = cube(120); // 172 800 triangles
-  Scenery    scenery;
+  Result     result;
   for (const Vector3d &x : fine.points)
-    scenery.points.push_back({x[0], x[1], x[2]});
-  scenery.triangles    = fine.triangles;
-  scenery.displacement = [&](const Eigen::VectorXd &) -> Eigen::VectorXd
+    result.scenery.points.push_back({x[0], x[1], x[2]});
+  result.scenery.triangles    = fine.triangles;
+  result.scenery.n_frame      = 1;
+  result.scenery.displacement = [&](const Eigen::VectorXd &p) -> Eigen::VectorXd
   {
     Eigen::VectorXd u(3 * static_cast<long>(fine.points.size()));
     for (std::size_t i = 0; i < fine.points.size(); ++i)
-      u.segment<3>(3 * static_cast<long>(i)) = fine.points[i];
+      u.segment<3>(3 * static_cast<long>(i)) = p[0] * fine.points[i]; // grows about a corner
     return u;
   };
-  const Scenery light = for_pictures(scenery);
-  const Skin    skin  = skin_of(light, Eigen::VectorXd());
+  const MachineAnimation machine(result);
+  ASSERT_TRUE(machine.has_frame());
+  const Shape &skin = machine.parts().front();
+  EXPECT_LE(skin.triangles.size(), 6500u);
+  EXPECT_GT(skin.triangles.size(), 1000u);
+  const Eigen::VectorXd mode = machine.frame_mode(Eigen::VectorXd::Constant(1, 0.5)).front();
   for (std::size_t i = 0; i < skin.points.size(); ++i)
-    ASSERT_EQ(skin.points[i], skin.displacement[i]);
-  const std::string svg = mode_picture_svg(skin, "fine", "");
-  EXPECT_LT(svg.size(), 300000u);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-}
-
-TEST(ModePicture, DrawsAShapeWithoutDisplacement)
-{
-  Skin skin = cube(3);
-  skin.displacement.assign(skin.points.size(), Vector3d::Zero());
-  EXPECT_EQ(mode_picture_svg(skin, "still", "").find("nan"), std::string::npos);
+    EXPECT_EQ(mode.segment<3>(3 * static_cast<long>(i)), 0.5 * skin.points[i]);
 }

@@ -1,3 +1,4 @@
+#include "apps/output/faces/faces_page.h"
 #include "apps/output/report/report.h"
 #include "tests/apps/pages/page_measures.h"
 #include "tests/support/output_example.h"
@@ -14,6 +15,15 @@ std::filesystem::path written(const tests::Folder &folder, const Report &report)
 {
   folder.file("page.html", report.html);
   return folder / "page.html";
+}
+
+/// Share of the points of a canvas that something is drawn on.
+std::string inked(const std::string &canvas)
+{
+  return "(canvas => { const { width, height } = canvas;"
+         " const pixels = canvas.getContext('2d').getImageData(0, 0, width, height).data; let n = 0;"
+         " for (let i = 3; i < pixels.length; i += 4) n += pixels[i] > 0; return n / (width * height); })(" +
+         canvas + ")";
 }
 
 constexpr const char *windows = "gestell.charts.filter(c => c.data.link === 'time').map(c => c.graph.xAxisRange())";
@@ -123,4 +133,81 @@ TEST(Page, DrawsComparedSignalsWithoutAPictureOfTheirOwn)
   EXPECT_GE(page.value(stills + ".length").get<int>(), 3);
   EXPECT_EQ(page.value(stills + ".every(e => getComputedStyle(e).display === 'none')"), true);
   EXPECT_EQ(page.value("gestell.charts.every(c => c.colours.series.every(x => /^#/.test(x)))"), true);
+}
+
+/// All pictures beside the text are drawn for paper, of several shapes one over the other, and leave the view as it
+/// was.
+TEST(Page, DrawsThePicturesOfTheMachineForPaper)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_pictures");
+  Result              result = with_stress(example_result(1000));
+  result.frame_modes.front().shape.setZero();
+  result.modes_at = Eigen::Vector4d(0., 0., 2.6, 0.13);
+  result.peak     = PeakState{"F_P", "N", 1e6, 0.2341, Eigen::Vector4d(1e-4, 2e-4, 2., 0.1366)}; // play 0.2 mm
+  Browser page(written(folder, make_report(result)));
+  tests::seconds_to_the_machine(page);
+  EXPECT_EQ(page.value("document.querySelectorAll('.machine-picture').length"), page.value("gestell.pictures.length"));
+  page.value("window.dispatchEvent(new Event('beforeprint'))");
+  const int n = page.value("gestell.pictures.length").get<int>();
+  ASSERT_GE(n, 6);
+  for (int i = 0; i < n; ++i)
+  {
+    const std::string picture = "gestell.pictures[" + std::to_string(i) + "]";
+    // The machine is as wide or as high as its picture, but it is no rectangle.
+    EXPECT_GT(page.value(inked(picture + ".canvas")).get<double>(), 0.1) << i;
+    EXPECT_LT(page.value(inked(picture + ".canvas")).get<double>(), 0.9) << i;
+  }
+  EXPECT_EQ(page.value("gestell.machine.parts.every(p => p.faces.visible && p.faces.material.colorWrite)"), true);
+  EXPECT_EQ(page.value("gestell.machine.show.id"), "motion");
+  page.value("gestell.pictures[1].canvas.click()"); // the peak, in the view
+  EXPECT_NEAR(page.value("gestell.machine.t").get<double>(), 0.2341, 1e-9);
+  EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
+}
+
+/// The place of the largest stress is ringed where the camera of the picture sees it: at the last corner of the box,
+/// which is behind.
+TEST(Page, RingsTheLargestStress)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_ring");
+  Browser             page(written(folder, make_report(with_stress(example_result(1000)))));
+  tests::seconds_to_the_machine(page);
+  const auto red = page.value(
+      "(() => { const picture = gestell.pictures.find(p => p.show.id === 'stress-1'); picture.draw();"
+      "  const { width, height } = picture.canvas, at = new THREE.Vector3().fromArray(gestell.machine.parts[0].rest, "
+      "21);"
+      "  at.project(picture.camera); const x = (1 + at.x) * picture.width, y = (1 - at.y) * picture.height;"
+      "  const pixels = picture.canvas.getContext('2d').getImageData(0, 0, width, height).data; let n = 0, far = 0;"
+      "  for (let j = 0; j < 2 * picture.height; ++j) for (let i = 0; i < width; ++i) {"
+      "    const [r, g, b] = pixels.subarray(4 * (j * width + i), 4 * (j * width + i) + 3);"
+      "    if (r > 190 && g < 60 && b < 80) { ++n; far = Math.max(far, Math.hypot(i - x, j - y)); } }"
+      "  return [n, far]; })()");
+  EXPECT_GT(red[0].get<int>(), 60) << "of some 200 points of a ring of radius 18 and breadth 4";
+  EXPECT_LT(red[1].get<double>(), 18. + 4. + 0.05 * 800.)
+      << "about the corner, displaced by a twentieth of the machine";
+}
+
+TEST(FacesPage, ChoosesTheFaceUnderThePointerAndKeepsAllFacesOfAFineMesh)
+{
+  GESTELL_NEEDS_BROWSER();
+  const tests::Folder folder("page_faces");
+  folder.file("page.html", faces_page(chequered(23, 8), "plate.step", "0"));
+  Browser page(folder / "page.html");
+  EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());
+  EXPECT_TRUE(page.requests().empty()) << tests::texts(page.requests());
+  EXPECT_EQ(page.value("new Set(new Uint32Array(Uint8Array.from(atob(frame.face), c => c.charCodeAt(0)).buffer)).size"),
+            529);
+  EXPECT_EQ(page.value("document.querySelectorAll('.sides canvas').length"), 8);
+  // Seen from above the middle of the plate is the middle of face 12 of 23 in row 12 of 23.
+  page.value("new Promise(done => { document.getElementById('turn').scrollIntoView();"
+             " [...document.querySelectorAll('#views button')].find(b => b.textContent === 'top').click();"
+             " setTimeout(done, 300); })");
+  const auto at = tests::place_of(page, "#turn");
+  page.drag(at[0] + 0.5 * at[2], at[1] + 0.5 * at[3], at[0] + 0.5 * at[2], at[1] + 0.5 * at[3]);
+  EXPECT_EQ(page.value("document.getElementById('head').textContent"), "Face 265");
+  for (const int side : {0, 6})
+    EXPECT_GT(
+        page.value(inked("document.querySelectorAll('.sides canvas')[" + std::to_string(side) + "]")).get<double>(),
+        0.05);
 }

@@ -1,4 +1,8 @@
-#include "apps/output/interactive/seen_machine.h"
+#include "apps/output/interactive/machine_animation.h"
+
+#include "apps/output/pictures/machine_state.h"
+#include "apps/output/pictures/mechanism_shapes.h"
+#include "apps/output/pictures/scenery_skin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +13,7 @@ namespace
 {
 
 constexpr std::size_t most_frame_triangles = 6500, most_body_triangles = 3000;
-constexpr double      swings_seen  = 3.;  ///< half swings on either side of the main peak whose pictures all stay
+constexpr double      dense_swings = 3.;  ///< half swings on either side of the main peak whose pictures all stay
 constexpr int         most_columns = 400; ///< coordinates of a reduced frame
 
 CoarseMesh coarse(const Skin &skin, std::size_t most)
@@ -55,7 +59,7 @@ Eigen::VectorXd rest_of(const Result &result)
   return result.run->picture_states.front();
 }
 
-void add_instant(SeenInstants &seen, double t, const Eigen::VectorXd &q)
+void add_instant(AnimationInstants &seen, double t, const Eigen::VectorXd &q)
 {
   const auto at = std::lower_bound(seen.times.begin(), seen.times.end(), t);
   if (at != seen.times.end() && *at == t)
@@ -66,16 +70,16 @@ void add_instant(SeenInstants &seen, double t, const Eigen::VectorXd &q)
 
 } // namespace
 
-SeenInstants seen_instants(const Result &result, std::size_t most)
+AnimationInstants animation_instants(const Result &result, std::size_t most)
 {
   const auto &times  = result.run->picture_times;
   const auto &states = result.run->picture_states;
   const auto &peak   = result.peak;
   const auto  dense  = [&](double t)
-  { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= swings_seen * peak->half_swing; };
+  { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= dense_swings * peak->half_swing; };
   const std::size_t around = std::min(std::size_t(std::count_if(times.begin(), times.end(), dense)), most / 2);
   const std::size_t every  = (states.size() - around + most - around - 1) / (most - around);
-  SeenInstants      seen;
+  AnimationInstants seen;
   std::size_t       left = around, sparse = 0;
   for (std::size_t k = 0; k < states.size(); ++k)
   {
@@ -93,7 +97,7 @@ SeenInstants seen_instants(const Result &result, std::size_t most)
   return seen;
 }
 
-SeenMachine::SeenMachine(const Result &result)
+MachineAnimation::MachineAnimation(const Result &result)
     : scenery_(result.scenery), rest_(rest_of(result)), size_(result.scenery.size())
 {
   for (DrawnPart &part : scenery_.parts)
@@ -115,12 +119,12 @@ SeenMachine::SeenMachine(const Result &result)
     parts_.push_back(body);
 }
 
-std::vector<Shape> SeenMachine::bodies(const Eigen::VectorXd &q) const
+std::vector<Shape> MachineAnimation::bodies(const Eigen::VectorXd &q) const
 {
   return q.size() > 0 ? mechanism_shapes(scenery_, q) : std::vector<Shape>();
 }
 
-Eigen::MatrixXd SeenMachine::displacements_of_coordinates() const
+Eigen::MatrixXd MachineAnimation::displacements_of_coordinates() const
 {
   Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(chosen_.size()), scenery_.n_frame);
   for (Eigen::Index j = 0; j < columns.cols(); ++j)
@@ -128,13 +132,13 @@ Eigen::MatrixXd SeenMachine::displacements_of_coordinates() const
   return columns;
 }
 
-Eigen::VectorXd SeenMachine::frame_displacement(const Eigen::VectorXd &q) const
+Eigen::VectorXd MachineAnimation::frame_displacement(const Eigen::VectorXd &q) const
 {
   const Eigen::VectorXd p = q.head(scenery_.n_frame);
   return displacements_.size() > 0 ? displacements_ * p : displacement_of(p);
 }
 
-Eigen::VectorXd SeenMachine::displacement_of(const Eigen::VectorXd &p) const
+Eigen::VectorXd MachineAnimation::displacement_of(const Eigen::VectorXd &p) const
 {
   const Eigen::VectorXd all = scenery_.displacement(p);
   Eigen::VectorXd       few(3 * static_cast<Eigen::Index>(chosen_.size()));
@@ -143,7 +147,7 @@ Eigen::VectorXd SeenMachine::displacement_of(const Eigen::VectorXd &p) const
   return few;
 }
 
-std::vector<PartMotion> SeenMachine::motion(const std::vector<Eigen::VectorXd> &states) const
+std::vector<PartMotion> MachineAnimation::motion(const std::vector<Eigen::VectorXd> &states) const
 {
   const auto              n = static_cast<Eigen::Index>(states.size());
   std::vector<PartMotion> motions;
@@ -169,7 +173,7 @@ std::vector<PartMotion> SeenMachine::motion(const std::vector<Eigen::VectorXd> &
   return motions;
 }
 
-std::vector<Eigen::VectorXd> SeenMachine::at_rest() const
+std::vector<Eigen::VectorXd> MachineAnimation::at_rest() const
 {
   std::vector<Eigen::VectorXd> displacements;
   for (const Shape &part : parts_)
@@ -177,7 +181,7 @@ std::vector<Eigen::VectorXd> SeenMachine::at_rest() const
   return displacements;
 }
 
-std::vector<Eigen::VectorXd> SeenMachine::frame_mode(const Eigen::VectorXd &shape) const
+std::vector<Eigen::VectorXd> MachineAnimation::frame_mode(const Eigen::VectorXd &shape) const
 {
   std::vector<Eigen::VectorXd> displacements = at_rest();
   if (has_frame())
@@ -185,18 +189,14 @@ std::vector<Eigen::VectorXd> SeenMachine::frame_mode(const Eigen::VectorXd &shap
   return displacements;
 }
 
-std::vector<Eigen::VectorXd> SeenMachine::machine_mode(const Eigen::VectorXd &shape) const
+std::vector<Eigen::VectorXd> MachineAnimation::machine_mode(const Eigen::VectorXd &shape) const
 {
-  constexpr double             small         = 1e-6; // of a turn, or a metre: shapes turn on circles
-  const double                 largest       = shape.cwiseAbs().maxCoeff();
   std::vector<Eigen::VectorXd> displacements = frame_mode(shape);
-  if (rest_.size() != shape.size() || !(largest > 0.))
+  if (rest_.size() != shape.size())
     return displacements;
-  const std::vector<PartMotion> apart = motion({rest_ - small / largest * shape, rest_ + small / largest * shape});
-  for (std::size_t i = has_frame() ? 1 : 0; i < parts_.size(); ++i)
-    displacements[i] =
-        largest / (2. * small) *
-        (apart[i].ideal.col(1) - apart[i].ideal.col(0) + apart[i].displacement.col(1) - apart[i].displacement.col(0));
+  std::size_t part = has_frame() ? 1 : 0;
+  for (const std::vector<Eigen::Vector3d> &body : body_mode(scenery_, rest_, shape))
+    displacements[part++] = column(body);
   return displacements;
 }
 

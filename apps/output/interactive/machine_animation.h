@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/pictures/skin_picture.h"
+#include "apps/output/pictures/shape.h"
 #include "apps/output/values/result.h"
 
 #include <Eigen/Core>
@@ -19,21 +19,21 @@ struct PartMotion
 };
 
 /// Instants that a view shows of a run.
-struct SeenInstants
+struct AnimationInstants
 {
   std::vector<double>          times; ///< [s] ascending
   std::vector<Eigen::VectorXd> states;
 };
 
-/// Every k-th picture of the run, so that they are at most `most`, but all of those within three half swings of the main
-/// peak, as far as these are no more than half of them; beside them the last one and the main peak stay.
-SeenInstants seen_instants(const Result &result, std::size_t most);
+/// Every k-th picture of the run, so that they are at most `most`, but all of those within three half swings of the
+/// main peak, as far as these are no more than half of them; beside them the last one and the main peak stay.
+AnimationInstants animation_instants(const Result &result, std::size_t most);
 
 /// Frame and bodies as the view draws them, on few triangles.
-class SeenMachine
+class MachineAnimation
 {
 public:
-  explicit SeenMachine(const Result &result);
+  explicit MachineAnimation(const Result &result);
 
   /// The frame, if it has a skin, then the bodies, as they rest: at Result::modes_at, without it at the first picture.
   const std::vector<Shape> &parts() const { return parts_; }
