@@ -74,21 +74,21 @@ void write_tables(const Write &write, const Result &result)
 
 void write_all(const Result &result, Writing &writing)
 {
-  constexpr std::size_t for_warnings = 8192;
-  Result                told         = result;
+  constexpr std::size_t for_warnings  = 8192;
+  Result                with_warnings = result;
   if (const std::string warning = lacks_for_paraview(); !warning.empty())
-    told.warnings.push_back(warning);
-  writing.keep_room(complete, summary_json(told).size() + for_warnings);
+    with_warnings.warnings.push_back(warning);
+  writing.keep_room(complete, summary_json(with_warnings).size() + for_warnings);
   write_tables([&](const std::string &name, const std::string &content) { writing.write(name, content); }, result);
-  const Report report = make_report(told);
+  const Report report = make_report(with_warnings);
   writing.write("report.html", report.html);
   for (const auto &[name, svg] : report.charts)
     writing.write("charts/" + name + ".svg", svg);
   for (const auto &series : paraview_series())
     writing.together([&](OwnFolder &folder, std::vector<std::string> &names) { series(folder, result, names); });
-  told.warnings.insert(told.warnings.end(), writing.failures().begin(), writing.failures().end());
+  with_warnings.warnings.insert(with_warnings.warnings.end(), writing.failures().begin(), writing.failures().end());
   writing.give_room_back();
-  writing.write(complete, summary_json(told));
+  writing.write(complete, summary_json(with_warnings));
 }
 
 } // namespace

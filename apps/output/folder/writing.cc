@@ -24,7 +24,7 @@ void Writing::keep_room(const std::string &name, std::size_t bytes)
   {
     room_.push_back(std::make_shared<Room>(folder_.claim(name), bytes));
   }
-  catch (const coupling::WriteFailure &) // told when the file is written
+  catch (const coupling::WriteFailure &) // reported when the file is written
   {
   }
   catch (const std::invalid_argument &)

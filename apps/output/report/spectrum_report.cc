@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double least_shown = 1e-4; ///< of the largest amplitude, where the axis begins
-constexpr double told        = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
+constexpr double shown_share = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
 constexpr int    most_orders = 8;
 constexpr double steady      = 1.02; ///< ratio of largest and smallest speed of a drive whose orders are lines
 
@@ -24,12 +24,12 @@ double most_of(const SignalSpectrum &spectrum)
 }
 
 /// [Hz] to where there is something to see of one of them, with some room.
-double highest_told(const Spectra &spectra, const std::vector<const SignalSpectrum *> &shown)
+double highest_shown(const Spectra &spectra, const std::vector<const SignalSpectrum *> &shown)
 {
   std::size_t last = 8;
   for (const SignalSpectrum *spectrum : shown)
     for (std::size_t k = last; k < spectrum->amplitudes.size(); ++k)
-      if (spectrum->amplitudes[k] > told * most_of(*spectrum))
+      if (spectrum->amplitudes[k] > shown_share * most_of(*spectrum))
         last = k;
   const std::size_t lines = shown.front()->amplitudes.size() - 1;
   return std::min(1.25 * static_cast<double>(last), static_cast<double>(lines)) * spectra.resolution_hz;
@@ -72,7 +72,7 @@ Chart spectrum_chart(const Result &result, const std::vector<const SignalSpectru
   chart.title  = "Spectrum";
   for (const SignalSpectrum *spectrum : shown)
     chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
-  chart.x       = {"frequency [Hz]", 0., highest_told(spectra, shown)};
+  chart.x       = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
   chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};
   chart.y.scale = Scale::logarithmic;
   for (const SignalSpectrum *spectrum : shown)
@@ -107,11 +107,12 @@ std::vector<std::vector<const SignalSpectrum *>> by_unit(const Spectra &spectra)
 /// Up to which frequency the rows of the history carry the signals, and up to which one lines are drawn.
 std::string rows_text(const Spectra &spectra)
 {
-  const double told_hz = static_cast<double>(spectra.signals.front().amplitudes.size() - 1) * spectra.resolution_hz;
+  const double listed_hz = static_cast<double>(spectra.signals.front().amplitudes.size() - 1) * spectra.resolution_hz;
   return "Rows of the history stand " + short_text(spectra.row_step, 3) + " s apart and carry motion up to " +
          short_text(spectra.carried_hz, 3) + " Hz" +
-         (told_hz < 0.999 * spectra.carried_hz ? ", of which the lines up to " + short_text(told_hz, 3) + " Hz are told"
-                                               : "") +
+         (listed_hz < 0.999 * spectra.carried_hz
+              ? ", of which the lines up to " + short_text(listed_hz, 3) + " Hz are listed"
+              : "") +
          ". They are instants, not means: faster motion folds into lines below " +
          short_text(0.5 / spectra.row_step, 3) + " Hz, and a smaller output.step shows it.";
 }

@@ -16,13 +16,13 @@ namespace
 constexpr std::size_t most_rows = 40; ///< of modes in a terminal
 
 /// The first rows, and all modes that grow.
-std::vector<coupling::ModeAccuracy> told_modes(const StabilityStudy &study)
+std::vector<coupling::ModeAccuracy> listed_modes(const StabilityStudy &study)
 {
-  std::vector<coupling::ModeAccuracy> told;
+  std::vector<coupling::ModeAccuracy> listed;
   for (const coupling::ModeAccuracy &mode : study.modes)
-    if (told.size() < most_rows || mode.unstable)
-      told.push_back(mode);
-  return told;
+    if (listed.size() < most_rows || mode.unstable)
+      listed.push_back(mode);
+  return listed;
 }
 
 std::string modes_section(const StabilityStudy &study)
@@ -75,11 +75,11 @@ std::string stability_text(const StabilityStudy &study)
   std::string text;
   if (!study.modes.empty())
   {
-    const auto told = told_modes(study);
-    text += study.method + '\n' + table_of(told).terminal();
-    if (told.size() < study.modes.size())
+    const auto listed = listed_modes(study);
+    text += study.method + '\n' + table_of(listed).terminal();
+    if (listed.size() < study.modes.size())
       text +=
-          "  ... " + std::to_string(study.modes.size() - told.size()) + " more, all stable, in stability_modes.csv\n";
+          "  ... " + std::to_string(study.modes.size() - listed.size()) + " more, all stable, in stability_modes.csv\n";
     text += "other methods at this step\n" + table_of(study.verdicts).terminal();
   }
   for (const std::string &note : study.notes)

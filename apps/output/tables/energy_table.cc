@@ -13,8 +13,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      told       = 0.01; ///< share from which on words tell it
-constexpr std::size_t most_parts = 4;
+constexpr double      least_named = 0.01; ///< share of the energy from which on an element or body is named
+constexpr std::size_t most_parts  = 4;
 
 std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, std::size_t mode)
 {
@@ -27,7 +27,7 @@ std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
   std::string text;
   for (std::size_t k = 0; k < std::min(order.size(), most_parts); ++k)
-    if (size(order[k]) >= told) // not nan
+    if (size(order[k]) >= least_named) // not nan
       text +=
           (text.empty() ? "" : ", ") + names[order[k]] + ' ' + short_text(100. * own[Eigen::Index(order[k])], 3) + " %";
   return text;

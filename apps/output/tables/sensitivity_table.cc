@@ -14,8 +14,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      no_change = 1e-9; ///< [%] that is rounding
-constexpr std::size_t most_told = 3;    ///< keys of an output in a terminal
+constexpr double      no_change   = 1e-9; ///< [%] that is rounding
+constexpr std::size_t most_listed = 3;    ///< keys of an output in a terminal
 
 /// Why there is no derivative, or how the frame's share was found.
 std::string note_of(const SensitivityOutput &output, const SensitivityKey &key, Eigen::Index k)
@@ -76,7 +76,7 @@ std::string sensitivities_text(const SensitivityResult &result)
     if (!peak || keys.empty())
       continue;
     text << "  " << std::left << std::setw(14) << name;
-    for (std::size_t i = 0; i < std::min(most_told, keys.size()); ++i)
+    for (std::size_t i = 0; i < std::min(most_listed, keys.size()); ++i)
     {
       const SensitivityKey &key    = result.keys[std::size_t(keys[i])];
       const double          change = output.percent(key, keys[i]);
