@@ -2,7 +2,7 @@
 
 #include "apps/atlas/atlas.h"
 #include "apps/output/charts/chart.h"
-#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/motion.h"
 #include "coupling/integration/propagation/force_rule.h"
 #include "fem/values/number_text.h"
 #include "mechanism/elements/clearance.h"
@@ -74,19 +74,16 @@ std::vector<double> flight_energy(const NamedMethod &method, double omega_contac
   MethodOptions options = method.options;
   options.step          = 1.;
 
-  const auto             integrator = coupling::make_integrator(machine, options);
-  coupling::EventOptions events;
-  events.locate = locate;
-  events.end    = flight_steps;
-  coupling::EventDriver driver(machine, *integrator, events);
-  driver.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1));
+  coupling::Motion motion(machine, coupling::make_integrator(machine, options));
+  motion.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1), {locate, flight_steps});
   std::vector<double> energy{1.};
-  while (integrator->time() < flight_steps - 1e-9 && energy.back() < 1e6)
-  {
-    driver.advance();
-    const coupling::Instant &now = integrator->instant();
-    energy.push_back(std::abs(now.q[0]) < gap_in_steps ? now.v[0] * now.v[0] : energy.back());
-  }
+  motion.to_end(
+      [&]
+      {
+        const coupling::Instant &now = motion.integrator().instant();
+        energy.push_back(std::abs(now.q[0]) < gap_in_steps ? now.v[0] * now.v[0] : energy.back());
+        return energy.back() < 1e6;
+      });
   return energy;
 }
 
@@ -185,15 +182,10 @@ Eigen::Vector2d state_at(const MethodOptions &method, double step, bool locate, 
   options.step             = step;
   options.newton.tolerance = 1e-13;
 
-  const auto             integrator = coupling::make_integrator(machine, options);
-  coupling::EventOptions events;
-  events.locate = locate;
-  events.end    = end;
-  coupling::EventDriver driver(machine, *integrator, events);
-  driver.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1));
-  while (integrator->time() < end - 1e-12)
-    driver.advance();
-  return {integrator->instant().q[0], integrator->instant().v[0] / 20.};
+  coupling::Motion motion(machine, coupling::make_integrator(machine, options));
+  motion.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1), {locate, end});
+  motion.to_end();
+  return {motion.integrator().instant().q[0], motion.integrator().instant().v[0] / 20.};
 }
 
 /// Slope of ln(error) over ln(step).
@@ -335,17 +327,15 @@ AtlasEntry chatter()
     MethodOptions options = average_acceleration().options;
     options.step          = 1.;
 
-    const auto             integrator = coupling::make_integrator(machine, options);
-    coupling::EventOptions events;
-    events.end = n_steps;
-    coupling::EventDriver driver(machine, *integrator, events);
-    driver.begin(0., Eigen::VectorXd::LinSpaced(n, -0.97, 0.97), Eigen::VectorXd::Ones(n));
+    coupling::Motion motion(machine, coupling::make_integrator(machine, options));
+    motion.begin(0., Eigen::VectorXd::LinSpaced(n, -0.97, 0.97), Eigen::VectorXd::Ones(n), {true, n_steps});
     std::vector<double> times{0.};
-    while (integrator->time() < n_steps - 1e-9)
-    {
-      driver.advance();
-      times.push_back(integrator->time());
-    }
+    motion.to_end(
+        [&]
+        {
+          times.push_back(motion.time());
+          return true;
+        });
     std::size_t most = 0;
     for (std::size_t i = 0, j = 0; j < times.size(); ++j)
     {
@@ -356,8 +346,8 @@ AtlasEntry chatter()
     // Within one step's length at most: the end of one count of 20 events, the step that goes over, 20 of the next.
     entry.comparisons.push_back(
         {std::to_string(n) + " masses, at most 42 parts of a step (1: yes)", 1., most <= 42 ? 1. : 0., 0.});
-    entry.table.push_back({std::to_string(n), short_text(double(driver.events().size()) / n_steps),
-                           std::to_string(driver.chattering_steps()), std::to_string(most)});
+    entry.table.push_back({std::to_string(n), short_text(double(motion.driver().events().size()) / n_steps),
+                           std::to_string(motion.chattering_steps()), std::to_string(most)});
   }
   return entry;
 }

@@ -1,6 +1,6 @@
 #include "apps/atlas/trials.h"
 
-#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/motion.h"
 #include "mechanism/elements/cubic_spring.h"
 
 #include <algorithm>
@@ -41,16 +41,13 @@ Eigen::MatrixXd step_through(coupling::Machine &machine, const coupling::MethodO
   const int       n = machine.size();
   Eigen::MatrixXd x(n_steps + 1, n);
 
-  const auto             integrator = coupling::make_integrator(machine, options);
-  coupling::EventOptions events;
-  events.locate = false;
-  coupling::EventDriver driver(machine, *integrator, events);
-  driver.begin(0., Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n));
+  coupling::Motion motion(machine, coupling::make_integrator(machine, options));
+  motion.begin(0., Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n), {false});
   x.row(0).setOnes();
   for (int k = 1; k <= n_steps; ++k)
   {
-    driver.advance();
-    x.row(k) = integrator->instant().q.transpose();
+    motion.advance();
+    x.row(k) = motion.integrator().instant().q.transpose();
   }
   return x;
 }

@@ -8,10 +8,10 @@
 #include "apps/output/tables/budget_table.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/noise.h"
-#include "apps/output/tables/summary_json.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
 #include "apps/session/story/run_facts.h"
@@ -187,8 +187,8 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
     std::cout << sensitivities_text(*result.sensitivities);
   if (!result.model.damping.empty())
     std::cout << "damping of the frame: " << result.model.damping << '\n';
-  for (const auto *warnings : {&result.warnings, &result.run->warnings})
-    for (const std::string &warning : *warnings)
+  for (const auto &warnings : {result.warnings, coupling::texts_of(result.run->findings)})
+    for (const std::string &warning : warnings)
       std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << "report: " << (folder / "report.html").string() << '\n';
   if (!result.run->failure.empty())

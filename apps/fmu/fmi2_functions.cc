@@ -18,13 +18,12 @@ void FmuComponent::log(fmi2Status status, const std::string &category, const std
     callbacks.logger(callbacks.componentEnvironment, name.c_str(), status, category.c_str(), "%s", message.c_str());
 }
 
-void FmuComponent::tell_notes()
+void FmuComponent::tell_findings()
 {
-  for (const std::string &note : model->take_notes())
-  {
-    const bool event = note.rfind("event at", 0) == 0;
-    log(event ? fmi2OK : fmi2Warning, event ? "logEvents" : "logStatusWarning", note);
-  }
+  for (const coupling::Finding &finding : model->take_findings())
+    log(fmi2Warning, "logStatusWarning", finding.text);
+  for (const coupling::Event &event : model->take_events())
+    log(fmi2OK, "logEvents", "event at " + exact_text(event.t) + " s: " + event.name + ": " + event.kind);
 }
 
 namespace
@@ -167,14 +166,19 @@ fmi2Status step_to(FmuComponent &own, double t, double length)
   try
   {
     model.step(t, length);
+    if (own.stops && t + length >= own.stop - 1e-9 * std::max(std::abs(own.stop), length))
+      model.verify();
   }
-  catch (const coupling::ConvergenceFailure &)
+  catch (const coupling::ConvergenceFailure &failure)
   {
     own.phase = Phase::failed;
-    own.tell_notes();
+    model.finish(failure.what());
+    own.tell_findings();
     throw;
   }
-  own.tell_notes();
+  if (!model.ended().empty())
+    model.finish(model.ended());
+  own.tell_findings();
   if (model.ended().empty())
     return fmi2OK;
   own.log(fmi2Discard, "logStatusDiscard", "the run has ended at " + exact_text(model.time()) + " s: " + model.ended());
@@ -286,7 +290,7 @@ FMI2_SHOWN fmi2Status fmi2ExitInitializationMode(fmi2Component c)
                     own.phase = Phase::failed;
                     own.model->start();
                     own.phase = Phase::stepping;
-                    own.tell_notes();
+                    own.tell_findings();
                     return fmi2OK;
                   });
 }
@@ -296,7 +300,11 @@ FMI2_SHOWN fmi2Status fmi2Terminate(fmi2Component c)
   return answered(c, "fmi2Terminate", {Phase::stepping},
                   [](FmuComponent &own)
                   {
-                    own.phase = Phase::terminated;
+                    own.phase                 = Phase::terminated;
+                    const std::string failure = own.model->ended().empty() ? own.model->finish() : "";
+                    own.tell_findings();
+                    if (!failure.empty())
+                      throw gestell::coupling::ConvergenceFailure(failure);
                     return fmi2OK;
                   });
 }

@@ -112,7 +112,6 @@ void FmuModel::build()
 void FmuModel::reset()
 {
   run_.reset();
-  notes_.clear();
   parameters_.clear();
   inputs_.clear();
   for (const FmuVariable &variable : interface_.parameters)
@@ -182,8 +181,6 @@ void FmuModel::start()
   require_free_motion(scene_, *machine_, initial);
   run_ =
       std::make_unique<coupling::SteppedRun>(*machine_, initial, scene_.run.options, scene_signals(scene_, *machine_));
-  notes_ = run_->warnings();
-  notes_.insert(notes_.end(), initial.notes.begin(), initial.notes.end());
 }
 
 double FmuModel::output(std::size_t i)
@@ -216,14 +213,25 @@ void FmuModel::step(double t, double length)
   run_->go_on_to(t + length);
 }
 
-std::vector<std::string> FmuModel::take_notes()
+void FmuModel::verify() const
 {
-  std::vector<std::string> notes;
-  notes.swap(notes_);
   if (run_)
-    for (const coupling::Event &event : run_->take_events())
-      notes.push_back("event at " + exact_text(event.t) + " s: " + event.name + ": " + event.kind);
-  return notes;
+    run_->verify();
+}
+
+std::string FmuModel::finish(const std::string &failure)
+{
+  return run_ ? run_->finish(failure) : "";
+}
+
+std::vector<coupling::Finding> FmuModel::take_findings()
+{
+  return run_ ? run_->take_findings() : std::vector<coupling::Finding>();
+}
+
+std::vector<coupling::Event> FmuModel::take_events()
+{
+  return run_ ? run_->take_events() : std::vector<coupling::Event>();
 }
 
 FmuState FmuModel::state()

@@ -26,7 +26,6 @@
 #include "apps/session/story/swing_shares.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
-#include "coupling/simulation/simulation.h"
 
 #include <algorithm>
 #include <ctime>
@@ -426,8 +425,9 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
     coupling::RunResult result =
         coupling::simulate(machine_->machine, initial, run, signals, share, watch_.interruption, trajectory,
                            checkpoints ? &*checkpoints : nullptr, &magnitudes.signals());
-    for (const auto &more : {not_kept, window_warnings(scene_, machine_->machine, initial, result)})
-      result.warnings.insert(result.warnings.end(), more.begin(), more.end());
+    for (std::string &warning : not_kept)
+      result.warn("checkpoint", "", std::move(warning));
+    check_window(scene_, machine_->machine, initial, result);
     warn_of_magnitudes(magnitudes.unexpected(result), warnings);
     return result;
   }

@@ -55,14 +55,14 @@ VectorXd turned(const PeriodicProblem &problem, const PeriodPassage &passage)
 
 PeriodFlow::PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration)
     : problem_(problem), system_(*problem.system), integration_(completed(integration, problem.period)),
-      integrator_(make_integrator(system_, integration_)), tangents_(dynamic_cast<MotionTangents *>(integrator_.get()))
+      motion_(system_, make_integrator(system_, integration_)), integrator_(motion_.integrator()),
+      tangents_(dynamic_cast<MotionTangents *>(&integrator_))
 {
+  motion_.watch(*this);
   local_look_.resize(system_);
   q_look_.setZero(system_.linear().size());
   v_look_ = q_look_;
 }
-
-PeriodFlow::~PeriodFlow() = default;
 
 void PeriodFlow::look_on(int samples, std::function<void(const OrbitPoint &)> look)
 {
@@ -93,14 +93,10 @@ void PeriodFlow::carry_all()
   dv_begin_ << MatrixXd::Zero(n, n), MatrixXd::Identity(n, n);
 }
 
-void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double begin, double end, bool tangents)
+void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, double end, bool tangents)
 {
   if (tangents && !tangents_)
     throw std::invalid_argument(method_name(integration_) + " carries no tangents; take exact, collocation");
-  EventOptions options;
-  options.end      = end;
-  options.still    = still_speed(system_, q, v, problem_.period);
-  driver_          = std::make_unique<EventDriver>(system_, *integrator_, options);
   passage_         = {};
   passage_.q_begin = q;
   passage_.v_begin = v;
@@ -109,19 +105,17 @@ void PeriodFlow::begin(const VectorXd &q, const VectorXd &v, double begin, doubl
   begin_           = begin;
   end_             = end;
   shown_           = 0;
+  at_turn_         = nullptr;
   t_event_         = -std::numeric_limits<double>::infinity();
   for (VectorXd &largest : largest_)
     largest.setZero(system_.forces().directions().cols());
-  driver_->begin(begin, q, v);
+  motion_.begin(begin, q, v, {true, end, still_speed(system_, q, v, problem_.period)});
   if (tangents)
   {
     if (dq_begin_.size() == 0)
       carry_all();
     tangents_->begin_tangents(dq_begin_, dv_begin_);
   }
-  driver_->on_step([this] { at_step(); });
-  driver_->on_guard([this](int guard) { at_guard(guard); });
-  driver_->on_event([this](const Event &) { at_event(); });
 }
 
 const PeriodPassage &PeriodFlow::pass(const VectorXd &q, const VectorXd &v, double period, bool tangents)
@@ -145,52 +139,58 @@ void PeriodFlow::put_back(const VectorXd &q)
 
 const PeriodPassage &PeriodFlow::pass_part(const VectorXd &q, const VectorXd &v, double from, double to, bool tangents)
 {
-  const IntegrationWork before = integrator_->work();
-  begin(q, v, from, to, tangents);
-  while (integrator_->time() < end_ - rounding * (to - from))
-    advance(before.steps);
+  const IntegrationWork before = integrator_.work();
+  start(q, v, from, to, tangents);
+  motion_.to_end(
+      [&]
+      {
+        require_few(integrator_.work().steps - before.steps);
+        return true;
+      });
   passage_.period = to - from;
-  passage_.q      = integrator_->instant().q;
-  passage_.v      = integrator_->instant().v;
+  passage_.q      = integrator_.instant().q;
+  passage_.v      = integrator_.instant().v;
   finish(before);
   return passage_;
 }
 
 const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v, double longest)
 {
-  const IntegrationWork before = integrator_->work();
+  const IntegrationWork before = integrator_.work();
   const int             phase  = problem_.phase;
   const double          from = q[phase], target = problem_.phase_value + problem_.turn[phase],
                direction = problem_.turn[phase] < 0. || problem_.phase_falls ? -1. : 1.;
-  begin(q, v, problem_.begin, problem_.begin + longest, false);
+  start(q, v, problem_.begin, problem_.begin + longest, false);
   bool there = false;
-  driver_->on_step(
+  at_turn_   = [&]
+  {
+    // The way of an oscillation begins and ends at the same value: what counts is the crossing in its direction,
+    // that of the turn, and without one upwards unless the phase falls.
+    const auto past = [&](double t)
+    {
+      integrator_.interpolate(t, q_look_, v_look_);
+      return direction * (q_look_[phase] - target);
+    };
+    double low = integrator_.step_begin(), high = integrator_.time();
+    if (there || !(high > low) || !(past(low) < 0.) || !(past(high) >= 0.))
+      return;
+    for (int k = 0; k < 60 && high - low > 1e-15 * (high - problem_.begin); ++k)
+    {
+      const double middle              = 0.5 * (low + high);
+      (past(middle) < 0. ? low : high) = middle;
+    }
+    past(high);
+    there           = true;
+    passage_.period = high - problem_.begin;
+    passage_.q      = q_look_;
+    passage_.v      = v_look_;
+  };
+  motion_.to_end(
       [&]
       {
-        at_step();
-        // The way of an oscillation begins and ends at the same value: what counts is the crossing in its direction,
-        // that of the turn, and without one upwards unless the phase falls.
-        const auto past = [&](double t)
-        {
-          integrator_->interpolate(t, q_look_, v_look_);
-          return direction * (q_look_[phase] - target);
-        };
-        double low = integrator_->step_begin(), high = integrator_->time();
-        if (there || !(high > low) || !(past(low) < 0.) || !(past(high) >= 0.))
-          return;
-        for (int k = 0; k < 60 && high - low > 1e-15 * (high - problem_.begin); ++k)
-        {
-          const double middle              = 0.5 * (low + high);
-          (past(middle) < 0. ? low : high) = middle;
-        }
-        past(high);
-        there           = true;
-        passage_.period = high - problem_.begin;
-        passage_.q      = q_look_;
-        passage_.v      = v_look_;
+        require_few(integrator_.work().steps - before.steps);
+        return !there;
       });
-  while (!there && integrator_->time() < end_ - rounding * longest)
-    advance(before.steps);
   finish(before);
   if (there)
   {
@@ -199,32 +199,31 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
   }
   std::ostringstream text;
   text << "the coordinate " << system_.linear().coordinate_name(phase) << " does not come round in " << longest
-       << " s: it goes from " << from << " to " << integrator_->instant().q[phase] << ", a period ends at " << target;
+       << " s: it goes from " << from << " to " << integrator_.instant().q[phase] << ", a period ends at " << target;
   throw NoPeriodicMotion(text.str());
 }
 
-void PeriodFlow::advance(long steps_before)
+void PeriodFlow::require_few(long steps) const
 {
-  driver_->advance();
   if (problem_.interrupted())
     throw SearchInterrupted();
-  if (integrator_->work().steps - steps_before > problem_.most_steps)
+  if (steps > problem_.most_steps)
     throw ConvergenceFailure("a period needs more than " + std::to_string(problem_.most_steps) +
                              " steps; take a larger tolerance");
 }
 
 void PeriodFlow::finish(const IntegrationWork &before)
 {
-  passage_.events              = driver_->events();
-  const IntegrationWork &now   = integrator_->work();
+  passage_.events              = motion_.driver().events();
+  const IntegrationWork &now   = integrator_.work();
   passage_.work.steps          = now.steps - before.steps;
   passage_.work.rejected       = now.rejected - before.rejected;
   passage_.work.newton         = now.newton - before.newton;
   passage_.work.factorisations = now.factorisations - before.factorisations;
   passage_.work.solves         = now.solves - before.solves;
   passage_.work.evaluations    = now.evaluations - before.evaluations;
-  if (driver_->chattering_steps() > 0)
-    passage_.chattering = driver_->chattering_time() / (end_ - begin_);
+  if (motion_.driver().chattering_steps() > 0)
+    passage_.chattering = motion_.driver().chattering_time() / (end_ - begin_);
   if (!carries_)
     return;
   MatrixXd dq, dv;
@@ -239,7 +238,7 @@ bool PeriodFlow::remembers_at_end()
     return true;
   EventSystem   &elements   = system_.events();
   const VectorXd remembered = elements.save_history();
-  LocalState     state      = integrator_->local();
+  LocalState     state      = integrator_.local();
   state.a.setZero(); // as EventDriver::begin()
   state.p.setZero();
   elements.follow_history(false);
@@ -254,8 +253,8 @@ const VectorXd &PeriodFlow::end_acceleration()
   const LinearSystem &linear = system_.linear();
   if (!mass_)
     mass_ = linear.factorise(1., 0., 0.);
-  const LocalState &local = integrator_->local();
-  const Instant    &now   = integrator_->instant();
+  const LocalState &local = integrator_.local();
+  const Instant    &now   = integrator_.instant();
   VectorXd          f(now.q.size()), product(now.q.size());
   linear.excitation().at(local.t, f);
   linear.damping_times(now.v, product);
@@ -268,19 +267,20 @@ const VectorXd &PeriodFlow::end_acceleration()
   return acceleration_;
 }
 
-/// A step was made; its dense output and its history are there.
-void PeriodFlow::at_step()
+void PeriodFlow::step()
 {
-  const LocalState &local = integrator_->local();
+  const LocalState &local = integrator_.local();
   if (carries_)
     tangents_->carry_tangents();
   largest_[0]      = largest_[0].cwiseMax(local.u.cwiseAbs());
   largest_[1]      = largest_[1].cwiseMax(local.v.cwiseAbs());
   largest_[2]      = largest_[2].cwiseMax(local.a.cwiseAbs());
   largest_[3]      = largest_[3].cwiseMax(local.p.cwiseAbs());
-  passage_.fastest = std::max(passage_.fastest, integrator_->instant().v.norm());
+  passage_.fastest = std::max(passage_.fastest, integrator_.instant().v.norm());
   if (!looks_.empty())
-    show(integrator_->time());
+    show(integrator_.time());
+  if (at_turn_)
+    at_turn_();
 }
 
 void PeriodFlow::show(double until)
@@ -291,9 +291,9 @@ void PeriodFlow::show(double until)
     const bool   last = looks_[shown_] == 1. && until >= end_ - rounding * (end_ - begin_);
     if (t > until && !last)
       return;
-    const double at = std::clamp(t, integrator_->step_begin(), until);
-    integrator_->interpolate(at, local_look_);
-    integrator_->interpolate(at, q_look_, v_look_);
+    const double at = std::clamp(t, integrator_.step_begin(), until);
+    integrator_.interpolate(at, local_look_);
+    integrator_.interpolate(at, q_look_, v_look_);
     look_({at, q_look_, v_look_, local_look_});
   }
 }
@@ -303,7 +303,7 @@ void PeriodFlow::show(double until)
 void PeriodFlow::find_slopes(int guard, MatrixXd &gradient, double &partial)
 {
   const EventSystem &events = system_.events();
-  LocalState         at     = integrator_->local();
+  LocalState         at     = integrator_.local();
   VectorXd           g      = VectorXd::Zero(events.n_guards());
   const auto         slope  = [&](double &x, double way)
   {
@@ -328,18 +328,18 @@ void PeriodFlow::find_slopes(int guard, MatrixXd &gradient, double &partial)
   partial = slope(at.t, small_way * problem_.period);
 }
 
-void PeriodFlow::at_guard(int guard)
+void PeriodFlow::guard(int number)
 {
   if (!carries_)
     return;
-  before_ = integrator_->local().p;
+  before_ = integrator_.local().p;
   jumps_  = true;
-  if (integrator_->time() == t_event_)
+  if (integrator_.time() == t_event_)
     return; // follows at once from the event before: its time moves with it
-  t_event_ = integrator_->time();
+  t_event_ = integrator_.time();
   MatrixXd gradient(before_.size(), 4);
   double   partial = 0.;
-  find_slopes(guard, gradient, partial);
+  find_slopes(number, gradient, partial);
   const auto along = [&](const LocalTangents &x) -> Eigen::RowVectorXd
   {
     return gradient.col(0).transpose() * x.u + gradient.col(1).transpose() * x.v + gradient.col(2).transpose() * x.a +
@@ -354,12 +354,12 @@ void PeriodFlow::at_guard(int guard)
     dt_ = along(tangents_->local_tangents()) / -rate;
   else if (!gradient.isZero(0.))
   {
-    const ActiveGuard active = system_.events().guard(guard);
+    const ActiveGuard active = system_.events().guard(number);
     passage_.grazing.push_back(active.name + ", " + active.kind);
   }
 }
 
-void PeriodFlow::at_event()
+void PeriodFlow::event(const Event &)
 {
   if (!carries_ || !jumps_)
     return;

@@ -1,9 +1,10 @@
 #pragma once
 
-#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/motion.h"
 #include "coupling/integration/system/motion_tangents.h"
 #include "coupling/periodic/periodic_solution.h"
 
+#include <functional>
 #include <memory>
 
 namespace gestell::coupling
@@ -36,12 +37,11 @@ struct PeriodPassage
  * the saltation matrix (Aizerman, Gantmakher 1958; Mueller 1995).  Transitions that follow at the same instant share
  * dt*.  Where g' is zero beside what the motion moves, the guard is touched only: dt* is left out, and told.
  */
-class PeriodFlow
+class PeriodFlow : private RunObserver
 {
 public:
   /// @throws std::invalid_argument as the integrator
   PeriodFlow(const PeriodicProblem &problem, const MethodOptions &integration);
-  ~PeriodFlow();
 
   bool has_tangents() const { return tangents_ != nullptr; }
   /// Tangents dq, dv [n x k] with which passages begin, when they are asked for; empty: all of the start.
@@ -76,22 +76,22 @@ public:
   void look_at(std::vector<double> shares, std::function<void(const OrbitPoint &)> look);
 
 private:
-  void begin(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double begin, double end, bool tangents);
-  void advance(long steps_before);
+  void start(const Eigen::VectorXd &q, const Eigen::VectorXd &v, double begin, double end, bool tangents);
+  void require_few(long steps) const;
   void finish(const IntegrationWork &before);
   void carry_all();
-  void at_step();
-  void at_guard(int guard);
-  void at_event();
+  void step() override;
+  void guard(int number) override;
+  void event(const Event &) override;
   void find_slopes(int guard, Eigen::MatrixXd &gradient, double &partial);
   void show(double until);
 
   const PeriodicProblem                  &problem_;
   SecondOrderSystem                      &system_;
   MethodOptions                           integration_;
-  std::unique_ptr<TimeIntegrator>         integrator_;
+  Motion                                  motion_;
+  TimeIntegrator                         &integrator_; ///< of it
   MotionTangents                         *tangents_ = nullptr;
-  std::unique_ptr<EventDriver>            driver_;
   PeriodPassage                           passage_;
   Eigen::MatrixXd                         dq_begin_, dv_begin_; ///< tangents; empty: all
   bool                                    carries_ = false;
@@ -106,6 +106,7 @@ private:
   std::vector<double>                     looks_; ///< shares of the passage
   std::size_t                             shown_ = 0;
   std::function<void(const OrbitPoint &)> look_;
+  std::function<void()>                   at_turn_; ///< after every step of a passage that ends by its turn
   Eigen::VectorXd                         q_look_, v_look_;
   LocalState                              local_look_;
 };

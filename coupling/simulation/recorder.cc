@@ -1,6 +1,7 @@
 #include "coupling/simulation/recorder.h"
 
 #include "coupling/integration/system/state_archive.h"
+#include "coupling/simulation/forces_on_measures.h"
 #include "coupling/simulation/run_state.h"
 #include "fem/values/number_text.h"
 
@@ -21,36 +22,6 @@ constexpr long   close_pictures = 8, close_steps = 4; ///< behind an event: pict
 constexpr long   close_least            = 100;        ///< of these in a run at least, else as many as the grid makes
 constexpr std::size_t most_event_values = 1000;
 constexpr double      on_grid           = 1e-9; ///< share of the grid's step within which an instant is a point of it
-
-std::string method_and_step(const MethodOptions &method)
-{
-  std::ostringstream text;
-  text << method_name(method) << " with a ";
-  if (method.tolerance > 0.)
-    text << "tolerance of " << method.tolerance;
-  else
-    text << "step of " << method.step << " s";
-  return text.str();
-}
-
-/// What keeps more of the energy than the method does.
-std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
-{
-  if (method.tolerance > 0.)
-    return "; take a smaller tolerance";
-  if (verdict == EnergyGuard::Verdict::no_motion)
-    return "; take a smaller step, or method = \"bdf\" with a tolerance, which finds its steps itself";
-  const std::string advice = method_of(method).energy_advice(method);
-  return "; take a smaller step" + (advice.empty() ? "" : ". " + advice);
-}
-
-/// The balance must not err more than the integrator.
-PowerRule power_rule(const MethodOptions &method, const Sampling &sampling)
-{
-  // Of a sine four points integrate the square to 1e-5 of it over half a period.
-  constexpr double samples = 8.;
-  return {method_of(method).takes_long_steps(method), samples * sampling.shortest};
-}
 
 /// @throws ConvergenceFailure
 void require_finite(const std::vector<Signal> &signals, const SignalSample &sample)
@@ -99,8 +70,7 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
                    const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result)
     : machine_(machine), integrator_(integrator), options_(options), signals_(signals), result_(result),
       keeper_(machine, integrator, options.states, options.begin, result.signals, result.states),
-      around_(machine, integrator, options, result.signals, result.states), energy_(machine),
-      power_rule_(power_rule(options.method, sampling)), coordinates_(coordinates_of(signals)),
+      around_(machine, integrator, options, result.signals, result.states), coordinates_(coordinates_of(signals)),
       accelerations_(accelerations_for(signals, machine)),
       extremes_(*this, sampling, signals, options.from, result.signals), row_step_(output_step(options)),
       picture_step_(options.picture_step)
@@ -120,11 +90,14 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
     result.units.push_back(signal.unit);
   }
   if (options.energy)
+  {
+    energy_.emplace(machine, integrator, options, sampling);
     for (const char *name : {"energy input", "energy stored", "energy dissipated"})
     {
       result.columns.push_back(name);
       result.units.push_back("J");
     }
+  }
   const double length = options.end - options.begin;
   result.rows.reserve(static_cast<std::size_t>(length / row_step_ + 3.) * result.columns.size());
   if (picture_step_ > 0.)
@@ -159,11 +132,8 @@ void Recorder::tell(double t, const LocalState &local, SignalSample &sample)
 
 void Recorder::begin()
 {
-  if (options_.energy)
-  {
-    energy_.begin(integrator_.instant());
-    guard_ = EnergyGuard(energy_.at_begin());
-  }
+  if (energy_)
+    energy_->begin();
   behind_  = integrator_.local();
   pending_ = true;
   pictures();
@@ -199,8 +169,7 @@ void Recorder::step()
   if (pending_)
     settle();
   extremes_.step(end);
-  if (options_.energy)
-    balance();
+  balance();
   rows();
   pictures();
   keeper_.follow();
@@ -211,16 +180,23 @@ void Recorder::step()
 void Recorder::follow_briefly()
 {
   behind_ = integrator_.local();
-  if (options_.energy)
-    balance();
+  balance();
 }
 
-void Recorder::jump(const std::string &event)
+void Recorder::balance()
+{
+  if (!energy_)
+    return;
+  energy_->step();
+  result_.energy = energy_->summary();
+}
+
+void Recorder::event(const Event &event)
 {
   values_before();
-  extremes_.happened(event);
-  if (options_.energy)
-    energy_.jump(integrator_.instant());
+  extremes_.happened(event.name);
+  if (energy_)
+    energy_->event(event);
   behind_  = integrator_.local();
   pending_ = true;
   picture_event();
@@ -260,7 +236,7 @@ void Recorder::rows()
     }
     evaluate(std::max(t, integrator_.step_begin()), probe_);
     extremes_.see(probe_);
-    row(t, probe_, options_.energy ? energy_inside(probe_.t) : result_.energy);
+    row(t, probe_, energy_ ? energy_inside(probe_.t) : result_.energy);
   }
 }
 
@@ -269,15 +245,14 @@ EnergySummary Recorder::energy_inside(double t)
 {
   between_.t = t;
   integrator_.interpolate(t, between_.q, between_.v);
-  const EnergyState energy = energy_.state(integrator_, between_);
-  return {energy.input, energy.stored, energy.dissipated};
+  return energy_->inside(between_);
 }
 
 void Recorder::row(double t, const SignalSample &sample, const EnergySummary &energy)
 {
   result_.rows.push_back(t);
   result_.rows.insert(result_.rows.end(), sample.values.begin(), sample.values.end());
-  if (options_.energy)
+  if (energy_)
     result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
 }
 
@@ -335,18 +310,8 @@ void Recorder::picture_event()
   }
 }
 
-void Recorder::balance()
-{
-  energy_.step(integrator_, power_rule_, guard_.exchanged());
-  const Instant    &now    = integrator_.instant();
-  const EnergyState energy = energy_.state(now);
-  guard_.step(energy, now.q.size() > 0 ? now.q.cwiseAbs().maxCoeff() : 0.);
-  rounding_.step(now.q);
-  result_.energy = {energy.input, energy.stored, energy.dissipated, guard_.residual(), guard_.exchanged()};
-}
-
 /// What is left to tell of the motion behind the last event.
-void Recorder::settle_at_end()
+void Recorder::settle_at_end(RunOutcome &outcome)
 {
   try
   {
@@ -355,14 +320,14 @@ void Recorder::settle_at_end()
   }
   catch (const ConvergenceFailure &failure)
   {
-    if (result_.failure.empty())
-      result_.failure = failure.what();
+    if (outcome.failure.empty())
+      outcome.failure = failure.what();
   }
 }
 
-void Recorder::finish()
+void Recorder::finish(RunOutcome &outcome)
 {
-  settle_at_end();
+  settle_at_end(outcome);
   around_.finish();
   if (!extremes_.begun())
   {
@@ -380,32 +345,27 @@ void Recorder::finish()
       extremes_.look_anew(i);
     if (extremes_.watched(i))
       continue;
-    result_.warnings.push_back("signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
-                               "\" on, which did not happen: its extremes are those of the end");
+    outcome.warn("signal-window", signals_[i].name,
+                 "signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
+                     "\" on, which did not happen: its extremes are those of the end");
     extremes_.look_anew(i);
   }
   if (!extremes_.reached())
-    result_.warnings.push_back("the run ended before output.from = " + short_text(options_.from) +
-                               " s, from which on extremes count: they are the values at the end");
-  if (const std::string words = rounding_.words(machine_.linear(), guard_.exchanged(), energy_.at_begin());
-      !words.empty())
-    result_.warnings.push_back(words);
-  const EnergyGuard::Verdict verdict = guard_.verdict();
-  if (verdict == EnergyGuard::Verdict::closed)
-    return;
-  const std::string words = guard_.words(method_and_step(options_.method)) + remedy(options_.method, verdict);
-  if (verdict == EnergyGuard::Verdict::open || options_.force_unstable || !result_.failure.empty())
-    result_.warnings.push_back(words);
-  else
-    result_.failure = words;
+    outcome.warn("result-window", "output.from",
+                 "the run ended before output.from = " + short_text(options_.from) +
+                     " s, from which on extremes count: they are the values at the end");
+  if (energy_)
+    energy_->finish(outcome);
 }
 
 void Recorder::exchange(StateArchive &archive)
 {
   archive(result_.signals, result_.rows, result_.event_values, result_.energy, result_.picture_times,
           result_.picture_states, result_.picture_velocities, result_.picture_forces);
-  archive(keeper_, around_, energy_, guard_, rounding_, between_, a_, extremes_, behind_, pending_, length_, settled_,
-          next_row_, next_picture_, close_until_, close_budget_);
+  archive(keeper_, around_, between_, a_, extremes_, behind_, pending_, length_, settled_, next_row_, next_picture_,
+          close_until_, close_budget_);
+  if (energy_)
+    archive(*energy_);
 }
 
 } // namespace gestell::coupling

@@ -2,9 +2,8 @@
 
 #include "coupling/machine/accelerations.h"
 #include "coupling/machine/machine.h"
-#include "coupling/simulation/energy_guard.h"
+#include "coupling/simulation/checks/energy_check.h"
 #include "coupling/simulation/extreme_states.h"
-#include "coupling/simulation/rounding_guard.h"
 #include "coupling/simulation/run_result.h"
 #include "coupling/simulation/signal_extremes.h"
 #include "coupling/simulation/states_around.h"
@@ -14,8 +13,6 @@
 
 namespace gestell::coupling
 {
-
-class StateArchive;
 
 /// Why a motion is none: a coordinate or its rate is no finite number; "" if all are.
 std::string no_number_words(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
@@ -37,35 +34,34 @@ std::optional<Accelerations> accelerations_for(const std::vector<Signal> &signal
  * which is told with the step that goes on from there.  What lies between them lasts for no time: a rod without play is
  * slack between thrust and pull, and what sticks under more than its limit slips at once.
  */
-class Recorder : private SampledRun
+class Recorder : public RunObserver, private SampledRun
 {
 public:
   Recorder(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
            const std::vector<Signal> &signals, const Sampling &sampling, RunResult &result);
 
-  void begin(); ///< at the start, after the integrator began
-  void step();  ///< a step was made; its dense output and the history that holds on it are there
-  /// An event of that object has changed the history at the present instant, and the integration goes on from there.
-  void jump(const std::string &event);
-  void finish(); ///< the last instant always has a row
+  void begin() override;
+  void step() override;
+  void event(const Event &event) override;
+  void finish(RunOutcome &outcome) override; ///< the last instant always has a row
 
-  void exchange(StateArchive &archive); ///< of the result what was recorded, too
+  void exchange(StateArchive &archive) override; ///< of the result what was recorded, too
 
 private:
   void          evaluate(double t, SignalSample &sample) override;
   void          tell(double t, const LocalState &local, SignalSample &sample);
   void          settle();
-  void          settle_at_end();
+  void          settle_at_end(RunOutcome &outcome);
   void          values_before();
   void          values_behind();
   void          follow_briefly();
   void          rows();
   void          row(double t, const SignalSample &sample, const EnergySummary &energy);
   EnergySummary energy_inside(double t);
+  void          balance();
   void          pictures();
   void          picture(double t);
   void          picture_event();
-  void          balance();
 
   const Machine               &machine_;
   const TimeIntegrator        &integrator_;
@@ -74,10 +70,7 @@ private:
   RunResult                   &result_;
   ExtremeStates                keeper_;
   StatesAround                 around_;
-  EnergyBalance                energy_;
-  PowerRule                    power_rule_;
-  EnergyGuard                  guard_;
-  RoundingGuard                rounding_;
+  std::optional<EnergyCheck>   energy_;
   std::vector<int>             coordinates_; ///< that signals read
   Instant                      between_;
   Eigen::VectorXd              a_, p_;

@@ -11,15 +11,16 @@ namespace gestell::coupling
 /**
  * The steps of another integrator, which may begin in the midst of a motion: with the history that elements have there.
  *
- * Where loads jumped that no law tells of, the past is forgotten before the next step.
+ * It may show a part of the last step only, to those who ask for what happened up to an instant in it.
  */
 class ResumableSteps : public TimeIntegrator, public ErrorControl
 {
 public:
   ResumableSteps(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> inner);
 
-  /// The next step begins with other loads.
-  void load_jumped() { restarts_ = true; }
+  /// Until show_whole_step() or another step the last one ends at t for those who look at it.
+  void show_until(double t);
+  void show_whole_step() { partly_ = false; }
   /// The next begin() is one in the midst of a motion, with this history of the elements.
   /// @param located  laws follow it
   void begin_with(const Eigen::VectorXd &history, bool located);
@@ -27,10 +28,10 @@ public:
   void           begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v) override;
   void           advance() override;
   void           cut(double t) override { inner_->cut(t); }
-  void           restart() override;
-  const Instant &instant() const override { return inner_->instant(); }
+  void           restart() override { inner_->restart(); }
+  const Instant &instant() const override { return partly_ ? shown_ : inner_->instant(); }
 
-  const LocalState      &local() const override { return inner_->local(); }
+  const LocalState      &local() const override { return partly_ ? shown_.local : inner_->local(); }
   double                 step_begin() const override { return inner_->step_begin(); }
   int                    parts_of_step() const override { return inner_->parts_of_step(); }
   const IntegrationWork &work() const override { return inner_->work(); }
@@ -49,7 +50,8 @@ private:
   std::unique_ptr<TimeIntegrator> inner_;
   ErrorControl                   *control_; ///< of it, or null
   Eigen::VectorXd                 history_;
-  bool                            with_history_ = false, located_ = true, restarts_ = false;
+  bool                            with_history_ = false, located_ = true, partly_ = false;
+  Instant                         shown_; ///< the end of the part that is shown
 };
 
 } // namespace gestell::coupling

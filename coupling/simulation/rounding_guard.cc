@@ -25,16 +25,16 @@ void RoundingGuard::step(const Eigen::VectorXd &q)
   most_  = most_.cwiseMax(q);
 }
 
-std::string RoundingGuard::words(const LinearSystem &system, double exchanged, double at_begin) const
+void RoundingGuard::finish(const LinearSystem &system, double exchanged, double at_begin, RunOutcome &outcome) const
 {
   Eigen::MatrixXd M, B, C;
   if (least_.size() == 0 || !system.dense_matrices(M, B, C))
-    return "";
+    return;
   const Eigen::VectorXd size  = least_.cwiseAbs().cwiseMax(most_.cwiseAbs()),
                         force = std::numeric_limits<double>::epsilon() * (C.cwiseAbs() * size),
                         work  = force.cwiseProduct(most_ - least_);
   if (!(work.sum() > share_of_motion * exchanged && work.sum() > share_of_begin * std::abs(at_begin)))
-    return "";
+    return;
   Eigen::Index worst;
   work.maxCoeff(&worst);
   std::ostringstream text;
@@ -43,7 +43,7 @@ std::string RoundingGuard::words(const LinearSystem &system, double exchanged, d
        << C(worst, worst) << " (N/m or N m/rad) at a motion of " << size[worst] << " (m or rad) they are known to "
        << force[worst] << " (N or N m), which does " << work.sum() << " J of work where the motion exchanges "
        << exchanged << " J; make what is so stiff rigid by a joint, or softer";
-  return text.str();
+  outcome.warn("rounding", system.coordinate_name(int(worst)), text.str());
 }
 
 void RoundingGuard::exchange(StateArchive &archive)

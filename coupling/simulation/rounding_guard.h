@@ -1,10 +1,9 @@
 #pragma once
 
+#include "coupling/integration/events/finding.h"
 #include "coupling/integration/system/linear_system.h"
 
 #include <Eigen/Core>
-
-#include <string>
 
 namespace gestell::coupling
 {
@@ -27,10 +26,10 @@ public:
   /// Once per step.
   void step(const Eigen::VectorXd &q);
 
-  /// What is to be told, empty if rounding is little: work below one per cent of the energy that the motion exchanges,
-  /// or below a millionth of what it began with.  Nothing of systems that have no dense matrices.
+  /// Warns unless rounding is little: work below one per cent of the energy that the motion exchanges, or below a
+  /// millionth of what it began with.  Nothing of systems that have no dense matrices.
   /// @param exchanged, at_begin  [J]
-  std::string words(const LinearSystem &system, double exchanged, double at_begin) const;
+  void finish(const LinearSystem &system, double exchanged, double at_begin, RunOutcome &outcome) const;
 
   void exchange(StateArchive &archive);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/events/event_detection.h"
+#include "coupling/integration/events/finding.h"
 #include "coupling/integration/method_options.h"
 #include "coupling/integration/system/time_integrator.h"
 #include "coupling/simulation/checks/stability_guard.h"
@@ -91,7 +92,8 @@ struct EnergySummary
   double exchanged = 0.; ///< [J] that the residual is measured against, see EnergyGuard
 };
 
-struct RunResult
+/// What a run gave; its findings are those of checks before, in and after it.
+struct RunResult : RunOutcome
 {
   std::vector<SignalSummary> signals;
   double                     from = -std::numeric_limits<double>::infinity(); ///< as in RunOptions
@@ -110,10 +112,7 @@ struct RunResult
   std::vector<Eigen::VectorXd> picture_forces;     ///< p [n_u] on the measures of all elements; empty where not known
   KeptStates                   states;             ///< those asked for
   Eigen::VectorXd              end_state;          ///< q at the end
-  std::vector<std::string>     warnings;
   double                       wall_s = 0.;
-  std::string                  failure; ///< not empty: why it stopped early
-  bool                         interrupted = false;
 };
 
 } // namespace gestell::coupling

@@ -1,8 +1,10 @@
 #include "coupling/simulation/stepped_run.h"
 
 #include "coupling/integration/integration_methods.h"
+#include "coupling/integration/system/state_archive.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
-#include "coupling/simulation/checks/stability_guard.h"
+#include "coupling/simulation/checks/energy_check.h"
+#include "coupling/simulation/checks/run_checks.h"
 #include "coupling/simulation/no_tiny_numbers.h"
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/run_method.h"
@@ -10,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace gestell::coupling
 {
@@ -19,25 +23,7 @@ namespace
 
 constexpr double no_time      = 1e-9; ///< share of a step that rounding may leave
 constexpr double same_instant = 1e-6; ///< share of a step within which two instants are told as one
-
-/// Refuses an unstable method; what is to be told of it otherwise.
-std::vector<std::string> guarded(const Machine &machine, const InitialState &initial, const RunOptions &options,
-                                 const MethodOptions &method)
-{
-  const LinearSpectrum spectrum = spectrum_for(machine, initial, method);
-  const StabilityGuard guard(spectrum, method);
-  if (!options.force_unstable)
-    guard.check();
-  return guard.warnings();
-}
-
-EventOptions events_of(const RunOptions &options, double still)
-{
-  EventOptions events;
-  events.locate = options.events;
-  events.still  = still;
-  return events;
-}
+constexpr long   first_look   = 64;   ///< steps: no run is judged by fewer than the 50 of the longest controlled ones
 
 /// The driver cannot tell, as it knows no end.
 LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOptions &options,
@@ -65,32 +51,39 @@ RunOptions without_history(RunOptions options)
 SteppedRun::SteppedRun(Machine &machine, const InitialState &initial, const RunOptions &options,
                        std::vector<Signal> signals)
     : machine_(machine), options_(without_history(options)), method_(with_largest_step(machine, options)),
-      signals_(std::move(signals)), steps_(machine, (check_run(machine, options_, signals_.size()),
-                                                     machine.will_read(signals_), make_integrator(machine, method_))),
-      driver_(machine, steps_, events_of(options, initial.still)), joint_guard_(machine, steps_),
-      coordinates_(coordinates_of(signals_)), accelerations_(accelerations_for(signals_, machine)),
-      q_(Eigen::VectorXd::Zero(machine.size())), v_(q_), a_(q_), values_(signals_.size()), target_(options.begin),
-      slack_(no_time * method_.step)
+      signals_(std::move(signals)),
+      motion_(machine, (check_run(machine, options_, signals_.size()), machine.will_read(signals_),
+                        std::make_unique<ResumableSteps>(machine, make_integrator(machine, method_)))),
+      steps_(static_cast<ResumableSteps &>(motion_.integrator())), coordinates_(coordinates_of(signals_)),
+      accelerations_(accelerations_for(signals_, machine)), q_(Eigen::VectorXd::Zero(machine.size())), v_(q_), a_(q_),
+      values_(signals_.size()), target_(options.begin), slack_(no_time * method_.step), still_(initial.still),
+      next_look_(first_look)
 {
   const NoTinyNumbers while_it_starts;
   inside_.resize(machine);
-  warnings_ = guarded(machine, initial, options, method_);
-  driver_.on_step([this] { look_at_step(); });
-  driver_.on_event([this](const Event &event) { note(event); });
+  check_start(machine, initial, options_, method_, outcome_);
   loaded_ = loaded(machine, initial, options, steps_);
   begin(options.begin, initial.q, initial.v);
+  if (options.energy)
+    checks_.push_back(std::make_unique<EnergyCheck>(machine, steps_, options_, sampling_of(machine, method_)));
+  for (auto &check : run_checks(machine, motion_, initial, options_, method_))
+    checks_.push_back(std::move(check));
+  motion_.watch(*this);
+  for (const auto &check : checks_)
+    motion_.watch(*check);
 }
 
+/// Its end is not known.
 void SteppedRun::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
-  driver_.begin(t, q, v);
+  motion_.begin(t, q, v, {options_.events, std::numeric_limits<double>::infinity(), still_});
   if (steps_.controls_error())
     steps_.expect(loaded_.way, loaded_.speed);
   now_   = t;
   ahead_ = false;
 }
 
-void SteppedRun::note(const Event &event)
+void SteppedRun::event(const Event &event)
 {
   events_.push_back(event);
   if (!ended_.empty())
@@ -104,26 +97,57 @@ bool SteppedRun::is_now(double t) const
   return std::abs(t - now_) <= same_instant * method_.step;
 }
 
-/// Its dense output and the history that holds on it are there.
-void SteppedRun::look_at_step()
+/// The checks see it afterwards.
+void SteppedRun::step()
 {
-  joint_guard_.step();
   on_step_ = machine_.events().save_history();
-  if (!ahead_ && steps_.time() > target_ + slack_)
-    look_into_step(target_, on_step_);
+  if (ahead_ || !(steps_.time() > target_ + slack_))
+    return;
+  checks_begin_ = checks_now();
+  look_into_step(target_, on_step_, checks_at(target_));
 }
 
 /// @param history  that held on the last step
-void SteppedRun::look_into_step(double t, const Eigen::VectorXd &history)
+/// @param checks   what they know at t
+void SteppedRun::look_into_step(double t, const Eigen::VectorXd &history, std::string checks)
 {
   steps_.interpolate(t, inside_);
   steps_.interpolate(t, q_, v_);
   ahead_ = true;
   now_   = t;
-  there_ = {t, q_, v_, history, ended()};
+  there_ = {t, q_, v_, history, ended(), std::move(checks)};
   if (accelerations_)
     a_ = accelerations_->at(t, steps_, inside_, q_, v_);
   evaluate(inside_);
+}
+
+std::string SteppedRun::checks_now()
+{
+  StateArchive archive;
+  for (const auto &check : checks_)
+    archive(*check);
+  return archive.bytes();
+}
+
+void SteppedRun::restore_checks(const std::string &state)
+{
+  StateArchive archive(state);
+  for (const auto &check : checks_)
+    archive(*check);
+}
+
+/// What they know at t inside the last step, whose history is that of the elements now.
+std::string SteppedRun::checks_at(double t)
+{
+  const std::string now = checks_now();
+  restore_checks(checks_begin_);
+  steps_.show_until(t);
+  for (const auto &check : checks_)
+    check->step();
+  steps_.show_whole_step();
+  std::string there = checks_now();
+  restore_checks(now);
+  return there;
 }
 
 void SteppedRun::evaluate(const LocalState &local)
@@ -137,7 +161,7 @@ void SteppedRun::look_behind_step(double t, Eigen::VectorXd on_step)
 {
   const Eigen::VectorXd behind = machine_.events().save_history();
   machine_.events().restore_history(on_step);
-  look_into_step(t, on_step);
+  look_into_step(t, on_step, ahead_ ? checks_at(t) : checks_now());
   machine_.events().restore_history(behind);
 }
 
@@ -170,13 +194,54 @@ void SteppedRun::end_in_step()
 void SteppedRun::go_on_to(double t)
 {
   const NoTinyNumbers while_it_runs;
+  const double        end    = options_.end - slack_;
+  const bool          before = now_ < end;
+  try
+  {
+    move_to(t);
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    throw ConvergenceFailure(failure.what() + advice_on_failure(machine_, method_, steps_.instant()));
+  }
+  if (!(before && now_ >= end) && steps_.work().steps < next_look_)
+    return;
+  next_look_ = std::max(next_look_, 2 * steps_.work().steps);
+  verify();
+}
+
+void SteppedRun::verify() const
+{
+  for (const auto &check : checks_)
+    check->verify();
+}
+
+std::string SteppedRun::finish(const std::string &failure)
+{
+  const NoTinyNumbers while_they_tell;
+  if (ahead_)
+    restore_checks(there_.checks);
+  outcome_.failure = failure;
+  for (const auto &check : checks_)
+    check->finish(outcome_);
+  machine_.events().follow_history(options_.events); // which checks may have ended
+  return failure.empty() ? outcome_.failure : "";
+}
+
+std::vector<Finding> SteppedRun::take_findings()
+{
+  return std::exchange(outcome_.findings, {});
+}
+
+void SteppedRun::move_to(double t)
+{
   if (stays_in_step(ended_.empty() ? t : std::min(t, end_)))
     return;
   ahead_  = false;
   target_ = t;
   while (ended_.empty() && steps_.time() < t - slack_)
   {
-    driver_.advance();
+    motion_.advance();
     if (!ahead_)
       now_ = steps_.time();
   }
@@ -187,10 +252,13 @@ void SteppedRun::go_on_to(double t)
 
 void SteppedRun::load_jumped()
 {
+  const NoTinyNumbers while_it_starts;
   if (ahead_)
     restore(there_);
   else
-    steps_.load_jumped();
+    steps_.restart();
+  for (const auto &check : checks_)
+    check->event({now_, "", "input"});
 }
 
 const std::vector<double> &SteppedRun::values()
@@ -218,7 +286,7 @@ SteppedState SteppedRun::state()
 {
   const Instant     &now = steps_.instant();
   const SteppedState state =
-      ahead_ ? there_ : SteppedState{now.t, now.q, now.v, machine_.events().save_history(), ended()};
+      ahead_ ? there_ : SteppedState{now.t, now.q, now.v, machine_.events().save_history(), ended(), checks_now()};
   restore(state);
   return state;
 }
@@ -233,6 +301,8 @@ void SteppedRun::restore(const SteppedState &state)
                 events_.end());
   steps_.begin_with(at.history, options_.events);
   begin(at.t, at.q, at.v);
+  if (!at.checks.empty())
+    restore_checks(at.checks);
 }
 
 } // namespace gestell::coupling

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/motion.h"
 #include "coupling/integration/step/loads_to_come.h"
 #include "coupling/machine/accelerations.h"
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"
-#include "coupling/simulation/checks/joint_force_guard.h"
 #include "coupling/simulation/resumable_steps.h"
 #include "coupling/simulation/run_result.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,7 +21,8 @@ struct SteppedState
 {
   double          t = 0.;
   Eigen::VectorXd q, v, history;
-  std::string     ended{}; ///< statement of the switch that ended the run at t; empty: it goes on
+  std::string     ended{};  ///< statement of the switch that ended the run at t; empty: it goes on
+  std::string     checks{}; ///< what the checks know; empty: they begin anew
 };
 
 /**
@@ -31,8 +32,10 @@ struct SteppedState
  * Steps go over the end of a piece as they go over a row of a history: what holds there is told by the dense output.
  * As long as no load changes, they are therefore those of simulate(), however short the pieces are.  Where a load jumps
  * or bends, the integration begins anew from the end of the piece, and what was stepped beyond is forgotten.
+ *
+ * It is checked as simulate() checks a run; what was stepped beyond and forgotten counts for no check.
  */
-class SteppedRun
+class SteppedRun : private RunObserver
 {
 public:
   /// Starts.  The machine must outlive it.
@@ -47,16 +50,24 @@ public:
   bool is_now(double t) const;
 
   /// Integrates to t > time(), or until a switch ends the run.
-  /// @throws ConvergenceFailure; time() is then the last instant reached
+  /// @throws ConvergenceFailure, that of a check too; time() is then the last instant reached
   void go_on_to(double t);
   /// Statement of the switch that ended the run at time(); empty: it goes on.
   std::string ended() const { return now_ < end_ ? "" : ended_; }
   /// A load is another one from now on, in value or rate.
   void load_jumped();
 
-  const std::vector<double>      &values();                              ///< of the signals at time()
-  std::vector<Event>              take_events();                         ///< up to time(), since they were taken last
-  const std::vector<std::string> &warnings() const { return warnings_; } ///< of the method, at the start
+  /// @throws ConvergenceFailure if what was made so far is no motion.  go_on_to() asks by itself where the run of the
+  /// scene would end, and when the steps have become twice as many.
+  void verify() const;
+  /// Lets the checks tell what they found up to time(); the run goes on from a state only.
+  /// @param failure  that ended it; empty: none
+  /// @return         why it is no motion, if that shows now only
+  std::string finish(const std::string &failure = "");
+
+  const std::vector<double> &values();        ///< of the signals at time()
+  std::vector<Event>         take_events();   ///< up to time(), since they were taken last
+  std::vector<Finding>       take_findings(); ///< of the start and of finish(), since they were taken last
 
   /// The present state; the run itself goes on from it as one that restores it does: multistep formulas start anew.
   SteppedState state();
@@ -64,22 +75,26 @@ public:
 
 private:
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
-  void note(const Event &event);
-  void look_at_step();
-  void look_into_step(double t, const Eigen::VectorXd &history);
+  void event(const Event &event) override;
+  void step() override;
+  void move_to(double t);
+  void look_into_step(double t, const Eigen::VectorXd &history, std::string checks);
   void look_behind_step(double t, Eigen::VectorXd on_step);
   bool stays_in_step(double t);
   void end_in_step();
   void evaluate(const LocalState &local);
 
+  std::string checks_now();
+  std::string checks_at(double t);
+  void        restore_checks(const std::string &state);
+
   Machine                     &machine_;
   RunOptions                   options_;
   MethodOptions                method_;
   std::vector<Signal>          signals_;
-  std::vector<std::string>     warnings_;
-  ResumableSteps               steps_;
-  EventDriver                  driver_;
-  JointForceGuard              joint_guard_;
+  Motion                       motion_;
+  ResumableSteps              &steps_; ///< of it
+  RunOutcome                   outcome_;
   std::vector<int>             coordinates_;   ///< that signals read
   std::optional<Accelerations> accelerations_; ///< if a signal reads any
   LocalState                   inside_;        ///< scratch
@@ -93,6 +108,11 @@ private:
   std::vector<Event>           events_;                         ///< not taken yet
   std::string                  ended_;
   double                       end_ = 0.; ///< [s] where it ended
+
+  std::vector<std::unique_ptr<RunObserver>> checks_;
+  std::string                               checks_begin_; ///< what they knew before the step that went beyond now_
+  double                                    still_;        ///< sliding speed of the start, see EventOptions
+  long                                      next_look_;    ///< number of steps at which the motion is verified
 };
 
 } // namespace gestell::coupling

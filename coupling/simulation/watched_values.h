@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/events/run_observer.h"
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/resumable_run.h"
 
@@ -8,7 +9,6 @@
 namespace gestell::coupling
 {
 
-class StateArchive;
 class TimeIntegrator;
 
 /**
@@ -17,7 +17,7 @@ class TimeIntegrator;
  * They are compared with sizes of the machine, so that every eighth step is enough: with the ten and more steps in a
  * period that a vibration needs, a sampled extreme is below the true one by less than a factor of two.
  */
-class WatchedValues
+class WatchedValues : public RunObserver
 {
 public:
   /// @param watched      gets the values; null: nothing to do
@@ -25,11 +25,11 @@ public:
   WatchedValues(const Machine &machine, const TimeIntegrator &integrator, WatchedSignals *watched,
                 std::vector<int> coordinates);
 
-  void begin() { look(); }
-  void step();
-  void finish() { look(); } ///< the value at the present instant is the last one
+  void begin() override { look(); }
+  void step() override;
+  void finish(RunOutcome &) override { look(); } ///< the value at the present instant is the last one
 
-  void exchange(StateArchive &archive);
+  void exchange(StateArchive &archive) override;
 
 private:
   void look();

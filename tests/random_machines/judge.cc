@@ -176,7 +176,7 @@ private:
       find({"failed", way.name, dense.run.failure});
     if (!dense.complete())
       return {};
-    for (const std::string &warning : dense.run.warnings)
+    for (const std::string &warning : coupling::texts_of(dense.run.findings))
       if (!has_cause(machine_, warning, dense, accurate))
         find({"warning", way.name, warning});
     for (const Finding &finding : judged(way, dense, accurate))

@@ -79,11 +79,11 @@ coupling::RunResult shock(int n_rows)
     run.rows.insert(run.rows.end(), {t, push + 6e5 * ring, push, 6e-4 + 2e-4 * ring, 0.117 + 0.045 * std::sin(6. * t),
                                      1.05 * work, -0.1 * work, 1.15 * work - 0.5});
   }
-  run.signals  = {{"F_P", "N", -6.01e5, 0.2449, 1.0566e6, 0.2341, 1. / 3.}, {"x3", "m", 0.117, 0., 0.162, 0.26, 0.13}};
-  run.events   = {{0.1949225964204286, "tool", "tool_contact"}, {0.2396, "tool", "through"}, {0.2415, "rod", "open"}};
-  run.work     = {{45000, 2, 61000, 3, 61003, 180000}, 1};
-  run.energy   = {1995., -190., 2184.5, 0.5, 2200.};
-  run.warnings = {"The step was halved once at t = 0.2415 s."};
+  run.signals = {{"F_P", "N", -6.01e5, 0.2449, 1.0566e6, 0.2341, 1. / 3.}, {"x3", "m", 0.117, 0., 0.162, 0.26, 0.13}};
+  run.events  = {{0.1949225964204286, "tool", "tool_contact"}, {0.2396, "tool", "through"}, {0.2415, "rod", "open"}};
+  run.work    = {{45000, 2, 61000, 3, 61003, 180000}, 1};
+  run.energy  = {1995., -190., 2184.5, 0.5, 2200.};
+  run.warn("divided-steps", "run.step", "The step was halved once at t = 0.2415 s.");
   run.picture_times = {0., 0.2, 0.24};
   for (const double angle : {2.1, 2.6, 2.8})
     run.picture_states.push_back((Eigen::VectorXd(4) << 1e-4, 2e-4, angle, 0.12).finished());

@@ -1,6 +1,6 @@
 #include "apps/cli/chart/work_measurement.h"
 
-#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/motion.h"
 #include "coupling/simulation/recorder.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double rounding = 1e-12;
 constexpr int most_repeats = 5;
 
 /// Takes the samples of a run from the dense output of each step.
-class Sampler
+class Sampler : public coupling::RunObserver
 {
 public:
   Sampler(const WorkProblem &problem, const coupling::TimeIntegrator &integrator)
@@ -30,7 +30,7 @@ public:
     local_.resize(problem.machine);
   }
 
-  void step()
+  void step() override
   {
     const double now = integrator_.time(), slack = rounding * (problem_.samples.back() - problem_.begin);
     for (; next_ < problem_.samples.size() && problem_.samples[next_] <= now + slack; ++next_)
@@ -64,29 +64,30 @@ private:
 };
 
 /// Steps to the end; why it did not get there, or nothing.
-std::string step_to_end(const WorkProblem &problem, coupling::EventDriver &driver,
-                        const coupling::TimeIntegrator &integrator)
+std::string step_to_end(const WorkProblem &problem, coupling::Motion &motion)
 {
-  const double end = problem.samples.back(), finish = end - rounding * (end - problem.begin);
   const double began = peers::thread_seconds();
+  std::string  failure;
+  long         k       = 0;
+  const auto   goes_on = [&]
+  {
+    if (++k % 256 != 0)
+      return true;
+    if (peers::thread_seconds() - began > problem.cpu_limit)
+      failure = "more than " + std::to_string(int(problem.cpu_limit)) + " s of CPU time";
+    else if (problem.stop && problem.stop->load(std::memory_order_relaxed))
+      failure = "interrupted";
+    return failure.empty();
+  };
   try
   {
-    for (long k = 1; integrator.time() < finish; ++k)
-    {
-      driver.advance();
-      if (k % 256 != 0)
-        continue;
-      if (peers::thread_seconds() - began > problem.cpu_limit)
-        return "more than " + std::to_string(int(problem.cpu_limit)) + " s of CPU time";
-      if (problem.stop && problem.stop->load(std::memory_order_relaxed))
-        return "interrupted";
-    }
+    motion.to_end(goes_on);
   }
-  catch (const coupling::ConvergenceFailure &failure)
+  catch (const coupling::ConvergenceFailure &stopped)
   {
-    return failure.what();
+    return stopped.what();
   }
-  return "";
+  return failure;
 }
 
 enum class Sampling
@@ -97,31 +98,27 @@ enum class Sampling
 
 WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &method, bool events, Sampling sampling)
 {
-  WorkRun                run;
-  const double           began      = peers::thread_seconds();
-  const auto             integrator = coupling::make_integrator(problem.machine, method);
-  coupling::EventOptions options;
-  options.locate = events;
-  options.end    = problem.samples.back();
-  coupling::EventDriver driver(problem.machine, *integrator, options);
+  WorkRun          run;
+  const double     began = peers::thread_seconds();
+  coupling::Motion motion(problem.machine, coupling::make_integrator(problem.machine, method));
   try
   {
-    driver.begin(problem.begin, problem.initial.q, problem.initial.v);
+    motion.begin(problem.begin, problem.initial.q, problem.initial.v, {events, problem.samples.back()});
   }
   catch (const coupling::ConvergenceFailure &failure)
   {
     run.failure = failure.what();
     return run;
   }
-  Sampler sampler(problem, *integrator);
+  Sampler sampler(problem, motion.integrator());
   if (sampling == Sampling::on)
-    driver.on_step([&sampler] { sampler.step(); });
+    motion.watch(sampler);
   const double ready = peers::thread_seconds();
-  run.failure        = step_to_end(problem, driver, *integrator);
+  run.failure        = step_to_end(problem, motion);
   run.cpu_s          = peers::thread_seconds() - ready;
   run.setup_s        = ready - began;
-  run.work           = integrator->work();
-  run.events         = long(driver.events().size());
+  run.work           = motion.integrator().work();
+  run.events         = long(motion.driver().events().size());
   if (sampling == Sampling::off || !run.failure.empty())
     return run;
   if (sampler.complete())
@@ -176,6 +173,33 @@ SignalSamples signals_of(const WorkProblem &problem, const peers::PeerResult &re
   machine.events().restore_history(kept);
   return values;
 }
+
+/// Largest coordinates and velocities at the samples.
+class ScaleObserver : public coupling::RunObserver
+{
+public:
+  ScaleObserver(const WorkProblem &problem, const coupling::TimeIntegrator &integrator, MotionScales &scales)
+      : problem_(problem), integrator_(integrator), scales_(scales), q_(problem.machine.size()), v_(q_)
+  {
+  }
+
+  void step() override
+  {
+    for (; next_ < problem_.samples.size() && problem_.samples[next_] <= integrator_.time(); ++next_)
+    {
+      integrator_.interpolate(problem_.samples[next_], q_, v_);
+      scales_.q = scales_.q.cwiseMax(q_.cwiseAbs());
+      scales_.v = scales_.v.cwiseMax(v_.cwiseAbs());
+    }
+  }
+
+private:
+  const WorkProblem              &problem_;
+  const coupling::TimeIntegrator &integrator_;
+  MotionScales                   &scales_;
+  Eigen::VectorXd                 q_, v_;
+  std::size_t                     next_ = 0;
+};
 
 /// One scale for all coordinates of one kind.
 void share_scale(Eigen::VectorXd &x, const std::vector<int> &kind)
@@ -255,26 +279,12 @@ WorkRun measure(const WorkProblem &problem, const peers::PeerOptions &options, c
 
 MotionScales motion_scales(const WorkProblem &problem, const coupling::MethodOptions &method, bool events)
 {
-  const auto             integrator = coupling::make_integrator(problem.machine, method);
-  coupling::EventOptions options;
-  options.locate = events;
-  options.end    = problem.samples.back();
-  coupling::EventDriver driver(problem.machine, *integrator, options);
-  driver.begin(problem.begin, problem.initial.q, problem.initial.v);
-  MotionScales    scales{problem.initial.q.cwiseAbs(), problem.initial.v.cwiseAbs()};
-  Eigen::VectorXd q(problem.machine.size()), v(q);
-  std::size_t     next = 0;
-  driver.on_step(
-      [&]
-      {
-        for (; next < problem.samples.size() && problem.samples[next] <= integrator->time(); ++next)
-        {
-          integrator->interpolate(problem.samples[next], q, v);
-          scales.q = scales.q.cwiseMax(q.cwiseAbs());
-          scales.v = scales.v.cwiseMax(v.cwiseAbs());
-        }
-      });
-  step_to_end(problem, driver, *integrator);
+  coupling::Motion motion(problem.machine, coupling::make_integrator(problem.machine, method));
+  motion.begin(problem.begin, problem.initial.q, problem.initial.v, {events, problem.samples.back()});
+  MotionScales  scales{problem.initial.q.cwiseAbs(), problem.initial.v.cwiseAbs()};
+  ScaleObserver observer(problem, motion.integrator(), scales);
+  motion.watch(observer);
+  step_to_end(problem, motion);
 
   // Modes among themselves; the interface by its units; bodies each for itself, as a flywheel turns far.
   const coupling::Machine &machine     = problem.machine;

@@ -40,7 +40,7 @@ struct WorkRun
   std::string               failure;
 };
 
-/// Runs one of our methods by EventDriver.  Short runs are repeated without samples, the fastest counts.
+/// Runs one of our methods.  Short runs are repeated without samples, the fastest counts.
 /// @throws std::invalid_argument if the method cannot treat the machine
 WorkRun measure(const WorkProblem &problem, const coupling::MethodOptions &method, bool events);
 

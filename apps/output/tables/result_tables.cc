@@ -29,24 +29,31 @@ void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, co
 
 } // namespace
 
-std::vector<std::string> all_warnings(const Result &result)
+std::vector<coupling::Finding> all_findings(const Result &result)
 {
-  std::vector<std::string> warnings;
-  const auto               add = [&](const std::string &warning)
+  using coupling::Severity;
+  std::vector<coupling::Finding> findings;
+  const auto                     add = [&](const coupling::Finding &finding)
   {
-    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-      warnings.push_back(warning);
+    if (std::none_of(findings.begin(), findings.end(),
+                     [&](const coupling::Finding &other) { return other.text == finding.text; }))
+      findings.push_back(finding);
   };
   if (result.run && !result.run->failure.empty())
-    add("The computation stopped early: " + result.run->failure);
+    add({Severity::error, "stopped-early", "", "The computation stopped early: " + result.run->failure});
   if (result.run && result.run->interrupted)
-    add("The computation was interrupted; the results end where it stopped.");
+    add({Severity::warning, "interrupted", "", "The computation was interrupted; the results end where it stopped."});
   for (const std::string &warning : result.warnings)
-    add(warning);
+    add({Severity::warning, "", "", warning});
   if (result.run)
-    for (const std::string &warning : result.run->warnings)
-      add(warning);
-  return warnings;
+    for (const coupling::Finding &finding : result.run->findings)
+      add(finding);
+  return findings;
+}
+
+std::vector<std::string> all_warnings(const Result &result)
+{
+  return coupling::texts_of(all_findings(result));
 }
 
 std::string history_csv(const coupling::RunResult &run)

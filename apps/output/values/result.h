@@ -121,7 +121,9 @@ struct Result
   Scenery                                     scenery;
 };
 
-/// Warnings of the result and of its run, each once, in this order; an early end of the run comes first.
+/// Findings of the result and of its run, each once, in this order; an early end of the run comes first.
+std::vector<coupling::Finding> all_findings(const Result &result);
+/// Their texts.
 std::vector<std::string> all_warnings(const Result &result);
 
 } // namespace gestell::apps

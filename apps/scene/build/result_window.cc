@@ -100,21 +100,22 @@ double result_window(const Scene &scene, const coupling::Machine &machine, const
   return run.end - period;
 }
 
-std::vector<std::string> window_warnings(const Scene &scene, const coupling::Machine &machine,
-                                         const coupling::InitialState &initial, const coupling::RunResult &run)
+void check_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial,
+                  coupling::RunResult &run)
 {
   const double     length  = scene.run.options.end - scene.run.options.begin;
   const Revolution slowest = slowest_revolution(machine, initial, length);
   if (!scene.run.last_period || period_of_loads(machine) > 0. || !slowest.rotor || !run.failure.empty() ||
       run.interrupted || run.end_state.size() != machine.size())
-    return {};
+    return;
   const int    i    = slowest.rotor->coordinate;
   const double mean = (run.end_state[i] - initial.q[i]) / length;
   if (std::abs(mean - slowest.speed) <= equal_speeds * std::abs(slowest.speed))
-    return {};
-  return {scene.run.place + ": output.from = \"last period\" takes a revolution at the speed that \"" +
-          slowest.rotor->name + "\" starts with, " + short_text(slowest.speed) + " rad/s, but its mean speed is " +
-          short_text(mean) + " rad/s, so that the window is no revolution; " + give_time};
+    return;
+  run.warn("result-window", "output.from",
+           scene.run.place + ": output.from = \"last period\" takes a revolution at the speed that \"" +
+               slowest.rotor->name + "\" starts with, " + short_text(slowest.speed) + " rad/s, but its mean speed is " +
+               short_text(mean) + " rad/s, so that the window is no revolution; " + give_time);
 }
 
 } // namespace gestell::apps

@@ -20,8 +20,8 @@ namespace gestell::apps
  */
 double result_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial);
 
-/// After a run whose window is a revolution of a rotor: a warning if the rotor did not keep its speed.
-std::vector<std::string> window_warnings(const Scene &scene, const coupling::Machine &machine,
-                                         const coupling::InitialState &initial, const coupling::RunResult &run);
+/// After a run whose window is a revolution of a rotor: adds a warning if the rotor did not keep its speed.
+void check_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial,
+                  coupling::RunResult &run);
 
 } // namespace gestell::apps

@@ -40,8 +40,15 @@ void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
 }
 } // namespace
 
-EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options)
-    : system_(system), integrator_(integrator), options_(options), detection_(system)
+const std::vector<RunObserver *> &EventDriver::none()
+{
+  static const std::vector<RunObserver *> none;
+  return none;
+}
+
+EventDriver::EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options,
+                         const std::vector<RunObserver *> &observers)
+    : system_(system), integrator_(integrator), options_(options), detection_(system), observers_(observers)
 {
   before_.resize(system);
   between_.resize(system);
@@ -167,17 +174,17 @@ bool EventDriver::cut_at_end()
   return false;
 }
 
-void EventDriver::observe() const
+void EventDriver::observe()
 {
-  if (observer_)
-    observer_();
+  for (RunObserver *observer : observers_)
+    observer->step();
 }
 
 void EventDriver::tell_events()
 {
   for (; told_ < events_.size(); ++told_)
-    if (event_observer_)
-      event_observer_(events_[told_]);
+    for (RunObserver *observer : observers_)
+      observer->event(events_[told_]);
 }
 
 double EventDriver::value_at(int guard, double t)
@@ -396,8 +403,8 @@ void EventDriver::take(const Crossing &crossing)
     return;
   }
   observe();
-  if (guard_observer_)
-    guard_observer_(guard);
+  for (RunObserver *observer : observers_)
+    observer->guard(guard);
   const ActiveGuard active = system_.events().guard(guard);
   events_.push_back({integrator_.time(), active.name, active.kind});
   between_ = integrator_.local();
@@ -407,7 +414,6 @@ void EventDriver::take(const Crossing &crossing)
   before_ = integrator_.local();
 }
 
-/// Found beside Event by the archive.
 void exchange(StateArchive &archive, Event &event)
 {
   archive(event.t, event.name, event.kind);

@@ -1,28 +1,25 @@
 #pragma once
 
-#include "coupling/integration/events/event_detection.h"
+#include "coupling/integration/events/run_observer.h"
 #include "coupling/integration/system/time_integrator.h"
 
 #include <array>
-#include <functional>
 #include <limits>
 #include <vector>
 
 namespace gestell::coupling
 {
 
-class StateArchive;
-
 struct EventOptions
 {
-  bool locate       = true; ///< false: events are told, the integration goes over them
-  int  max_per_step = 20;   ///< located within the length of one step; more is chatter
-
-  double end = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
+  bool   locate = true;                                    ///< false: events are told, the integration goes over them
+  double end    = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
 
   /// Sliding speed [m/s, rad/s] up to which a motion begins sticking: that of a start that was computed, and is
   /// rounded.
   double still = 0.;
+
+  int max_per_step = 20; ///< located within the length of one step; more is chatter
 };
 
 /**
@@ -41,7 +38,9 @@ struct EventOptions
 class EventDriver
 {
 public:
-  EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options);
+  /// @param observers  told of steps, guards and events, in their order; must outlive the driver
+  EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options,
+              const std::vector<RunObserver *> &observers = none());
 
   /// Starts history and integration.
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
@@ -49,16 +48,6 @@ public:
   /// One step of the integrator, or the part of it up to its first event.  The history is up to date afterwards.
   /// @throws ConvergenceFailure
   void advance();
-
-  /// `observer` is called with every step, or part of one, while its dense output and the history that holds on it are
-  /// there: before anything of it is accepted and before the transition at its end.
-  void on_step(std::function<void()> observer) { observer_ = std::move(observer); }
-  /// `observer` is called with the number of a guard whose zero was located, at the end of the step that was cut there,
-  /// before the transition: the history is that of before.
-  void on_guard(std::function<void(int)> observer) { guard_observer_ = std::move(observer); }
-  /// `observer` is called behind every transition, when the integration is ready to go on from there; with the events
-  /// of a step that was gone over at its end.
-  void on_event(std::function<void(const Event &)> observer) { event_observer_ = std::move(observer); }
 
   const std::vector<Event> &events() const { return events_; }
   long                      chattering_steps() const { return chattering_; }
@@ -69,6 +58,8 @@ public:
   void exchange(StateArchive &archive);
 
 private:
+  static const std::vector<RunObserver *> &none();
+
   void hold_what_is_still();
 
   struct Crossing
@@ -96,7 +87,7 @@ private:
   void   take(const Crossing &crossing);
   void   step_over();
   bool   cut_at_end();
-  void   observe() const;
+  void   observe();
   void   tell_events();
   void   make_room();
 
@@ -114,9 +105,7 @@ private:
   int                                       in_window_       = 0;
   long                                      chattering_      = 0;
   double                                    chattering_time_ = 0.;
-  std::function<void()>                     observer_;
-  std::function<void(int)>                  guard_observer_;
-  std::function<void(const Event &)>        event_observer_;
+  const std::vector<RunObserver *>         &observers_;
   std::size_t                               told_ = 0; ///< events
 };
 

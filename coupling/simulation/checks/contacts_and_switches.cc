@@ -40,23 +40,22 @@ bool ends_the_run(const Machine &machine, const std::string &name)
 
 } // namespace
 
-std::vector<std::string> switch_warnings(const Machine &machine, double begin, const std::vector<Event> &events,
-                                         bool to_the_end)
+void check_switches(const Machine &machine, double begin, const std::vector<Event> &events, RunOutcome &outcome)
 {
-  std::vector<std::string> warnings;
   for (const Event &event : events)
     if (event.kind == "switch" && event.t == begin &&
         std::none_of(machine.model().switches().begin(), machine.model().switches().end(),
                      [&](const Switch &own) { return own.name == event.name && at_the_start(own, begin); }))
-      warnings.push_back("switch " + event.name +
-                         " was thrown at the start: its signal lay at the value or beyond it already");
-  if (!to_the_end)
-    return warnings;
+      outcome.warn("switch-at-start", event.name,
+                   "switch " + event.name +
+                       " was thrown at the start: its signal lay at the value or beyond it already");
+  if (!outcome.reached_end())
+    return;
   for (int i = 0; i < machine.events().n_guards(); ++i)
     if (const ActiveGuard guard = machine.events().guard(i);
         guard.kind == "switch" && !happened(events, guard) && !ends_the_run(machine, guard.name))
-      warnings.push_back("switch " + guard.name + " was never thrown: its signal did not reach the value");
-  return warnings;
+      outcome.warn("switch-never-thrown", guard.name,
+                   "switch " + guard.name + " was never thrown: its signal did not reach the value");
 }
 
 std::string end_by_switch(const Machine &machine, double begin, const Event &event)
@@ -73,26 +72,25 @@ std::string end_by_switch(const Machine &machine, double begin, const Event &eve
   return text.str();
 }
 
-std::vector<std::string> closed_contact_warnings(const Machine &machine, const InitialState &initial)
+void check_closed_contacts(const Machine &machine, const InitialState &initial, RunOutcome &outcome)
 {
-  std::vector<std::string> warnings;
-  LocalState               local;
+  LocalState local;
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
   for (const std::string &contact : machine.closed_contacts(local))
-    warnings.push_back("the start lies inside the contact of " + contact +
-                       "; it pushes from the first instant on. If that is not meant, change the position or the "
-                       "play, or start with rule = \"static\"");
-  return warnings;
+    outcome.warn("contact-at-start", contact,
+                 "the start lies inside the contact of " + contact +
+                     "; it pushes from the first instant on. If that is not meant, change the position or the "
+                     "play, or start with rule = \"static\"");
 }
 
-std::vector<std::string> unlocated_friction_warnings(const Machine &machine)
+void check_unlocated_friction(const Machine &machine, RunOutcome &outcome)
 {
   for (const ElementPlacement &placement : machine.model().elements())
     if (law_of<mechanism::CoulombFriction>(placement))
-      return {"run.events = false, but the dry friction of \"" + placement.name +
-              "\" is made for located events: without them it may hold more than its limit, or "
-              "chatter; leave run.events true, or take the type \"friction\""};
-  return {};
+      return outcome.warn("friction-without-events", placement.name,
+                          "run.events = false, but the dry friction of \"" + placement.name +
+                              "\" is made for located events: without them it may hold more than its limit, or "
+                              "chatter; leave run.events true, or take the type \"friction\"");
 }
 
 } // namespace gestell::coupling

@@ -255,7 +255,7 @@ void FastForces::step()
   look();
 }
 
-void FastForces::jump()
+void FastForces::event(const Event &)
 {
   if (places_.empty())
     return;
@@ -272,7 +272,7 @@ double FastForces::doubt(std::size_t place, int range) const
   return deflection_[i] > 0. ? error_(i, range) / deflection_[i] : 0.;
 }
 
-std::string FastForces::warning() const
+void FastForces::finish(RunOutcome &outcome)
 {
   std::vector<std::size_t> doubtful;
   int                      enough = 0; // range that would leave no doubt
@@ -286,7 +286,7 @@ std::string FastForces::warning() const
       ++enough;
   }
   if (doubtful.empty())
-    return "";
+    return;
   std::sort(doubtful.begin(), doubtful.end(), [&](auto i, auto j) { return doubt(i, 0) > doubt(j, 0); });
   std::ostringstream text;
   text << "forces change faster than the reduced frame, made to hold up to " << limit_ << " Hz, can follow: ";
@@ -304,7 +304,7 @@ std::string FastForces::warning() const
   else
     text << "more than " << limit_ * (1 << (n_ranges - 1))
          << " Hz would be needed; double it until the answer stays as it is";
-  return text.str();
+  outcome.warn("force-bandwidth", places_[doubtful.front()].name, text.str());
 }
 
 void FastForces::exchange(StateArchive &archive)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/events/run_observer.h"
 #include "coupling/integration/system/time_integrator.h"
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/checks/oscillator_bank.h"
@@ -9,8 +10,6 @@
 
 namespace gestell::coupling
 {
-
-class StateArchive;
 
 /**
  * What the frequencies of a reduced frame, which are too high, make of the forces of a run.
@@ -28,19 +27,16 @@ class StateArchive;
  *
  * Source: docs/theory/reduction.md (16f).
  */
-class FastForces
+class FastForces : public RunObserver
 {
 public:
   FastForces(const Machine &machine, const TimeIntegrator &integrator);
 
-  void begin(); ///< what acts from the start on is taken as at rest
-  void step();
-  void jump(); ///< an event has changed forces at this instant
-
-  /// One for all forces that leave more than a twentieth of a deflection in doubt; empty if none does.
-  std::string warning() const;
-
-  void exchange(StateArchive &archive);
+  void begin() override; ///< what acts from the start on is taken as at rest
+  void step() override;
+  void event(const Event &) override;
+  void finish(RunOutcome &outcome) override; ///< one for all that leave more than a twentieth of a deflection in doubt
+  void exchange(StateArchive &archive) override;
 
 private:
   static constexpr int n_ranges = 4; ///< f, 2 f, 4 f, 8 f: what a larger range would leave

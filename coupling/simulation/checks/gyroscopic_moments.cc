@@ -23,11 +23,10 @@ Eigen::VectorXd rotation_about(const Machine &machine, const Marker &marker, con
 
 } // namespace
 
-std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::VectorXd &v)
+void check_tilting_rotors(const Machine &machine, const Eigen::VectorXd &v, RunOutcome &outcome)
 {
-  std::vector<std::string> warnings;
   if (machine.model().full_frame())
-    return warnings; // to factorise that would take longer than many a run
+    return; // to factorise that would take longer than many a run
   for (const Body &body : machine.model().bodies())
   {
     const double speed = body.kind == BodyKind::rotor ? std::abs(v[body.coordinate]) : 0.;
@@ -59,9 +58,8 @@ std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::Vec
          << "would be " << 100. * kappa
          << " % of the moments that hold its axis. Where it matters, make it a body of type \"rigid\" in revolute "
             "joints";
-    warnings.push_back(text.str());
+    outcome.warn("gyroscopic-moments", body.name, text.str());
   }
-  return warnings;
 }
 
 } // namespace gestell::coupling

@@ -1,9 +1,7 @@
 #pragma once
 
+#include "coupling/integration/events/finding.h"
 #include "coupling/machine/machine.h"
-
-#include <string>
-#include <vector>
 
 namespace gestell::coupling
 {
@@ -20,9 +18,9 @@ namespace gestell::coupling
  * with the flexibilities f of its carrier against a moment about the directions w.
  *
  * @param v  velocities [n] of which each rotor's speed is taken
- * @return   a text for every rotor whose kappa is above 0.02; none on an unreduced frame, which is too large to be
- * asked
+ * @param outcome  gets a warning of every rotor whose kappa is above 0.02; of none on an unreduced frame, which is too
+ *                 large to be factorized
  */
-std::vector<std::string> tilting_rotors(const Machine &machine, const Eigen::VectorXd &v);
+void check_tilting_rotors(const Machine &machine, const Eigen::VectorXd &v, RunOutcome &outcome);
 
 } // namespace gestell::coupling

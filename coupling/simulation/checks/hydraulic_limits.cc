@@ -67,9 +67,8 @@ void HydraulicLimits::step()
   }
 }
 
-std::vector<std::string> HydraulicLimits::warnings() const
+void HydraulicLimits::finish(RunOutcome &outcome)
 {
-  std::vector<std::string> warnings;
   for (const Limit &limit : limits_)
   {
     if (!limit.passed)
@@ -79,9 +78,8 @@ std::vector<std::string> HydraulicLimits::warnings() const
     if (limit.signal.unit == "Pa")
       text << ", to " << limit.lowest << " Pa at the lowest";
     text << "; " << limit.advice;
-    warnings.push_back(text.str());
+    outcome.warn(limit.signal.unit == "Pa" ? "hydraulic-pressure" : "hydraulic-stroke", limit.object, text.str());
   }
-  return warnings;
 }
 
 void HydraulicLimits::exchange(StateArchive &archive)

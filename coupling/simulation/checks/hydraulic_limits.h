@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/events/run_observer.h"
 #include "coupling/integration/system/time_integrator.h"
 #include "coupling/machine/machine.h"
 
@@ -9,22 +10,19 @@
 namespace gestell::coupling
 {
 
-class StateArchive;
-
 /// Looks at the hydraulic cylinders of a machine after every step: for pressures below zero, at which oil cavitates,
 /// and pistons at the end of their stroke, none of which their law knows.
-class HydraulicLimits
+class HydraulicLimits : public RunObserver
 {
 public:
   HydraulicLimits(const Machine &machine, const TimeIntegrator &integrator);
 
-  void begin() { step(); }
-  void step();
+  void begin() override { step(); }
+  void step() override;
 
   /// For each limit that was passed: when it was for the first time, and how far at most.
-  std::vector<std::string> warnings() const;
-
-  void exchange(StateArchive &archive);
+  void finish(RunOutcome &outcome) override;
+  void exchange(StateArchive &archive) override;
 
 private:
   /// A signal that should not fall below zero after `offset` was added and `sign` taken.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/events/run_observer.h"
 #include "coupling/integration/system/time_integrator.h"
 #include "coupling/machine/machine.h"
 
@@ -7,8 +8,6 @@
 
 namespace gestell::coupling
 {
-
-class StateArchive;
 
 /**
  * Ends a run whose joints carry forces that nothing in the machine could cause: equations of joints that depend on each
@@ -25,16 +24,16 @@ class StateArchive;
  *
  * Source: docs/theory/joints.md (4a).
  */
-class JointForceGuard
+class JointForceGuard : public RunObserver
 {
 public:
   JointForceGuard(const Machine &machine, const TimeIntegrator &integrator);
 
   /// Once per step.
   /// @throws ConvergenceFailure with the joint and its force
-  void step();
+  void step() override;
 
-  void exchange(StateArchive &archive);
+  void exchange(StateArchive &archive) override;
 
 private:
   /// A measure that is one coordinate of bodies in joints.

@@ -16,9 +16,9 @@ namespace
 constexpr double looks_of_a_run = 64., allowed_difference = 0.1;
 }
 
-MomentaryModes::MomentaryModes(const Machine &machine, double begin, double end)
-    : machine_(machine), averaged_(machine.superposed_frequencies()), pace_((end - begin) / looks_of_a_run),
-      next_(begin + pace_)
+MomentaryModes::MomentaryModes(const Machine &machine, const TimeIntegrator &integrator, double begin, double end)
+    : machine_(machine), integrator_(integrator), averaged_(machine.superposed_frequencies()),
+      pace_((end - begin) / looks_of_a_run), next_(begin + pace_)
 {
   if (averaged_.size() == 0)
     return;
@@ -26,8 +26,9 @@ MomentaryModes::MomentaryModes(const Machine &machine, double begin, double end)
   C_ = dense_stiffness(machine);
 }
 
-void MomentaryModes::step(const LocalState &state)
+void MomentaryModes::step()
 {
+  const LocalState &state = integrator_.local();
   if (averaged_.size() == 0 || state.t < next_)
     return;
   next_ = state.t + pace_;
@@ -54,10 +55,10 @@ void MomentaryModes::step(const LocalState &state)
   apart_ += apart ? 1 : 0;
 }
 
-std::string MomentaryModes::warning() const
+void MomentaryModes::finish(RunOutcome &outcome)
 {
   if (apart_ == 0)
-    return "";
+    return;
   std::ostringstream text;
   text.precision(3);
   text << "modal superposition: the modes are those of the averaged machine, and at " << 100 * apart_ / looks_
@@ -66,7 +67,7 @@ std::string MomentaryModes::warning() const
        << omega_ / two_pi << " Hz in place of " << averaged_[mode_ - 1] / two_pi
        << " Hz; see that more modes change nothing (modes.open names contacts that are open most of the time), or take "
           "method = \"craig-bampton\"";
-  return text.str();
+  outcome.warn("instantaneous-modes", "mode " + std::to_string(mode_), text.str());
 }
 
 void MomentaryModes::exchange(StateArchive &archive)

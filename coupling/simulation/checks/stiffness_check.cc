@@ -28,8 +28,9 @@ double stored(const mechanism::Element &element, const Eigen::VectorXd &u, const
 
 } // namespace
 
-StiffnessCheck::StiffnessCheck(const Machine &machine, const InitialState &start, const MethodOptions &options)
-    : machine_(machine), options_(options)
+StiffnessCheck::StiffnessCheck(const Machine &machine, const TimeIntegrator &integrator, const InitialState &start,
+                               const MethodOptions &options)
+    : machine_(machine), integrator_(integrator), options_(options)
 {
   const auto weights = method_of(options).step_weights(options, -1.);
   if (!weights || controlled(options) || is_large(machine) ||
@@ -104,12 +105,13 @@ double StiffnessCheck::largest(const Eigen::VectorXd &u, std::size_t &most) cons
   return GeneralEigenSolver(K * F_, WithVectors::no).eigenvalues().real().maxCoeff();
 }
 
-void StiffnessCheck::step(const LocalState &state)
+void StiffnessCheck::step()
 {
   if (watched_.empty())
     return;
-  std::size_t  most  = 0;
-  const double share = largest(state.u, most);
+  const LocalState &state = integrator_.local();
+  std::size_t       most  = 0;
+  const double      share = largest(state.u, most);
   if (!(share < 1.))
     fail(state, share, watched_[most]);
   last_.u = state.u;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/events/run_observer.h"
 #include "coupling/integration/integration_methods.h"
 #include "coupling/modes/linear_spectrum.h"
 
@@ -8,8 +9,6 @@
 
 namespace gestell::coupling
 {
-
-class StateArchive;
 
 /**
  * Elements whose stiffness grows with the motion (a contact after Hertz, a cubic spring) against the stiffness that a
@@ -23,17 +22,17 @@ class StateArchive;
  *
  * Its trace is a bound, which in most steps is all that is looked at.  Source: docs/stability.md.
  */
-class StiffnessCheck
+class StiffnessCheck : public RunObserver
 {
 public:
   /// Looks at nothing under other methods, and on machines too large for dense matrices.
-  StiffnessCheck(const Machine &machine, const InitialState &start, const MethodOptions &options);
+  StiffnessCheck(const Machine &machine, const TimeIntegrator &integrator, const InitialState &start,
+                 const MethodOptions &options);
 
   /// After every step.
   /// @throws ConvergenceFailure naming the element, its stiffness and a step that stands what it will come to
-  void step(const LocalState &state);
-
-  void exchange(StateArchive &archive);
+  void step() override;
+  void exchange(StateArchive &archive) override;
 
 private:
   struct Watched
@@ -48,12 +47,13 @@ private:
   double            frequency_at_peak(const Watched &watched, const Eigen::VectorXd &now) const;
   [[noreturn]] void fail(const LocalState &state, double share, const Watched &watched) const;
 
-  const Machine       &machine_;
-  MethodOptions        options_;
-  std::vector<Watched> watched_;
-  Eigen::MatrixXd      F_;         ///< -c h^2 W^T A^-1 W of the watched measures
-  Eigen::MatrixXd      lightness_; ///< W^T M^-1 W of these
-  LocalState           last_;      ///< after the step before
+  const Machine        &machine_;
+  const TimeIntegrator &integrator_;
+  MethodOptions         options_;
+  std::vector<Watched>  watched_;
+  Eigen::MatrixXd       F_;         ///< -c h^2 W^T A^-1 W of the watched measures
+  Eigen::MatrixXd       lightness_; ///< W^T M^-1 W of these
+  LocalState            last_;      ///< after the step before
 };
 
 } // namespace gestell::coupling

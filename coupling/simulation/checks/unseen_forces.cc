@@ -17,15 +17,16 @@ namespace
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-constexpr double steps_of_period = 10.;                                     ///< below which it is worth a word
-constexpr double differs         = 1. / 40.;                                ///< D of R: 2.4 % at ten steps a period
-constexpr double often           = 0.25;                                    ///< share of the steps
-constexpr double seen            = 0.5;                                     ///< share of R
-constexpr double negligible      = 1e-9;                                    ///< R, of the largest force
-constexpr double most_looks = 5000., least_looks = 200., most_forces = 1e6; ///< evaluated at the looks
-constexpr double same       = 1e-6; ///< forces before and after a turn, of their range
-constexpr int    most_named = 3;
-constexpr double inside[]   = {0.25, 0.5, 0.75};
+constexpr double  steps_of_period = 10.;                                     ///< below which it is worth a word
+constexpr double  differs         = 1. / 40.;                                ///< D of R: 2.4 % at ten steps a period
+constexpr double  often           = 0.25;                                    ///< share of the steps
+constexpr double  seen            = 0.5;                                     ///< share of R
+constexpr double  negligible      = 1e-9;                                    ///< R, of the largest force
+constexpr double  most_looks = 5000., least_looks = 200., most_forces = 1e6; ///< evaluated at the looks
+constexpr double  same       = 1e-6; ///< forces before and after a turn, of their range
+constexpr int     most_named = 3;
+constexpr double  inside[]   = {0.25, 0.5, 0.75};
+const char *const resolution = "step-resolution";
 
 template <typename... Parts>
 std::string words(const Parts &...parts)
@@ -138,8 +139,7 @@ bool depend_on_time(AtTime &at, const Steps &steps, Eigen::Index n)
   return looks.any_above(negligible * looks.largest());
 }
 
-void add_of_time(const LocalForces &forces, const LocalState &state, double begin, double h,
-                 std::vector<std::string> &warnings)
+void add_of_time(const LocalForces &forces, const LocalState &state, double begin, double h, RunOutcome &outcome)
 {
   const Eigen::Index n     = state.u.size();
   const Steps        steps = steps_of(begin, state.t, h, n);
@@ -178,21 +178,22 @@ void add_of_time(const LocalForces &forces, const LocalState &state, double begi
       continue;
     before = element;
     ++n_named;
-    warnings.push_back(words("run.step: the force of ", element,
-                             hidden ? " acts between the ends of steps more than at them"
-                                    : " changes faster than the steps follow (fewer than about ten in a period)",
-                             ": what happens there is not seen. Take much shorter steps than ", h,
-                             " s, until results no longer change"));
+    outcome.warn(resolution, element,
+                 words("run.step: the force of ", element,
+                       hidden ? " acts between the ends of steps more than at them"
+                              : " changes faster than the steps follow (fewer than about ten in a period)",
+                       ": what happens there is not seen. Take much shorter steps than ", h,
+                       " s, until results no longer change"));
   }
 }
 
-void add_of_loads(const Machine &machine, double h, std::vector<std::string> &warnings)
+void add_of_loads(const Machine &machine, double h, RunOutcome &outcome)
 {
   const double omega = fastest_load(machine.linear().excitation());
   if (h * omega > 2. * M_PI / steps_of_period)
-    warnings.push_back(words("run.step: ", 2. * M_PI / (h * omega), " steps in a period of the load of ",
-                             omega / (2. * M_PI), " Hz; take at most a twentieth of that period, ",
-                             2. * M_PI / omega / 20., " s"));
+    outcome.warn(resolution, "run.step",
+                 words("run.step: ", 2. * M_PI / (h * omega), " steps in a period of the load of ", omega / (2. * M_PI),
+                       " Hz; take at most a twentieth of that period, ", 2. * M_PI / omega / 20., " s"));
 }
 
 /// The first force that changes with the angle of a body and is the same again after a turn: one that is not belongs to
@@ -219,18 +220,18 @@ Eigen::Index turning_with(const LocalForces &forces, const LocalState &last, int
   return -1;
 }
 
-void add_of_turning(const Machine &machine, const LocalState &last, const VectorXd &v, double h,
-                    std::vector<std::string> &warnings)
+void add_of_turning(const Machine &machine, const LocalState &last, const VectorXd &v, double h, RunOutcome &outcome)
 {
   for (const Body &body : machine.model().bodies())
   {
     if (body.kind != BodyKind::rotor || !(std::abs(v[body.coordinate]) * h > 2. * M_PI / steps_of_period))
       continue;
     if (const Eigen::Index i = turning_with(machine.forces(), last, body.coordinate); i >= 0)
-      warnings.push_back(words("run.step: '", body.name, "' turns by ", std::abs(v[body.coordinate]) * h * 180. / M_PI,
-                               " degrees in a step, and the force of ", machine.forces().element_of(int(i)),
-                               " changes with its angle; take steps of at most a twentieth of a turn, ",
-                               2. * M_PI / std::abs(v[body.coordinate]) / 20., " s"));
+      outcome.warn(resolution, body.name,
+                   words("run.step: '", body.name, "' turns by ", std::abs(v[body.coordinate]) * h * 180. / M_PI,
+                         " degrees in a step, and the force of ", machine.forces().element_of(int(i)),
+                         " changes with its angle; take steps of at most a twentieth of a turn, ",
+                         2. * M_PI / std::abs(v[body.coordinate]) / 20., " s"));
   }
 }
 
@@ -248,21 +249,19 @@ void require_steps_for_loads(const Machine &machine, const MethodOptions &method
                                     period / 20., " s"));
 }
 
-std::vector<std::string> unseen_forces(Machine &machine, const MethodOptions &method, double begin,
-                                       const LocalState &last, const VectorXd &v)
+void check_step_resolution(Machine &machine, const MethodOptions &method, double begin, const LocalState &last,
+                           const VectorXd &v, RunOutcome &outcome)
 {
-  std::vector<std::string> warnings;
-  const double             h = method.step;
+  const double h = method.step;
   if (controlled(method) || !(h > 0.) || !last.u.allFinite() || !v.allFinite())
-    return warnings;
+    return;
   if (!method_of(method).carries_base())
-    add_of_loads(machine, h, warnings);
+    add_of_loads(machine, h, outcome);
   if (last.u.size() == 0)
-    return warnings;
+    return;
   machine.events().follow_history(false);
-  add_of_time(machine.forces(), last, begin, h, warnings);
-  add_of_turning(machine, last, v, h, warnings);
-  return warnings;
+  add_of_time(machine.forces(), last, begin, h, outcome);
+  add_of_turning(machine, last, v, h, outcome);
 }
 
 } // namespace gestell::coupling

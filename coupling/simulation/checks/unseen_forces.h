@@ -1,11 +1,9 @@
 #pragma once
 
+#include "coupling/integration/events/finding.h"
 #include "coupling/integration/integration_method.h"
 #include "coupling/integration/system/local_forces.h"
 #include "coupling/machine/machine.h"
-
-#include <string>
-#include <vector>
 
 namespace gestell::coupling
 {
@@ -30,9 +28,9 @@ void require_steps_for_loads(const Machine &machine, const MethodOptions &method
  * angle.  Laws follow the motion, not their history, afterwards.
  *
  * @param last  the motion at the end of the run; v velocities [n], of which those of rotors count
- * @return one warning for each; none with controlled steps
+ * @param outcome  gets a warning of each; none with controlled steps
  */
-std::vector<std::string> unseen_forces(Machine &machine, const MethodOptions &method, double begin,
-                                       const LocalState &last, const Eigen::VectorXd &v);
+void check_step_resolution(Machine &machine, const MethodOptions &method, double begin, const LocalState &last,
+                           const Eigen::VectorXd &v, RunOutcome &outcome);
 
 } // namespace gestell::coupling

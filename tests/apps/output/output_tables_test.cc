@@ -167,7 +167,7 @@ TEST(Tables, WarningsTellTheEarlyEndFirstAndNothingTwice)
 {
   Result result       = example_result();
   result.run->failure = "Newton did not converge at t = 0.2 s";
-  result.run->warnings.push_back("The mesh is coarse.");
+  result.run->warn("", "", "The mesh is coarse.");
   const auto warnings = all_warnings(result);
   ASSERT_EQ(warnings.size(), 3u);
   EXPECT_NE(warnings[0].find("stopped early: Newton"), std::string::npos);

@@ -165,7 +165,7 @@ TEST(HydraulicCylinder, HoldsAJointedArmFromAStaticStartOn)
 /// The number behind "at t = " of the warning that says this; nan if there is none.
 double warned_at(const SceneRun &motion, const std::string &what)
 {
-  for (const std::string &warning : motion.result.warnings)
+  for (const std::string &warning : coupling::texts_of(motion.result.findings))
     if (warning.find(what) != std::string::npos)
       return std::stod(warning.substr(warning.find("at t = ") + 7));
   return std::nan("");

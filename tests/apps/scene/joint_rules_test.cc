@@ -127,7 +127,7 @@ TEST(Rotor, OnACarrierThatTiltsIsWarnedOfItsGyroscopicMoments)
 {
   const auto warnings = [](const std::string &speed)
   {
-    return run(R"(
+    return coupling::texts_of(run(R"(
 [frame]
 mass = [[1, 0], [0, 1]]
 stiffness = [[1e4, 0], [0, 1e4]]
@@ -139,9 +139,9 @@ axis = [0, 1, 0]
 on = "frame.seat"
 inertia = 0.5
 [start]
-v = { wheel = ")" +
-               speed + "\" }\n" + settings + "signals = { w = \"wheel.speed\" }\n")
-        .result.warnings;
+v = { wheel = ")" + speed + "\" }\n" +
+                                  settings + "signals = { w = \"wheel.speed\" }\n")
+                                  .result.findings);
   };
   const auto fast = warnings("50 rad/s");
   ASSERT_FALSE(fast.empty());

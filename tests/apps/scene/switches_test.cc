@@ -223,15 +223,16 @@ TEST_P(Switches, CrossNothingWhereTheyBegin)
   const auto motion =
       run(slider(2., "0.1 s") + push + switched("s", "slide.displacement crosses 0 m", "push off"), GetParam());
   EXPECT_EQ(count(motion, "switch"), 0);
-  ASSERT_EQ(motion.result.warnings.size(), 1u);
-  EXPECT_NE(motion.result.warnings[0].find("never thrown"), std::string::npos);
+  ASSERT_EQ(motion.result.findings.size(), 1u);
+  EXPECT_EQ(motion.result.findings[0].id, "switch-never-thrown");
+  EXPECT_EQ(motion.result.findings[0].place, "s");
 }
 
 TEST(Switches, OfTheTimeOfTheStartAreMeant)
 {
   const auto motion = run(slider(2., "0.1 s") + push + switched("s", "t above 0", "push off"));
   EXPECT_EQ(time_of(motion, "switch"), 0.);
-  EXPECT_TRUE(motion.result.warnings.empty());
+  EXPECT_TRUE(motion.result.findings.empty());
   EXPECT_NEAR(motion.signal("x").final, 0., 1e-15);
 }
 

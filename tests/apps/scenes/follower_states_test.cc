@@ -39,7 +39,7 @@ const std::string rest = start("rule = 'static'") + steps("0.1 ms", "1 ms") + si
 std::string said(const SceneRun &motion)
 {
   std::string all;
-  for (const std::string &warning : motion.result.warnings)
+  for (const std::string &warning : coupling::texts_of(motion.result.findings))
     all += warning + '\n';
   return all;
 }

@@ -102,7 +102,7 @@ TEST(PointOnPlane, AFailureOfAControlledStepNamesTheSpeedOfFriction)
 
 bool warned(const SceneRun &motion, const std::string &name)
 {
-  for (const std::string &warning : motion.result.warnings)
+  for (const std::string &warning : coupling::texts_of(motion.result.findings))
     if (warning.find("the start lies inside the contact of \"" + name + "\" by ") != std::string::npos)
       return true;
   return false;
@@ -240,7 +240,7 @@ TEST(Journal, OfTheExampleKnocksInsideItsPlay)
 {
   const SceneRun motion("slider_crank_journal.toml", Settings{"run.end=0.1 s"});
   ASSERT_EQ(motion.result.failure, "");
-  EXPECT_TRUE(motion.result.warnings.empty());
+  EXPECT_TRUE(motion.result.findings.empty());
   EXPECT_GT(count(motion, "contact"), 4);
   EXPECT_GT(motion.signal("ecc").max, 0.5e-3);
   EXPECT_LT(motion.signal("ecc").max, 0.5e-3 + motion.signal("F").max / 10e6); // part of the force is damping

@@ -116,7 +116,8 @@ TEST(StartWithPlay, TheFirstPeakIsNotLargerThanThoseOfLaterRevolutions)
       const SceneRun    motion = run(machine + steady(angle), {"run.step=50 us"});
       const std::size_t n      = motion.n_rows();
       EXPECT_LE(largest(motion, "F", 0, n / 8), 1.2 * largest(motion, "F", n / 8, n)) << angle;
-      EXPECT_THAT(motion.result.warnings, ::testing::Not(::testing::Contains(HasSubstr("closes the play"))));
+      EXPECT_THAT(coupling::texts_of(motion.result.findings),
+                  ::testing::Not(::testing::Contains(HasSubstr("closes the play"))));
     }
 }
 
@@ -125,11 +126,13 @@ TEST(StartWithPlay, AGivenStartWarnsOfTheClosingSpeed)
 {
   const std::string scene    = with_worn_pin("0.2 mm", "0.1 ms");
   const SceneRun    standing = run(scene + start("v = { crank = '150 rpm' }"));
-  EXPECT_THAT(standing.result.warnings, ::testing::Contains(HasSubstr("\"crank_pin\" at 0.785 m/s")));
+  EXPECT_THAT(coupling::texts_of(standing.result.findings),
+              ::testing::Contains(HasSubstr("\"crank_pin\" at 0.785 m/s")));
   // Zero that is given is meant.
   const SceneRun meant = run(scene + start("v = { crank = '150 rpm', ram = 0, 'rod.ux' = 0, 'rod.uz' = 0, "
                                            "'rod.angle' = 0 }"));
-  EXPECT_THAT(meant.result.warnings, ::testing::Not(::testing::Contains(HasSubstr("closes the play"))));
+  EXPECT_THAT(coupling::texts_of(meant.result.findings),
+              ::testing::Not(::testing::Contains(HasSubstr("closes the play"))));
 }
 
 // Claws between flywheel and shaft: the load of the shaft closes them on one side, and they carry its share T J_1/(J_1

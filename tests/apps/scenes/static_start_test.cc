@@ -31,7 +31,7 @@ void expect_rest(const SceneRun &motion, const std::vector<double> &values, doub
 
 bool told(const SceneRun &motion, const std::string &words)
 {
-  for (const std::string &warning : motion.result.warnings)
+  for (const std::string &warning : coupling::texts_of(motion.result.findings))
     if (warning.find(words) != std::string::npos)
       return true;
   return false;

@@ -52,12 +52,13 @@ TEST(BesideTheRun, ForcesThatAreRoundingAreToldOf)
 {
   const auto warnings = [](const std::string &stiffness)
   {
-    return run_of(slider_body("a", "1", "[1, 0, 0]") + slider_body("b", "1", "[1, 0, 0]") +
-                  element("base", "spring-damper", {{"from", "a"}, {"stiffness", "1000"}}) +
-                  element("link", "spring-damper", {{"from", "a"}, {"to", "b"}, {"stiffness", stiffness}}) +
-                  start("q = { a = '10 mm', b = '10 mm' }") + signals("a = 'a.displacement', F = 'link.force'") +
-                  steps("10 us", "0.1 s"))
-        .run->warnings;
+    return coupling::texts_of(
+        run_of(slider_body("a", "1", "[1, 0, 0]") + slider_body("b", "1", "[1, 0, 0]") +
+               element("base", "spring-damper", {{"from", "a"}, {"stiffness", "1000"}}) +
+               element("link", "spring-damper", {{"from", "a"}, {"to", "b"}, {"stiffness", stiffness}}) +
+               start("q = { a = '10 mm', b = '10 mm' }") + signals("a = 'a.displacement', F = 'link.force'") +
+               steps("10 us", "0.1 s"))
+            .run->findings);
   };
   for (const char *stiff : {"1e17", "1e18", "1e20", "1e21"})
     EXPECT_THAT(warnings(stiff), Contains(HasSubstr("forces on "))) << stiff;

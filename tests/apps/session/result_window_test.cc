@@ -202,15 +202,17 @@ TEST_F(Window, ARevolutionNeedsTheSpeedOfTheStart)
                  "\"drive\" depends on the time");
   EXPECT_EQ(run(last, driven("function = '4*pi*t/(1 s)'")).run->from, 1.5);
   EXPECT_THAT(
-      run(last, driven("speed = [{ at = '0.5 s', to = '240 rpm', acceleration = '50 rad/s^2' }], initial_speed = "
-                       "'120 rpm'"))
-          .run->warnings,
+      coupling::texts_of(
+          run(last, driven("speed = [{ at = '0.5 s', to = '240 rpm', acceleration = '50 rad/s^2' }], initial_speed = "
+                           "'120 rpm'"))
+              .run->findings),
       Contains(HasSubstr("but its mean speed is 21.2 rad/s")));
   const std::string torque =
       turning + "[element.torque]\ntype = 'force'\nfrom = 'shaft'\nabout = [0, 0, 1]\nconstant = '1 N m'\n";
   const Result result = run(last, torque);
-  EXPECT_THAT(result.run->warnings, Contains(HasSubstr("but its mean speed is 13.57 rad/s"))); // 4 pi + 1 rad/s
-  EXPECT_THAT(run(last, turning).run->warnings, Not(Contains(HasSubstr("mean speed"))));
+  EXPECT_THAT(coupling::texts_of(result.run->findings),
+              Contains(HasSubstr("but its mean speed is 13.57 rad/s"))); // 4 pi + 1 rad/s
+  EXPECT_THAT(coupling::texts_of(run(last, turning).run->findings), Not(Contains(HasSubstr("mean speed"))));
 }
 
 TEST_F(Window, WhatMakesNoSenseIsRefused)

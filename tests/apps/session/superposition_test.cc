@@ -236,9 +236,10 @@ TEST(ModalSuperposition, WarnsWhereTheMachineOfTheMomentIsAnother)
 {
   const ChainScene scene;
   const Answer     hits(scene.path("method = 'modal'\nmodes = 12", load + stop));
-  EXPECT_THAT(hits.result.run->warnings, Contains(HasSubstr("the machine of the moment had frequencies")));
+  EXPECT_THAT(coupling::texts_of(hits.result.run->findings),
+              Contains(HasSubstr("the machine of the moment had frequencies")));
   const Answer linear(scene.path("method = 'modal'\nmodes = 12", load));
-  EXPECT_THAT(linear.result.run->warnings, Not(Contains(HasSubstr("the machine of the moment"))));
+  EXPECT_THAT(coupling::texts_of(linear.result.run->findings), Not(Contains(HasSubstr("the machine of the moment"))));
 }
 
 /// Damping in proportion to the stiffness couples no modes, a damper at the tip does.
@@ -263,8 +264,9 @@ TEST(ModalSuperposition, NotesWhatIsLostOfAGivenStart)
   const std::string start = "[start]\nq = { 'frame.tip.ux' = '1 mm' }\n";
   const Answer      few(scene.path("method = 'modal'\nmodes = 3", start)),
       all(scene.path("method = 'modal'\nmodes = 30", start));
-  EXPECT_THAT(few.result.run->warnings, Contains(HasSubstr("of the elastic energy of the given start")));
-  EXPECT_THAT(all.result.run->warnings, testing::IsEmpty());
+  EXPECT_THAT(coupling::texts_of(few.result.run->findings),
+              Contains(HasSubstr("of the elastic energy of the given start")));
+  EXPECT_THAT(coupling::texts_of(all.result.run->findings), testing::IsEmpty());
   EXPECT_NEAR(all[0].max, 1e-3, 1e-6);
 }
 

@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string> &texts)
 std::string warnings_of(const std::string &text)
 {
   const test::SceneFolder folder;
-  return joined(apps::Session(folder.write("scene.toml", text)).run().run->warnings);
+  return joined(coupling::texts_of(apps::Session(folder.write("scene.toml", text)).run().run->findings));
 }
 
 std::string run_at(const std::string &step, const std::string &method = "bdf")
@@ -61,7 +61,8 @@ TEST(UnseenForces, OfAHarmonicLoadBelowTwoStepsAPeriodAreRefused)
       SCOPED_TRACE(std::string(method) + ", " + frequency);
       expect_refusal([&] { warnings_of(harmonic(frequency) + run_at("1 ms", method)); }, "would be missed");
     }
-  EXPECT_THAT(warnings_of(harmonic("965 Hz") + run_at("1 ms", "exact")), Not(HasSubstr("run.step: "))); // carried exactly
+  EXPECT_THAT(warnings_of(harmonic("965 Hz") + run_at("1 ms", "exact")),
+              Not(HasSubstr("run.step: "))); // carried exactly
 }
 
 TEST(UnseenForces, AreToldBelowTenStepsAPeriodOfALoad)
@@ -109,7 +110,8 @@ TEST(UnseenForces, OfAnUnbalanceThatTurnsByAWholeTurnInAStepAreTold)
                         speed + "' }\n") +
            element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "10000"}, {"damping", "5"}});
   };
-  EXPECT_THAT(warnings_of(turning("6283.185307179586 rad/s") + run_at("1 ms")), HasSubstr("'disc' turns by 360 degrees"));
+  EXPECT_THAT(warnings_of(turning("6283.185307179586 rad/s") + run_at("1 ms")),
+              HasSubstr("'disc' turns by 360 degrees"));
   EXPECT_THAT(warnings_of(turning("60 rad/s") + run_at("1 ms")), Not(HasSubstr("run.step")));
 }
 

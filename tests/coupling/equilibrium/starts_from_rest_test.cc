@@ -1,7 +1,7 @@
 // Random machines of sliders, springs and dry friction, at rest until a load begins: controlled steps never fail, their
 // errors follow the tolerance, and they cost no more than those of a motion that is under way.
 
-#include "coupling/integration/events/event_driver.h"
+#include "coupling/integration/events/motion.h"
 #include "coupling/integration/integration_methods.h"
 #include "coupling/machine/machine.h"
 #include "mechanism/elements/coulomb_friction.h"
@@ -147,41 +147,54 @@ struct Result
   Matrix      q; ///< at 200 instants
 };
 
+/// The coordinates at equal distances up to the end.
+class Samples : public RunObserver
+{
+public:
+  Samples(const TimeIntegrator &integrator, double end, Matrix &q)
+      : integrator_(integrator), end_(end), q_(q), at_(q.rows()), v_(q.rows())
+  {
+  }
+
+  void step() override
+  {
+    for (; !complete(); ++next_)
+    {
+      const double t = end_ * double(next_ + 1) / double(q_.cols());
+      if (t > integrator_.time() * (1. + 1e-12))
+        return;
+      if (t >= integrator_.time())
+        at_ = integrator_.instant().q;
+      else
+        integrator_.interpolate(t, at_, v_);
+      q_.col(next_) = at_;
+    }
+  }
+  bool complete() const { return next_ == q_.cols(); }
+
+private:
+  const TimeIntegrator &integrator_;
+  double                end_;
+  Matrix               &q_;
+  Vector                at_, v_;
+  Eigen::Index          next_ = 0;
+};
+
 Result run(Trial &trial, const MethodOptions &method, long most_steps = 100000)
 {
   constexpr int samples = 200;
   Result        result;
   try
   {
-    const auto   integrator = make_integrator(*trial.machine, method);
-    EventOptions events;
-    events.end = trial.end;
-    EventDriver driver(*trial.machine, *integrator, events);
-    Vector      q(trial.q), v(q);
-    int         next = 0;
-    result.q.setZero(q.size(), samples);
-    driver.on_step(
-        [&]
-        {
-          for (; next < samples; ++next)
-          {
-            const double t = trial.end * (next + 1) / samples;
-            if (t > integrator->time() * (1. + 1e-12))
-              return;
-            if (t >= integrator->time())
-              result.q.col(next) = integrator->instant().q;
-            else
-            {
-              integrator->interpolate(t, q, v);
-              result.q.col(next) = q;
-            }
-          }
-        });
-    driver.begin(0., trial.q, trial.v);
-    while (integrator->time() < trial.end * (1. - 1e-12) && integrator->work().steps < most_steps)
-      driver.advance();
-    result.steps = integrator->work().steps + integrator->work().rejected;
-    if (next < samples)
+    Motion                 motion(*trial.machine, make_integrator(*trial.machine, method));
+    const IntegrationWork &work = motion.integrator().work();
+    result.q.setZero(trial.q.size(), samples);
+    Samples observer(motion.integrator(), trial.end, result.q);
+    motion.watch(observer);
+    motion.begin(0., trial.q, trial.v, {true, trial.end});
+    motion.to_end([&] { return work.steps < most_steps; });
+    result.steps = work.steps + work.rejected;
+    if (!observer.complete())
       result.failure = "more than " + std::to_string(most_steps) + " steps";
   }
   catch (const ConvergenceFailure &failure)

@@ -34,7 +34,7 @@ TEST(EnergyGuard, AnOscillatorThatKeepsItsEnergyIsNoOpenBalance)
 {
   const RunResult result = oscillation(1. / 200, 10.);
   EXPECT_EQ(result.failure, "");
-  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+  EXPECT_TRUE(result.findings.empty()) << result.findings[0].text;
   EXPECT_NEAR(result.energy.exchanged, 0.5, 1e-3);
   EXPECT_NEAR(result.energy.residual, 0.5 * lost_share(1. / 200, 10.), 0.03 * result.energy.residual); // h^2 terms
 }
@@ -47,12 +47,12 @@ TEST(EnergyGuard, NumericalDampingIsAWarningWithItsShare)
     const double    share  = lost_share(1. / 50, end);
     EXPECT_EQ(result.failure, "");
     EXPECT_NEAR(result.energy.residual / result.energy.exchanged, share, 0.05 * share) << end;
-    ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_NE(result.warnings[0].find("which the method lost: BDF 2 with a step of 0.02 s is too coarse"),
+    ASSERT_EQ(result.findings.size(), 1u);
+    EXPECT_NE(result.findings[0].text.find("which the method lost: BDF 2 with a step of 0.02 s is too coarse"),
               std::string::npos)
-        << result.warnings[0];
-    EXPECT_NE(result.warnings[0].find("% of the 0.5 J that the motion exchanges"), std::string::npos)
-        << result.warnings[0];
+        << result.findings[0].text;
+    EXPECT_NE(result.findings[0].text.find("% of the 0.5 J that the motion exchanges"), std::string::npos)
+        << result.findings[0].text;
   }
 }
 
@@ -66,7 +66,7 @@ TEST(EnergyGuard, AMachineThatHangsAtRestHasNothingToExchange)
   const double    sag    = -3. * 9.81 / 700.; // rounded: not quite at rest
   const RunResult result = simulate(machine, start(sag, 0.), run_of(bdf(2, 1e-3), 5.), {});
   EXPECT_EQ(result.failure, "");
-  EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+  EXPECT_TRUE(result.findings.empty()) << result.findings[0].text;
 }
 
 TEST(EnergyGuard, EnergyFromNowhereIsNoMotion)

@@ -136,7 +136,7 @@ Drop set_down(const coupling::ReducedFrame &frame, double rise)
   Drop       drop;
   for (std::size_t i = 1; i < run.rows.size(); i += run.columns.size())
     drop.history.push_back(run.rows[i]);
-  for (const std::string &warning : run.warnings)
+  for (const std::string &warning : coupling::texts_of(run.findings))
     drop.warnings += warning + '\n';
   return drop;
 }

@@ -1,6 +1,7 @@
 // Forces of joints that nothing in the machine could cause end a run; those of a stretched linkage do not.
 
 #include "coupling/simulation/simulation.h"
+#include "coupling/simulation/stepped_run.h"
 #include "tests/support/jointed_machines.h"
 #include "tests/support/methods.h"
 
@@ -41,6 +42,22 @@ TEST(JointForceGuard, EndsARunInWhichAnEquationOfRoundingHoldsABody)
   EXPECT_THAT(run(guided(1e-17), 1e-3, 0.1).failure,
               ::testing::AllOf(::testing::HasSubstr("the force of the joint \"plane\" (fz) is"),
                                ::testing::HasSubstr("not physical")));
+}
+
+TEST(JointForceGuard, EndsASteppedRunForTheSameReason)
+{
+  Machine              machine(guided(1e-17));
+  coupling::SteppedRun stepped(machine, at_rest(machine), run_of(bdf(2, 1e-3), 0.1), {});
+  std::string          failure;
+  try
+  {
+    stepped.go_on_to(0.1);
+  }
+  catch (const coupling::ConvergenceFailure &ended)
+  {
+    failure = ended.what();
+  }
+  EXPECT_EQ(failure, run(guided(1e-17), 1e-3, 0.1).failure);
 }
 
 /// A weight in the middle of two bars that are all but level, at an angle [rad].

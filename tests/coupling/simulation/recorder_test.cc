@@ -89,11 +89,11 @@ RunResult recorded(double step, bool inside, double end, double output_step = 0.
     recorder.step();
     if (happens)
     {
-      recorder.jump("rod");
+      recorder.event({event, "rod", "contact"});
       sine.restart();
     }
   }
-  recorder.finish();
+  recorder.finish(result);
   return result;
 }
 

@@ -50,7 +50,7 @@ TEST(RunUp, EndsWithTheTorqueOfTheLoad)
   {
     const RunResult run = run_up("exact", 4, tolerance);
     EXPECT_NEAR(run.signals[0].final, 15.2415, 0.02) << tolerance;
-    EXPECT_TRUE(run.warnings.empty());
+    EXPECT_TRUE(run.findings.empty());
   }
 }
 
@@ -65,8 +65,8 @@ TEST(DryFriction, WithoutLocatedEventsIsWarnedOf)
   RunOptions options  = run_of(bdf(2, 1e-3), 0.1);
   options.events      = false;
   const RunResult run = simulate(machine, start(0.05, 0.), options, {machine.signal("x", "x.displacement")});
-  ASSERT_FALSE(run.warnings.empty());
-  EXPECT_NE(run.warnings[0].find("run.events = false, but the dry friction of \"floor\""), std::string::npos);
+  ASSERT_FALSE(run.findings.empty());
+  EXPECT_NE(run.findings[0].text.find("run.events = false, but the dry friction of \"floor\""), std::string::npos);
 }
 
 } // namespace

@@ -172,10 +172,10 @@ TEST(Run, WarnsOfALoadAboveWhatTheReducedFrameHolds)
     RunOptions options     = bdf2(1e-3, 0.01);
     options.energy         = false; // ten steps are no run
     const RunResult result = simulate(machine, tests::start(0., 0.), options, {});
-    EXPECT_EQ(result.warnings.size(), frequency > 30. ? 1u : 0u);
+    EXPECT_EQ(result.findings.size(), frequency > 30. ? 1u : 0u);
     if (frequency > 30.)
     {
-      EXPECT_NE(result.warnings.at(0).find("31 Hz"), std::string::npos) << result.warnings[0];
+      EXPECT_NE(result.findings.at(0).text.find("31 Hz"), std::string::npos) << result.findings[0].text;
     }
   }
 }
@@ -191,8 +191,8 @@ TEST(Run, AnUnstableMethodIsRefusedUnlessForced)
   const RunResult result  = simulate(machine, flight, options, {signal});
   const double    largest = std::max(result.signals[0].max, -result.signals[0].min);
   EXPECT_GT(largest, 3. * speed / contact_omega); // it has grown: (1 + (omega h)^4/4)^100
-  ASSERT_FALSE(result.warnings.empty());
-  EXPECT_NE(result.warnings[0].find("unstable"), std::string::npos);
+  ASSERT_FALSE(result.findings.empty());
+  EXPECT_NE(result.findings[0].text.find("unstable"), std::string::npos);
   ASSERT_FALSE(result.accuracy.empty());
   EXPECT_TRUE(result.accuracy[0].unstable);
 }

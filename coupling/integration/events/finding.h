@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+enum class Severity
+{
+  warning, ///< the result holds, but perhaps not as it was meant
+  error    ///< what was computed ends here, or is no motion of the machine
+};
+
+/// What a check found, as a value.
+struct Finding
+{
+  Severity    severity = Severity::warning;
+  std::string id;    ///< of the kind of finding, the same in all versions: "energy-balance"
+  std::string place; ///< element, joint, switch, signal or key that it is about; empty: the run as a whole
+  std::string text;  ///< what is wrong, where, and what to do
+};
+
+inline std::vector<std::string> texts_of(const std::vector<Finding> &findings)
+{
+  std::vector<std::string> texts;
+  for (const Finding &finding : findings)
+    texts.push_back(finding.text);
+  return texts;
+}
+
+/// How a run ended and what was found of it.
+struct RunOutcome
+{
+  std::vector<Finding> findings;
+  std::string          failure; ///< not empty: why it stopped early
+  bool                 interrupted = false;
+
+  bool reached_end() const { return failure.empty() && !interrupted; }
+  void warn(std::string id, std::string place, std::string text)
+  {
+    findings.push_back({Severity::warning, std::move(id), std::move(place), std::move(text)});
+  }
+};
+
+} // namespace gestell::coupling

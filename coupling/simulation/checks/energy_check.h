@@ -1,0 +1,46 @@
+#pragma once
+
+#include "coupling/integration/events/run_observer.h"
+#include "coupling/integration/system/energy_balance.h"
+#include "coupling/machine/machine.h"
+#include "coupling/simulation/energy_guard.h"
+#include "coupling/simulation/rounding_guard.h"
+#include "coupling/simulation/run_result.h"
+#include "coupling/simulation/signal_extremes.h"
+
+namespace gestell::coupling
+{
+
+/// Keeps the energy balance of a motion and judges it: what is open of it, and forces that are rounding.
+class EnergyCheck : public RunObserver
+{
+public:
+  EnergyCheck(const Machine &machine, const TimeIntegrator &integrator, const RunOptions &options,
+              const Sampling &sampling);
+
+  void begin() override;
+  void step() override;
+  void event(const Event &) override { energy_.jump(integrator_.instant()); }
+  void verify() const override; ///< throws where energy came from nowhere, or more went than there was
+  void finish(RunOutcome &outcome) override;
+  void exchange(StateArchive &archive) override;
+
+  const EnergySummary &summary() const { return summary_; } ///< at the end of the last step
+  /// At an instant inside it.
+  EnergySummary inside(const Instant &instant);
+
+private:
+  std::string words(EnergyGuard::Verdict verdict) const;
+
+  const Machine        &machine_;
+  const TimeIntegrator &integrator_;
+  MethodOptions         method_;
+  bool                  forced_; ///< runs although it is no motion
+  EnergyBalance         energy_;
+  PowerRule             rule_;
+  EnergyGuard           guard_;
+  RoundingGuard         rounding_;
+  EnergySummary         summary_;
+};
+
+} // namespace gestell::coupling

@@ -1,0 +1,192 @@
+#include "coupling/simulation/checks/run_checks.h"
+
+#include "coupling/integration/integration_methods.h"
+#include "coupling/integration/system/fastest_load.h"
+#include "coupling/integration/system/state_archive.h"
+#include "coupling/machine/configuration/constraint_rank.h"
+#include "coupling/machine/element_law.h"
+#include "coupling/simulation/checks/contacts_and_switches.h"
+#include "coupling/simulation/checks/fast_forces.h"
+#include "coupling/simulation/checks/gyroscopic_moments.h"
+#include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/joint_force_guard.h"
+#include "coupling/simulation/checks/momentary_modes.h"
+#include "coupling/simulation/checks/step_collapse_guard.h"
+#include "coupling/simulation/checks/stiffness_check.h"
+#include "coupling/simulation/checks/unseen_forces.h"
+#include "mechanism/elements/journal_bearing.h"
+#include "mechanism/elements/point_contact.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+namespace
+{
+
+constexpr double seldom_skipped = 1e-4; ///< share of a run whose events need not be located
+constexpr double often_skipped  = 0.1;  ///< share of controlled steps that go over events
+
+/// Switches that were thrown at the start, or never.
+class SwitchCheck : public RunObserver
+{
+public:
+  SwitchCheck(const Machine &machine, double begin) : machine_(machine), begin_(begin) {}
+
+  void event(const Event &event) override
+  {
+    const auto same = [&](const Event &other) { return other.name == event.name; };
+    if (event.kind == "switch" && std::none_of(thrown_.begin(), thrown_.end(), same))
+      thrown_.push_back(event);
+  }
+  void finish(RunOutcome &outcome) override { check_switches(machine_, begin_, thrown_, outcome); }
+  void exchange(StateArchive &archive) override { archive(thrown_); }
+
+private:
+  const Machine     &machine_;
+  double             begin_;
+  std::vector<Event> thrown_; ///< the first time of each
+};
+
+/// Steps that were divided, and those with more events than are located.
+class WorkCheck : public RunObserver
+{
+public:
+  WorkCheck(const Motion &motion, const RunOptions &options) : motion_(motion), options_(options) {}
+
+  void finish(RunOutcome &outcome) override
+  {
+    const IntegrationWork &work = motion_.integrator().work();
+    if (work.rejected > 0 && !controlled(options_.method))
+      outcome.warn("divided-steps", "run.step",
+                   "Newton failed in " + std::to_string(work.rejected) + " steps; they were divided");
+    const long   chatter = motion_.chattering_steps();
+    const double share   = motion_.chattering_time() / (std::max(options_.end, motion_.time()) - options_.begin);
+    // Controlled steps that go over events still keep their tolerance.
+    if (chatter == 0 ||
+        (controlled(options_.method) ? chatter < often_skipped * double(work.steps) : share < seldom_skipped))
+      return;
+    std::ostringstream text;
+    text << "chatter: " << chatter << " steps, " << 100. * share
+         << " % of the run, had more events than are located; they were gone over";
+    outcome.warn("chatter", "run.events", text.str());
+  }
+
+private:
+  const Motion    &motion_;
+  const RunOptions options_;
+};
+
+/// What only the end tells: the speeds of rotors, and forces against the steps that were made.
+class EndCheck : public RunObserver
+{
+public:
+  EndCheck(Machine &machine, const Motion &motion, Eigen::VectorXd v_begin, double begin, const MethodOptions &method)
+      : machine_(machine), motion_(motion), v_begin_(std::move(v_begin)), begin_(begin), method_(method)
+  {
+  }
+
+  void finish(RunOutcome &outcome) override
+  {
+    const Eigen::VectorXd &v = motion_.integrator().instant().v, &fastest = v.norm() > v_begin_.norm() ? v : v_begin_;
+    check_tilting_rotors(machine_, fastest, outcome);
+    check_step_resolution(machine_, method_, begin_, motion_.integrator().local(), fastest, outcome);
+  }
+
+private:
+  Machine        &machine_;
+  const Motion   &motion_;
+  Eigen::VectorXd v_begin_;
+  double          begin_;
+  MethodOptions   method_;
+};
+
+void check_stability(const Machine &machine, const InitialState &initial, const RunOptions &options,
+                     const MethodOptions &method, RunOutcome &outcome, std::vector<ModeAccuracy> &modes)
+{
+  const LinearSpectrum spectrum = spectrum_for(machine, initial, method);
+  const StabilityGuard guard(spectrum, method);
+  modes = guard.modes();
+  for (std::string &warning : guard.warnings())
+    outcome.warn("contact-stability", "run.step", std::move(warning));
+  try
+  {
+    guard.check();
+  }
+  catch (const std::invalid_argument &unstable)
+  {
+    if (!options.force_unstable)
+      throw;
+    outcome.warn("stability", "run.step", std::string("run.force_unstable: ") + unstable.what());
+  }
+}
+
+void check_fast_loads(const Machine &machine, RunOutcome &outcome)
+{
+  const ReducedFrame *frame = machine.model().reduced_frame();
+  if (!frame || !(frame->frequency_limit_hz > 0.))
+    return;
+  const double fastest = fastest_load(machine.linear().excitation()) / (2. * M_PI);
+  if (fastest <= frame->frequency_limit_hz)
+    return;
+  std::ostringstream text;
+  text << "a load has " << fastest << " Hz, but the reduced frame is meant to hold up to " << frame->frequency_limit_hz
+       << " Hz only: give reduction.frequency a larger value, or the model does not contain what this load excites";
+  outcome.warn("load-frequency", "reduction.frequency", text.str());
+}
+
+} // namespace
+
+std::vector<ModeAccuracy> check_start(const Machine &machine, const InitialState &initial, const RunOptions &options,
+                                      const MethodOptions &method, RunOutcome &outcome)
+{
+  std::vector<ModeAccuracy> modes;
+  check_stability(machine, initial, options, method, outcome, modes);
+  check_fast_loads(machine, outcome);
+  for (const std::string &note : initial.notes)
+    outcome.warn("start", "start", note);
+  if (!initial.settled)
+    check_closed_contacts(machine, initial, outcome);
+  if (!options.events)
+    check_unlocated_friction(machine, outcome);
+  return modes;
+}
+
+std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Motion &motion,
+                                                     const InitialState &initial, const RunOptions &options,
+                                                     const MethodOptions &method)
+{
+  const TimeIntegrator                     &integrator = motion.integrator();
+  std::vector<std::unique_ptr<RunObserver>> checks;
+  checks.push_back(std::make_unique<SwitchCheck>(machine, options.begin));
+  checks.push_back(std::make_unique<WorkCheck>(motion, options));
+  checks.push_back(std::make_unique<HydraulicLimits>(machine, integrator));
+  if (!options.force_unstable)
+    checks.push_back(std::make_unique<StiffnessCheck>(machine, integrator, initial, method));
+  checks.push_back(std::make_unique<FastForces>(machine, integrator));
+  checks.push_back(std::make_unique<JointForceGuard>(machine, integrator));
+  checks.push_back(std::make_unique<MomentaryModes>(machine, integrator, options.begin, options.end));
+  if (controlled(method))
+    checks.push_back(std::make_unique<StepCollapseGuard>(integrator, options));
+  checks.push_back(std::make_unique<EndCheck>(machine, motion, initial.v, options.begin, method));
+  return checks;
+}
+
+std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last)
+{
+  std::string text;
+  if (const std::string joint = ConstraintRank::at(machine, last.t, last.q).nearly_dependent(); !joint.empty())
+    text += ".  The linkage is near a dead position, in which it may go two ways: " + joint +
+            " is about to follow from the other joints; keep it off there, or make a joint compliant";
+  bool rubs = false;
+  for (const ElementPlacement &placement : machine.model().elements())
+    rubs = rubs || law_of<mechanism::PointContact>(placement) || law_of<mechanism::JournalBearing>(placement);
+  if (rubs && controlled(method))
+    text += ".  If a contact with friction slides and sticks there, give its friction a larger 'speed', over which it "
+            "develops, or take a fixed step";
+  return text;
+}
+
+} // namespace gestell::coupling

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "coupling/integration/events/motion.h"
+#include "coupling/machine/initial_state.h"
+#include "coupling/machine/machine.h"
+#include "coupling/simulation/run_result.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/// What is to be said of a run before its first step.
+/// @return  what the method makes of each mode
+/// @throws std::invalid_argument as StabilityGuard::check(), unless options.force_unstable
+std::vector<ModeAccuracy> check_start(const Machine &machine, const InitialState &initial, const RunOptions &options,
+                                      const MethodOptions &method, RunOutcome &outcome);
+
+/// All checks of a motion that has begun, but for the balance of energy (EnergyCheck), in the order in which their
+/// findings are told.  What they are given must outlive them.
+std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Motion &motion,
+                                                     const InitialState &initial, const RunOptions &options,
+                                                     const MethodOptions &method);
+
+/// Possible causes of a step that was not solved, to be added to its message; empty: none is known.
+std::string advice_on_failure(const Machine &machine, const MethodOptions &method, const Instant &last);
+
+} // namespace gestell::coupling

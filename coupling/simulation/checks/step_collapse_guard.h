@@ -1,0 +1,52 @@
+#pragma once
+
+#include "coupling/integration/events/run_observer.h"
+#include "coupling/integration/system/convergence_failure.h"
+#include "coupling/integration/system/state_archive.h"
+#include "coupling/simulation/run_result.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gestell::coupling
+{
+
+constexpr double most_steps = 1e10; ///< of a run
+
+/// Ends a run whose controlled steps have become so short that it would never end: if the rest of it would need more
+/// than `most_steps` at the pace of the last ones.
+class StepCollapseGuard : public RunObserver
+{
+public:
+  StepCollapseGuard(const TimeIntegrator &integrator, const RunOptions &options)
+      : integrator_(integrator), end_(options.end), from_(options.begin)
+  {
+  }
+
+  void step() override
+  {
+    if (++steps_ % window != 0)
+      return;
+    const double t = integrator_.time(), steps = window * (end_ - t) / std::max(t - from_, 1e-300);
+    if (steps > most_steps)
+    {
+      std::ostringstream text;
+      text << "controlled steps have become too short to reach the end: " << window << " steps from t = " << from_
+           << " s took " << t - from_ << " s, and at this pace the rest would need " << steps
+           << "; take a larger run.tolerance";
+      throw ConvergenceFailure(text.str());
+    }
+    from_ = t;
+  }
+
+  void exchange(StateArchive &archive) override { archive(from_, steps_); }
+
+private:
+  static constexpr long window = 1L << 15;
+
+  const TimeIntegrator &integrator_;
+  double                end_, from_;
+  long                  steps_ = 0;
+};
+
+} // namespace gestell::coupling
