@@ -74,7 +74,7 @@ void write_tables(const Write &write, const Result &result)
 
 void write_all(const Result &result, Writing &writing)
 {
-  constexpr std::size_t for_warnings  = 8192;
+  constexpr std::size_t for_warnings  = 16384; // each is written twice
   Result                with_warnings = result;
   if (const std::string warning = lacks_for_paraview(); !warning.empty())
     with_warnings.warnings.push_back(warning);

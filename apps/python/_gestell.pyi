@@ -71,6 +71,26 @@ class Event:
         """What happens, "contact", "sticks"."""
 
 
+class Finding:
+    """What a check found."""
+
+    @property
+    def severity(self) -> str:
+        """"warning" or "error"."""
+
+    @property
+    def id(self) -> str:
+        """Kind of finding, "energy-balance"; empty: not of the run."""
+
+    @property
+    def place(self) -> str:
+        """Element, joint, switch, signal or key; empty: the whole run."""
+
+    @property
+    def text(self) -> str:
+        """What is wrong, where, and what to do."""
+
+
 class Result:
     """What was computed of a scene; arrays show its memory."""
 
@@ -105,6 +125,10 @@ class Result:
     @property
     def warnings(self) -> list[str]:
         """Warnings of scene, frame and run, each once."""
+
+    @property
+    def findings(self) -> list[Finding]:
+        """The same as values with severity, id and place, a list of Finding."""
 
     @property
     def scene(self) -> str:

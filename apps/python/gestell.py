@@ -23,10 +23,10 @@ import sys
 import threading
 
 import _gestell
-from _gestell import ComputationFailed, Event, Frame, FullFrame, InputError, Peak, Result, SceneError, StateSpace
+from _gestell import ComputationFailed, Event, Finding, Frame, FullFrame, InputError, Peak, Result, SceneError, StateSpace
 
 __version__ = _gestell.version
-__all__ = ["ComputationFailed", "Event", "Frame", "FullFrame", "InputError", "ModesAlong", "Motion", "Peak", "Periodic", "Result",
+__all__ = ["ComputationFailed", "Event", "Finding", "Frame", "FullFrame", "InputError", "ModesAlong", "Motion", "Peak", "Periodic", "Result",
            "Scene", "SceneError", "Size", "Stability", "StateSpace", "example", "load", "loads", "mesh"]
 
 

@@ -131,6 +131,21 @@ void bind_values(py::module_ &module)
            { return py::str("Event({:.9g} s: {}, {})").format(event.t, event.name, event.kind); });
 }
 
+void bind_finding(py::module_ &module)
+{
+  py::class_<coupling::Finding>(module, "Finding", "What a check found.")
+      .def_property_readonly(
+          "severity",
+          [](const coupling::Finding &finding)
+          { return finding.severity == coupling::Severity::error ? "error" : "warning"; },
+          "\"warning\" or \"error\".")
+      .def_readonly("id", &coupling::Finding::id, "Kind of finding, \"energy-balance\"; empty: not of the run.")
+      .def_readonly("place", &coupling::Finding::place, "Element, joint, switch, signal or key; empty: the whole run.")
+      .def_readonly("text", &coupling::Finding::text, "What is wrong, where, and what to do.")
+      .def("__repr__", [](const coupling::Finding &finding)
+           { return py::str("Finding({}, {}: {})").format(finding.id, finding.place, finding.text); });
+}
+
 void bind_result(py::module_ &module)
 {
   py::class_<PythonResult, std::shared_ptr<PythonResult>>(module, "Result",
@@ -156,6 +171,9 @@ void bind_result(py::module_ &module)
       .def_property_readonly(
           "warnings", [](const PythonResult &result) { return apps::all_warnings(result.result()); },
           "Warnings of scene, frame and run, each once.")
+      .def_property_readonly(
+          "findings", [](const PythonResult &result) { return apps::all_findings(result.result()); },
+          "The same as values with severity, id and place, a list of Finding.")
       .def_property_readonly(
           "scene", [](const PythonResult &result) { return result.result().scene; }, "Name of the scene.")
       .def_property_readonly(
@@ -241,6 +259,7 @@ PYBIND11_MODULE(_gestell, module)
   module.attr("version") = gestell::apps::version;
   bind_errors(module);
   bind_values(module);
+  bind_finding(module);
   bind_result(module);
   bind_frames(module);
   bind_state_space(module);

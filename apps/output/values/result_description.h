@@ -288,7 +288,8 @@ void describe(Visitor &v, const Result &x)
   v("work", run.work, "", "of the integration");
   v("wall_s", x.wall_s, "s", "by phase");
   v("energy", keeps_energy ? std::optional(run.energy) : std::nullopt, "", "null: no balance was kept");
-  v("warnings", all_warnings(x), "", "texts");
+  v("warnings", all_warnings(x), "", "texts of all findings");
+  v("findings", all_findings(x), "", "warnings, and why a run stopped early");
 }
 
 } // namespace gestell::apps

@@ -194,7 +194,8 @@ class Help(unittest.TestCase):
 
     def test_stub_names_what_there_is(self):
         stub = (pathlib.Path(gestell.__file__).resolve().parent / "_gestell.pyi").read_text()
-        for kind in (_gestell.Result, _gestell.Frame, _gestell.FullFrame, _gestell.Peak, _gestell.Event, _gestell.StateSpace):
+        for kind in (_gestell.Result, _gestell.Frame, _gestell.FullFrame, _gestell.Peak, _gestell.Event, _gestell.Finding,
+                     _gestell.StateSpace):
             body = stub.split(f"class {kind.__name__}:")[1].split("\nclass ")[0]
             own = {name for name in vars(kind) if not name.startswith("_")} - {"summary", "plot"}
             for name in own:

@@ -38,6 +38,13 @@ class Runs(unittest.TestCase):
         self.assertEqual(result.summary["events"], summary["events"])
         np.testing.assert_array_equal(result.history, history)
 
+    def test_findings_are_those_of_the_summary(self):
+        result = gestell.example("press_minimal").set("run.end", "0.21 s").set("run.step", "2 ms").run()
+        self.assertIn("energy-balance", [finding.id for finding in result.findings])
+        self.assertEqual([finding.text for finding in result.findings], result.warnings)
+        self.assertEqual([{"severity": f.severity, "id": f.id, "place": f.place, "text": f.text} for f in result.findings],
+                         result.summary["findings"])
+
     def test_histories_are_views_that_outlive_their_result(self):
         result = short_press().run()
         force = result["F_P"]
