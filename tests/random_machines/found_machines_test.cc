@@ -24,8 +24,9 @@ INSTANTIATE_TEST_SUITE_P(Energy, FoundMachines, ::testing::Values(738, 851, 1022
 INSTANTIATE_TEST_SUITE_P(InsideSteps, FoundMachines, ::testing::Values(142, 220, 671, 889));
 /// Measures that are held, inside a step.
 INSTANTIATE_TEST_SUITE_P(HeldRates, FoundMachines, ::testing::Values(164, 1094, 1600));
-/// A contact that grazes beside the end of a step; a rate held in a step as short as the clock tells.
-INSTANTIATE_TEST_SUITE_P(Events, FoundMachines, ::testing::Values(1187, 2140));
+/// A contact that grazes beside the end of a step; a rate held in a step as short as the clock tells; a switch whose
+/// condition holds at the start and is left within the first step.
+INSTANTIATE_TEST_SUITE_P(Events, FoundMachines, ::testing::Values(1187, 2140, 7614));
 /// A sheet that is severed; a drawing force that rests at its limit.
 INSTANTIATE_TEST_SUITE_P(Tools, FoundMachines, ::testing::Values(565, 760, 891, 1096, 1943));
 /// A contact that closes inside a step of the twin.

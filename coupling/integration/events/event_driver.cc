@@ -1,5 +1,6 @@
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/events/finite_state.h"
+#include "coupling/integration/events/guard_rounding.h"
 #include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/state_archive.h"
 
@@ -84,6 +85,8 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
     control->expect(loaded.way, loaded.speed);
   before_ = integrator_.local();
   detection_.begin(before_);
+  anew_ = true;
+  watched_.clear();
   window_begin_ = t;
   in_window_    = 0;
 }
@@ -130,6 +133,7 @@ void EventDriver::advance()
     observe();
     system_.events().accept(integrator_.local());
     before_ = integrator_.local();
+    anew_   = false;
     return;
   }
   take(crossing);
@@ -159,6 +163,7 @@ void EventDriver::step_over()
   observe();
   detection_.step(before_, integrator_.local(), events_);
   system_.events().accept(integrator_.local());
+  anew_ = false;
 }
 
 /// False: the integrator gave the step up instead; it goes on from its begin with a smaller one.
@@ -294,7 +299,8 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   for (int i = 0; i < n; ++i)
   {
     const auto look = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
-    if (first.t > begin && is_due_at_begin(i, look(0).g, look(1).g))
+    if (first.t > begin &&
+        (is_due_at_begin(i, look(0).g, look(1).g) || (begin == integrator_.step_begin() && begins_past(i, look(0).g))))
       first = {i, begin, 0.};
     for (int k = 0; k < last && t[k] < first.t; ++k)
     {
@@ -320,6 +326,17 @@ bool EventDriver::is_due_at_begin(int guard, double here, double next)
 {
   constexpr double no_time = 1e-3; // of the way to the next look: what moves by then is a part in 10^9
   return (here >= 0. && next > 0.) || (here > no_time * (here - next) && here > 0. && looks_at_held_force(guard));
+}
+
+/// At the begin of a step: a guard that nobody looked at before is past its zero by what is no rounding.  Not one of an
+/// object that has just changed its branch, which may be as far past as its event was located, or its rate solved for.
+bool EventDriver::begins_past(int guard, double here)
+{
+  if (!anew_ || !(here > 0.) || std::count(watched_.begin(), watched_.end(), system_.events().guard(guard).name) > 0)
+    return false;
+  Eigen::VectorXd q(system_.linear().size()), v(system_.linear().size());
+  integrator_.interpolate(integrator_.step_begin(), q, v);
+  return here > guard_rounding(system_, guard, before_, q, v);
 }
 
 /// At the begin of a step: the guard is another one without the forces that hold measures.
@@ -406,12 +423,23 @@ void EventDriver::take(const Crossing &crossing)
   for (RunObserver *observer : observers_)
     observer->guard(guard);
   const ActiveGuard active = system_.events().guard(guard);
+  if (integrator_.time() > begin)
+    note_watched();
+  watched_.push_back(active.name);
+  anew_ = true;
   events_.push_back({integrator_.time(), active.name, active.kind});
   between_ = integrator_.local();
   system_.events().accept(between_);
   system_.events().transition(guard, between_);
   integrator_.restart();
   before_ = integrator_.local();
+}
+
+void EventDriver::note_watched()
+{
+  watched_.clear();
+  for (int i = 0; i < system_.events().n_guards(); ++i)
+    watched_.push_back(system_.events().guard(i).name);
 }
 
 void exchange(StateArchive &archive, Event &event)
@@ -430,7 +458,7 @@ void EventDriver::exchange(StateArchive &archive)
   if (archive.reads())
     detection_.begin(integrator_.local());
   archive(events_, before_, between_, g_, probe_, window_begin_, length_, in_window_, chattering_, chattering_time_,
-          told_);
+          told_, anew_, watched_);
 }
 
 } // namespace gestell::coupling

@@ -78,6 +78,7 @@ private:
   bool   first_crossing(Crossing &crossing);
   bool   first_crossing_between(double begin, double end, Crossing &crossing);
   bool   is_due_at_begin(int guard, double here, double next);
+  bool   begins_past(int guard, double here);
   bool   looks_at_held_force(int guard);
   bool   turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top);
   bool   far_from_zero() const;
@@ -86,6 +87,7 @@ private:
   double sign(int guard) const { return system_.events().crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
   void   take(const Crossing &crossing);
   void   step_over();
+  void   note_watched();
   bool   cut_at_end();
   void   observe();
   void   tell_events();
@@ -102,6 +104,8 @@ private:
   std::array<Eigen::VectorXd, n_inside + 2> g_; ///< guards at the samples of the step
   Eigen::VectorXd                           probe_;
   double                                    window_begin_ = 0., length_ = 0.; ///< of the step events are counted in
+  bool                                      anew_ = true; ///< behind a begin or a transition, before a step
+  std::vector<std::string>                  watched_;     ///< whose guards have been looked at before
   int                                       in_window_       = 0;
   long                                      chattering_      = 0;
   double                                    chattering_time_ = 0.;

@@ -157,6 +157,86 @@ TEST_P(WallSpring, EventsOfBdf2ComeWithItsOrder)
 INSTANTIATE_TEST_SUITE_P(Walls, WallSpring, ::testing::ValuesIn(walls),
                          [](const auto &info) { return std::string(info.param.name); });
 
+std::vector<MethodOptions> all_methods()
+{
+  std::vector<MethodOptions> all;
+  for (const IntegrationMethod *method : integration_methods())
+    for (ChartSetting &setting : method->chart_settings())
+    {
+      setting.options.step = 1e-2;
+      if (setting.controlled)
+        setting.options.tolerance = 1e-6;
+      all.push_back(setting.options);
+    }
+  return all;
+}
+
+/// A free mass that moves at 1 m/s away from the level, out of the range past it.
+class LeavingMass : public WallSystem
+{
+public:
+  explicit LeavingMass(double level) : WallSystem({"", 1., 0., 0., 0., 1., 0., level, 0., 0., 0., 1.}) {}
+
+  /// From `u` by each method: the instant of its first event, NaN where there is none.
+  static std::vector<std::pair<std::string, double>> first_events(double u, double level)
+  {
+    std::vector<std::pair<std::string, double>> found;
+    for (const MethodOptions &method : all_methods())
+    {
+      LeavingMass system(level);
+      const auto  events = events_of_run(system, method, Vector::Constant(1, u), Vector::Constant(1, -1.), 0.1);
+      found.emplace_back(method_name(method), events.empty() ? std::nan("") : events.front().t);
+    }
+    return found;
+  }
+};
+
+TEST(LocatedEvents, BeginWithAGuardThatIsClearlyPastHoweverLongTheFirstStep)
+{
+  for (const double past : {1e-2, 1e-5, 1e-9})
+    for (const auto &[method, t] : LeavingMass::first_events(0.3 + past, 0.3))
+      EXPECT_EQ(t, 0.) << method << ", past by " << past;
+}
+
+TEST(LocatedEvents, AreNoneWhereAGuardBeginsAtZeroOrPastItByRounding)
+{
+  for (const double past : {0., 1e-16})
+    for (const auto &[method, t] : LeavingMass::first_events(0.3 + past, 0.3))
+      EXPECT_TRUE(std::isnan(t)) << method << ", past by " << past << ": " << t;
+}
+
+/// Watches the level only from t = 0.015 s on: another object's event, within the second step.
+class WaitingForAnInstant : public LeavingMass
+{
+public:
+  using LeavingMass::LeavingMass;
+  void guard_values(const LocalState &state, Vector &g) const override
+  {
+    if (transitions == 0)
+      g[0] = state.t - 0.015;
+    else
+      LeavingMass::guard_values(state, g);
+  }
+  GuardCrossing crossing(int) const override
+  {
+    return transitions == 0 || transitions % 2 == 1 ? GuardCrossing::rising : GuardCrossing::falling;
+  }
+  ActiveGuard guard(int) const override { return {transitions == 0 ? "clock" : "oscillator", ""}; }
+};
+
+TEST(LocatedEvents, FollowAtOnceWhereAGuardIsClearlyPastWhenItIsWatchedFirst)
+{
+  for (const MethodOptions &method : all_methods())
+  {
+    WaitingForAnInstant system(0.3);
+    const auto events = events_of_run(system, method, Vector::Constant(1, 0.3151), Vector::Constant(1, -1.), 0.1);
+    ASSERT_EQ(events.size(), 3u) << method_name(method);
+    EXPECT_NEAR(events[0].t, 0.015, 1e-12) << method_name(method);
+    EXPECT_EQ(events[1].t, events[0].t) << method_name(method); // 0.1 mm past the level
+    EXPECT_NEAR(events[2].t, 0.0151, 1e-9) << method_name(method);
+  }
+}
+
 /// m x'' + c x' + k x + friction = F cos(Omega t)
 struct Rubbing
 {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "coupling/integration/system/second_order_system.h"
+
+namespace gestell::coupling
+{
+
+/**
+ * By how much rounding moves the value of a guard,
+ *
+ *     16 eps (sum_j |dg/du_j| (|W|^T |q| + l)_j + |dg/du'_j| (|W|^T |q'|)_j + |dg/dt| |t|),
+ *
+ * l the size of the numbers whose difference the measures of an element are (ForceBlock::size).  A threshold is at most
+ * as large as these terms and the guard itself, so that its rounding is told with them.
+ *
+ * @param at    where the guard is looked at
+ * @param q, v  [n] there
+ * @return infinite for a guard that looks at accelerations, forces or multipliers: steps tell them, no begin does.
+ */
+double guard_rounding(const SecondOrderSystem &system, int guard, const LocalState &at, const Eigen::VectorXd &q,
+                      const Eigen::VectorXd &v);
+
+} // namespace gestell::coupling
