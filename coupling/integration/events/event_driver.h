@@ -30,7 +30,8 @@ struct EventOptions
  * through three of these values turn, drawn closer until they tell on which side of zero the guard turns; the first
  * zero in a guard's direction is located on the dense output, the step is cut there, improved until the guard of the
  * state itself is zero, the transition is taken and the integration restarted.  A guard that is past its zero at the
- * begin of a step and stays so, or that looks at the force that holds a measure, is an event at that begin.
+ * begin of a step and stays so, or that looks at the force that holds a measure, is an event at that begin; so is one
+ * that is past it by more than rounding where it is looked at for the first time, however long the step.
  *
  * Chatter (Zeno): after max_per_step events within one step's length, one step is taken with the laws following the
  * motion and events only told.
