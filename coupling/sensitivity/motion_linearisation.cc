@@ -65,6 +65,13 @@ Eigen::SparseMatrix<double> quotient(const LinearSystem &minus, const LinearSyst
 }
 } // namespace
 
+void MotionLinearisation::clear_rates(const MotionState &state, Linearised &at) const
+{
+  at.r_t.setZero(state.q.size());
+  at.p_t.setZero(state.local.u.size());
+  at.gamma_t.setZero(machine_.joints().n_rows());
+}
+
 void require_variational(const Machine &machine)
 {
   if (machine.forces().need_multipliers())
@@ -143,9 +150,17 @@ void MotionLinearisation::begin_piece(const std::vector<MotionState> &passed)
                          !gamma.col(Index(k)).isZero(0.);
   }
   of_accelerations_ = passed.empty() || !P_a.isZero(0.);
+  of_time_          = passed.empty();
+  for (const MotionState &state : passed)
+  {
+    clear_rates(state, at);
+    add_at(passed.front().t, -1., state, at);
+    add_at(state.t, 1., state, at);
+    of_time_ = of_time_ || !at.r_t.isZero(0.) || !at.p_t.isZero(0.) || !at.gamma_t.isZero(0.);
+  }
 }
 
-void MotionLinearisation::linearise(const MotionState &state, Linearised &at)
+void MotionLinearisation::linearise(const MotionState &state, Linearised &at, double way)
 {
   const Index n = machine_.size(), n_u = state.local.u.size(), n_c = machine_.joints().n_rows(), K = int(twins_.size());
   at.P_u.setZero(n_u, n_u);
@@ -178,6 +193,9 @@ void MotionLinearisation::linearise(const MotionState &state, Linearised &at)
   }
   if (n_c > 0)
     add_joints(state, at);
+  clear_rates(state, at);
+  if (way > 0. && of_time_)
+    add_rates(state, way, at);
 }
 
 void MotionLinearisation::add_loads(const MotionState &state, int k, Linearised &at)
@@ -212,6 +230,37 @@ void MotionLinearisation::add_forces(const MotionState &state, int k, Linearised
   twin.minus.machine->forces().force(state.local, minus_);
   twin.plus.machine->forces().force(state.local, plus_);
   at.p.col(k) = (plus_ - minus_) * (0.5 / twin.step);
+}
+
+/// Loads, forces and g'' that the same motion has at another time.
+void MotionLinearisation::add_at(double t, double factor, const MotionState &state, Linearised &at)
+{
+  moved_   = state.local;
+  moved_.t = t;
+  plus_.resize(state.q.size());
+  machine_.linear().excitation().at(t, plus_);
+  at.r_t += factor * plus_;
+  plus_ = state.local.p;
+  machine_.forces().force(moved_, plus_);
+  at.p_t += factor * plus_;
+  if (at.gamma_t.size() == 0)
+    return;
+  JointTerms terms;
+  joint_terms(machine_, moved_, terms, G_plus_);
+  at.gamma_t += factor * terms.acceleration;
+  plus_.setZero();
+  G_plus_.set_forces(state.local.lambda, plus_);
+  for (const ConstraintBlock &block : machine_.joints().blocks())
+    at.p_t.segment(block.first_measure, block.n_measures) +=
+        factor * plus_.segment(block.first_measure, block.n_measures);
+}
+
+/// By quotients of order 4.
+void MotionLinearisation::add_rates(const MotionState &state, double way, Linearised &at)
+{
+  for (const auto &[by, weight] : {std::pair(way, 8. / 12.), std::pair(2. * way, -1. / 12.)})
+    for (const double sign : {1., -1.})
+      add_at(state.t + sign * by, sign * weight / way, state, at);
 }
 
 /// By which a measure of a block, or its rate, is moved for quotients.

@@ -32,6 +32,7 @@ struct Linearised
   Eigen::MatrixXd    p;                ///< [n_u x K] forces by the parameters
   Eigen::MatrixXd    g, g_rate, gamma; ///< [n_c x K] of g, g' and g'' by the parameters
   Eigen::MatrixXd    u, v, a;          ///< [n_u x K] of W^T q, q', q'' by W; empty: no parameter changes W
+  Eigen::VectorXd r_t, p_t, gamma_t; ///< rates of r [n], p [n_u] and g'' [n_c] by the time itself; zero: not asked for
 };
 
 /**
@@ -51,11 +52,13 @@ public:
   /// given, local.lambda is where to begin.
   void complete(MotionState &state);
   /// A smooth piece of the motion begins, that passes these instants: parameters whose two machines have bit by bit
-  /// equal forces at all of them are not looked at on it, nor are forces' dependences on u'' that are zero there. None:
-  /// everything is looked at.
+  /// equal forces at all of them are not looked at on it, nor are forces' dependences on u'' that are zero there, nor
+  /// rates by the time if these motions have the same forces at the first of these instants.  None: everything is
+  /// looked at.
   void begin_piece(const std::vector<MotionState> &passed);
   /// What there is at a state, by the histories that the machine and its twins have now.
-  void linearise(const MotionState &state, Linearised &at);
+  /// @param way  [s] short against what moves: rates by the time are found too; 0: they are not
+  void linearise(const MotionState &state, Linearised &at, double way = 0.);
 
 private:
   /// What a parameter changes; of M, B, C, W the derivatives by it, empty: none.
@@ -81,6 +84,9 @@ private:
   void add_loads(const MotionState &state, int k, Linearised &at);
   void add_forces(const MotionState &state, int k, Linearised &at);
   void add_joints(const MotionState &state, Linearised &at);
+  void clear_rates(const MotionState &state, Linearised &at) const;
+  void add_at(double t, double factor, const MotionState &state, Linearised &at);
+  void add_rates(const MotionState &state, double way, Linearised &at);
   void bend_joints(const MotionState &state, Eigen::VectorXd LocalState::*moved, Eigen::MatrixXd &Gamma,
                    Linearised *of_u);
   void joint_terms(const Machine &machine, const LocalState &local, JointTerms &terms, ConstraintJacobian &G);
@@ -97,6 +103,7 @@ private:
   std::vector<ForceBlock>            blocks_;
   std::vector<char>                  inexact_; ///< blocks whose derivatives leave out how their directions turn
   bool                               of_accelerations_ = true; ///< a force depends on u'' on the present piece
+  bool                               of_time_          = true; ///< something depends on the time itself, likewise
 };
 
 } // namespace gestell::coupling

@@ -30,7 +30,6 @@ constexpr double little         = 0.02;        ///< of their step, over which ra
 constexpr double same_time      = 1e-9;        ///< of the run's length
 constexpr double jump           = 1e-6;        ///< of the fastest coordinate: velocities that differ by more jump
 constexpr double touching       = 1e-4;        ///< of what a guard moves in a step, its rate: it touches its zero only
-
 constexpr double expected = 0.01; ///< relative change of the motion by that of a parameter: less need not be exact
 
 /// The run gone over once more, with its derivatives.
@@ -147,7 +146,7 @@ void Passage::start()
   dt_ = RowVectorXd::Zero(K_);
 }
 
-/// What the motion goes through, for a share of the parameter's value.
+/// What the motion goes through.
 void Passage::expect()
 {
   const auto &pieces = problem_.trajectory.pieces();
@@ -159,10 +158,12 @@ void Passage::expect()
       high = high.cwiseMax(node.q);
       fast = fast.cwiseMax(node.v.cwiseAbs());
     }
-  RowVectorXd share(K_);
+  RowVectorXd per_value(K_);
   for (int k = 0; k < K_; ++k)
-    share[k] = expected / std::abs(problem_.twins[std::size_t(k)].value);
-  steps_.expect((high - low) * share, fast * share);
+    per_value[k] = 1. / std::abs(problem_.twins[std::size_t(k)].value);
+  steps_.expect(expected * (high - low) * per_value, expected * fast * per_value);
+  if (controlled(problem_.options.method))
+    steps_.separate_shifts(high - low, fast, length_of(problem_.options) / one_percent * per_value);
 }
 
 /// Both machines of every parameter are in the branches of the run.

@@ -31,6 +31,9 @@ constexpr double weak           = 0.1;      ///< coordinates that move less, in 
 constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
 constexpr double shortest_share = 1. / 16.; ///< of the distance of nodes: the motion in between is no better known
 constexpr double longest_told   = 4.;       ///< steps of the run against those here: beyond, differences tell nothing
+constexpr double time_share     = 0.01;     ///< of a step, over which rates by the time itself are taken
+constexpr double small_rest     = 0.01;  ///< of s, in a shift: else errors of the run, times tau, count little in peaks
+constexpr double still_share    = 1e-12; ///< of the largest way, in the norm of the mass: less is rounding
 constexpr int    most_halvings  = 30;
 constexpr std::size_t looks     = 7;        ///< at a piece at least, for what acts on it
 constexpr std::size_t nodes_of_a_look = 20; ///< what is zero at each look and acts between them lasts no longer
@@ -167,6 +170,15 @@ void VariationalSteps::expect(const MatrixXd &s, const MatrixXd &s_rate)
   size_v_ = s_rate;
 }
 
+void VariationalSteps::separate_shifts(const VectorXd &way, const VectorXd &speed, const Eigen::RowVectorXd &longest)
+{
+  longest_               = longest;
+  const double   largest = root_mass_.cwiseProduct(way).maxCoeff(), fastest = root_mass_.cwiseProduct(speed).maxCoeff();
+  const VectorXd none = VectorXd::Zero(way.size());
+  per_way_            = (root_mass_.cwiseProduct(way).array() > still_share * largest).select(way.cwiseInverse(), none);
+  per_speed_ = (root_mass_.cwiseProduct(speed).array() > still_share * fastest).select(speed.cwiseInverse(), none);
+}
+
 void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, const MatrixXd &s,
                              const MatrixXd &s_rate)
 {
@@ -181,7 +193,7 @@ void VariationalSteps::begin(const SmoothPiece &piece, const VectorXd &lambda, c
   columns_.q = s;
   columns_.v = s_rate;
   equation_.solve(at_, 0., columns_);
-  note_sizes();
+  split();
   settle_errors();
 }
 
@@ -195,10 +207,41 @@ void VariationalSteps::settle_errors()
   leaves_ = false;
 }
 
-void VariationalSteps::note_sizes()
+/// tau = (s . q' + s' . q'')/(q' . q' + q'' . q'') with each coordinate and rate by its own share of the motion; where
+/// it leaves little of s, and is no longer than what counts: of a motion at rest q' is rounding.
+void VariationalSteps::split()
 {
-  size_q_ = size_q_.cwiseMax(columns_.q.cwiseAbs());
-  size_v_ = size_v_.cwiseMax(columns_.v.cwiseAbs());
+  shift_.setZero(columns_.q.cols());
+  rest_q_           = columns_.q;
+  rest_v_           = columns_.v;
+  const auto square = [&](const auto &q, const auto &v)
+  { return per_way_.cwiseProduct(q).squaredNorm() + per_speed_.cwiseProduct(v).squaredNorm(); };
+  const double moving = per_way_.size() > 0 ? square(state_.v, state_.a) : 0.;
+  for (Index k = 0; k < shift_.size() && moving > 0.; ++k)
+  {
+    const VectorXd s = columns_.q.col(k), s_rate = columns_.v.col(k);
+    const double   tau = (per_way_.cwiseProduct(s).dot(per_way_.cwiseProduct(state_.v)) +
+                        per_speed_.cwiseProduct(s_rate).dot(per_speed_.cwiseProduct(state_.a))) /
+                       moving;
+    const VectorXd q = s - tau * state_.v, v = s_rate - tau * state_.a;
+    if (!(square(q, v) <= small_rest * small_rest * square(s, s_rate) && std::abs(tau) <= longest_[k]))
+      continue;
+    shift_[k]      = tau;
+    rest_q_.col(k) = q;
+    rest_v_.col(k) = v;
+  }
+  size_q_ = size_q_.cwiseMax(rest_q_.cwiseAbs());
+  size_v_ = size_v_.cwiseMax(rest_v_.cwiseAbs());
+}
+
+/// Behind a step of the rest: s, and all else.
+void VariationalSteps::join()
+{
+  if (shift_.isZero(0.))
+    return;
+  columns_.q += state_.v * shift_;
+  columns_.v += state_.a * shift_;
+  equation_.solve(at_, 0., columns_);
 }
 
 bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
@@ -228,11 +271,12 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     std::swap(state_, stage_state_);
     std::swap(at_, stage_at_);
     std::swap(columns_, stage_);
+    join();
     equation_.close_joints(at_, columns_);
     if (leaves_)
       equation_.close_joints(homogeneous(at_), left_);
     ++n_steps_;
-    note_sizes();
+    split();
     if (!last && (err < growth || 2. * step_ <= shortest_share * reader_.spacing()))
       step_ *= 2.;
   }
@@ -242,6 +286,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
 bool VariationalSteps::try_step(double to)
 {
   const double from = state_.t, H = to - from, c = gamma * H;
+  const bool   shifted      = !shift_.isZero(0.);
   stage_state_.local.lambda = state_.local.lambda;
   stage_state_.local.p      = state_.local.p;
   for (int i = 0; i < n_stages; ++i)
@@ -249,7 +294,7 @@ bool VariationalSteps::try_step(double to)
     stage_state_.t = i == n_stages - 1 ? to : from + at_shares[i] * H;
     reader_.read(0.25 * H, stage_state_);
     equation_.linearisation().complete(stage_state_);
-    equation_.linearisation().linearise(stage_state_, stage_at_);
+    equation_.linearisation().linearise(stage_state_, stage_at_, shifted ? time_share * H : 0.);
     if (leaves_ && i == middle)
     {
       left_next_ = left_;
@@ -257,18 +302,30 @@ bool VariationalSteps::try_step(double to)
       left_next_.q = 2. * left_next_.q - left_.q;
       left_next_.v = 2. * left_next_.v - left_.v;
     }
-    stage_.q = columns_.q;
-    stage_.v = columns_.v;
+    stage_.q = rest_q_;
+    stage_.v = rest_v_;
     for (int j = 0; j < i; ++j)
     {
       stage_.q += H * weights[i][j] * v_[j];
       stage_.v += H * weights[i][j] * a_[j];
     }
+    if (shifted)
+      shift_loads(-1., stage_at_);
     equation_.solve(stage_at_, c, stage_);
     v_[i] = stage_.v;
     a_[i] = stage_.a;
   }
+  if (shifted)
+    shift_loads(1., stage_at_);
   return stage_.a.allFinite();
+}
+
+/// What the rates of the motion make of loads by the time itself.
+void VariationalSteps::shift_loads(double sign, Linearised &at) const
+{
+  at.r += sign * at.r_t * shift_;
+  at.p += sign * at.p_t * shift_;
+  at.gamma += sign * at.gamma_t * shift_;
 }
 
 /// Error of the step against the tolerance.

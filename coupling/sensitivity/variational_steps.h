@@ -52,10 +52,19 @@ struct VariationalAccuracy
  * of an oscillation, whose phase they have, while those of rounding have none.  Events do not change E; where something
  * sticks from then on its size stays.
  *
+ * What a parameter makes of the motion is often a shift in time, s = tau q' and a rest.  The errors of the run are
+ * moved with it, and are in q' of the motion, but in no solution of the equations along it; peaks, of which all that
+ * has tau must cancel, would have tau times as much of them.  separate_shifts() has each step carry the rest, with
+ *
+ *     tau = (s . q' + s' . q'')/(q' . q' + q'' . q'')
+ *
+ * by shares of the whole motion, and add tau q' and tau q'' of the motion behind it.
+ *
  * To the accuracy counts, too, what the method of the run, with its step, would make of these derivatives: y'' and y'''
  * by differences of the stages.  The run did make the motion by that method, so that the motion errs alike.
  *
- * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6).
+ * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6),
+ * (6a).
  */
 class VariationalSteps
 {
@@ -69,6 +78,11 @@ public:
 
   /// Derivatives count from these sizes on, however small they have been so far.  @param s, s_rate  [n x K]
   void expect(const Eigen::MatrixXd &s, const Eigen::MatrixXd &s_rate);
+
+  /// From here on each step carries s - tau q', of a motion that errs less than the tolerance.
+  /// @param way, speed  [n] of the coordinates, through the run
+  /// @param longest     [s per unit] shift that counts for each parameter, beyond it s is carried whole
+  void separate_shifts(const Eigen::VectorXd &way, const Eigen::VectorXd &speed, const Eigen::RowVectorXd &longest);
 
   /// At the begin of a piece.  @param s, s_rate  [n x K]
   void begin(const SmoothPiece &piece, const Eigen::VectorXd &lambda, const Eigen::MatrixXd &s,
@@ -93,7 +107,9 @@ private:
   Eigen::RowVectorXd relative_sizes(const Eigen::MatrixXd &e_q, const Eigen::MatrixXd &e_v) const;
   void               note_accuracy(double error, double length);
   void               settle_errors();
-  void               note_sizes();
+  void               split();
+  void               join();
+  void               shift_loads(double sign, Linearised &at) const;
 
   VariationalEquation                  &equation_;
   PieceReader                           reader_;
@@ -104,6 +120,10 @@ private:
   MotionState                           state_, stage_state_;
   Linearised                            at_, stage_at_;
   MotionColumns                         columns_, stage_;
+  Eigen::VectorXd                       per_way_, per_speed_; ///< of coordinates that move; empty: s is carried whole
+  Eigen::RowVectorXd                    longest_;
+  Eigen::RowVectorXd                    shift_;            ///< [s per unit] tau
+  Eigen::MatrixXd                       rest_q_, rest_v_;  ///< s - tau q', s' - tau q''
   std::array<Eigen::MatrixXd, n_stages> v_, a_;            ///< s', s'' of the stages
   Eigen::MatrixXd                       size_q_, size_v_;  ///< largest |s|, |s'| so far
   Eigen::MatrixXd                       e_q_, e_v_;        ///< errors of a step

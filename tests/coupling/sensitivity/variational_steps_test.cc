@@ -134,4 +134,66 @@ TEST(VariationalSteps, DivideALastStepThatIsAHairLongerThanTheirOwn)
   EXPECT_GT(steps.steps(), 2);
 }
 
+/// s at the end of 4 half periods of the oscillator moved by one second, dq/dx = q', along the motion of a run whose
+/// frequency is off by 1e-5.
+double of_a_moved_motion(bool separate)
+{
+  Machine machine = damped_oscillator(stiffness), below = damped_oscillator(stiffness),
+          above                           = damped_oscillator(stiffness);
+  const std::vector<ParameterTwins> twins = {{"t_0", "s", 1., 1e-6, {&below, {}, {}, T}, {&above, {}, {}, T}}};
+  VariationalEquation               equation(machine, twins);
+  VariationalSteps                  steps(equation, 0.01, 1e-9);
+  const double                      its = omega * (1. + 1e-5), end = 4. * M_PI / its;
+  SmoothPiece                       piece;
+  for (int i = 0; i <= 800; ++i)
+  {
+    const double t = end * i / 800.;
+    piece.nodes.push_back(
+        {t, VectorXd::Constant(1, q_0 * std::cos(its * t)), VectorXd::Constant(1, -q_0 * its * std::sin(its * t))});
+  }
+  if (separate)
+    steps.separate_shifts(VectorXd::Constant(1, 2. * q_0), VectorXd::Constant(1, q_0 * omega),
+                          Eigen::RowVectorXd::Constant(1, 100.));
+  steps.begin(piece, VectorXd(), MatrixXd::Zero(1, 1), MatrixXd::Constant(1, 1, -q_0 * omega * omega));
+  steps.advance_to(end);
+  return std::abs(steps.columns().q(0, 0));
+}
+
+TEST(VariationalSteps, MoveTheErrorsOfTheRunWithItsMotionInTime)
+{
+  // There the motion turns, and its extreme does not depend on t_0; of the equations the phase is 4 pi 1e-5 ahead.
+  EXPECT_LT(of_a_moved_motion(true), 1e-9 * q_0 * omega);
+  EXPECT_NEAR(of_a_moved_motion(false), 4. * M_PI * 1e-5 * q_0 * omega, 1e-6 * q_0 * omega);
+}
+
+TEST(VariationalSteps, DoNotMoveWhatTheTimeItselfDrives)
+{
+  // q = A cos(Omega t) under a load; s = -A Omega^2 sin(omega t)/omega begins as q' does, and is free of the load.
+  const double Omega = 5., A = 0.01;
+  const auto   loaded = [&]
+  {
+    MachineModel model;
+    const int    x = model.add_slider("x", {1., 0., 0.}, mass, "ground");
+    model.add_linear("spring", {{x, 1.}}, {stiffness, 0., 0., 0.}, "N");
+    model.add_load("drive", {{x, 1.}}, 0., {{Omega, A * (stiffness - mass * Omega * Omega), M_PI / 2.}}, "N");
+    return Machine(std::move(model));
+  };
+  Machine                           machine = loaded(), below = loaded(), above = loaded();
+  const std::vector<ParameterTwins> twins = {{"v_0", "m/s", 1., 1e-6, {&below, {}, {}, T}, {&above, {}, {}, T}}};
+  VariationalEquation               equation(machine, twins);
+  VariationalSteps                  steps(equation, 0.01, 1e-10);
+  SmoothPiece                       piece;
+  for (int i = 0; i <= 800; ++i)
+  {
+    const double t = T * i / 800.;
+    piece.nodes.push_back(
+        {t, VectorXd::Constant(1, A * std::cos(Omega * t)), VectorXd::Constant(1, -A * Omega * std::sin(Omega * t))});
+  }
+  steps.separate_shifts(VectorXd::Constant(1, 2. * A), VectorXd::Constant(1, A * Omega),
+                        Eigen::RowVectorXd::Constant(1, 100.));
+  steps.begin(piece, VectorXd(), MatrixXd::Zero(1, 1), MatrixXd::Constant(1, 1, -A * Omega * Omega));
+  steps.advance_to(T);
+  EXPECT_NEAR(steps.columns().q(0, 0), -A * Omega * Omega * std::sin(omega * T) / omega, 1e-8 * A * Omega);
+}
+
 } // namespace
