@@ -334,9 +334,7 @@ bool EventDriver::begins_past(int guard, double here)
 {
   if (!anew_ || !(here > 0.) || std::count(watched_.begin(), watched_.end(), system_.events().guard(guard).name) > 0)
     return false;
-  Eigen::VectorXd q(system_.linear().size()), v(system_.linear().size());
-  integrator_.interpolate(integrator_.step_begin(), q, v);
-  return here > guard_rounding(system_, guard, before_, q, v);
+  return here > guard_rounding(system_, integrator_, guard, before_);
 }
 
 /// At the begin of a step: the guard is another one without the forces that hold measures.
@@ -424,7 +422,7 @@ void EventDriver::take(const Crossing &crossing)
     observer->guard(guard);
   const ActiveGuard active = system_.events().guard(guard);
   if (integrator_.time() > begin)
-    note_watched();
+    watched_ = guard_owners(system_.events());
   watched_.push_back(active.name);
   anew_ = true;
   events_.push_back({integrator_.time(), active.name, active.kind});
@@ -433,13 +431,6 @@ void EventDriver::take(const Crossing &crossing)
   system_.events().transition(guard, between_);
   integrator_.restart();
   before_ = integrator_.local();
-}
-
-void EventDriver::note_watched()
-{
-  watched_.clear();
-  for (int i = 0; i < system_.events().n_guards(); ++i)
-    watched_.push_back(system_.events().guard(i).name);
 }
 
 void exchange(StateArchive &archive, Event &event)

@@ -88,7 +88,6 @@ private:
   double sign(int guard) const { return system_.events().crossing(guard) == GuardCrossing::rising ? 1. : -1.; }
   void   take(const Crossing &crossing);
   void   step_over();
-  void   note_watched();
   bool   cut_at_end();
   void   observe();
   void   tell_events();

@@ -12,8 +12,8 @@ namespace
 constexpr double roundings = 16.;
 } // namespace
 
-double guard_rounding(const SecondOrderSystem &system, int guard, const LocalState &at, const Eigen::VectorXd &q,
-                      const Eigen::VectorXd &v)
+double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard,
+                      const LocalState &at)
 {
   const EventSystem &events = system.events();
   const double       eps    = std::numeric_limits<double>::epsilon();
@@ -31,6 +31,8 @@ double guard_rounding(const SecondOrderSystem &system, int guard, const LocalSta
   if (value() != here)
     return std::numeric_limits<double>::infinity();
 
+  Eigen::VectorXd q(system.linear().size()), v(system.linear().size());
+  integrator.interpolate(integrator.step_begin(), q, v);
   const Eigen::SparseMatrix<double> W      = system.forces().directions().cwiseAbs();
   Eigen::VectorXd                   size_u = W.transpose() * q.cwiseAbs();
   const Eigen::VectorXd             size_v = W.transpose() * v.cwiseAbs();
@@ -52,6 +54,14 @@ double guard_rounding(const SecondOrderSystem &system, int guard, const LocalSta
   }
   moves(moved.t, std::abs(at.t));
   return roundings * eps / share * sum;
+}
+
+std::vector<std::string> guard_owners(const EventSystem &events)
+{
+  std::vector<std::string> names;
+  for (int i = 0; i < events.n_guards(); ++i)
+    names.push_back(events.guard(i).name);
+  return names;
 }
 
 } // namespace gestell::coupling

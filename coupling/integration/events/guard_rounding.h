@@ -1,6 +1,9 @@
 #pragma once
 
-#include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/time_integrator.h"
+
+#include <string>
+#include <vector>
 
 namespace gestell::coupling
 {
@@ -13,11 +16,14 @@ namespace gestell::coupling
  * l the size of the numbers whose difference the measures of an element are (ForceBlock::size).  A threshold is at most
  * as large as these terms and the guard itself, so that its rounding is told with them.
  *
- * @param at    where the guard is looked at
- * @param q, v  [n] there
+ * @param integrator  tells q and q'
+ * @param at          the begin of its last step
  * @return infinite for a guard that looks at accelerations, forces or multipliers: steps tell them, no begin does.
  */
-double guard_rounding(const SecondOrderSystem &system, int guard, const LocalState &at, const Eigen::VectorXd &q,
-                      const Eigen::VectorXd &v);
+double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard,
+                      const LocalState &at);
+
+/// Whose guards are active, in their order.
+std::vector<std::string> guard_owners(const EventSystem &events);
 
 } // namespace gestell::coupling
