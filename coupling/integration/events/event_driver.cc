@@ -27,18 +27,6 @@ double resolution(double t, double h)
 {
   return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
 }
-
-/// A step of any method ends in a state, whatever looks on; else it is given up.
-/// @throws ConvergenceFailure
-void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
-{
-  integrator.advance();
-  if (is_finite(integrator.local()))
-    return;
-  const std::string words = no_number_words(system, integrator.local());
-  integrator.cut(integrator.step_begin());
-  throw ConvergenceFailure(words);
-}
 } // namespace
 
 const std::vector<RunObserver *> &EventDriver::none()
@@ -298,9 +286,10 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   first.t = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n; ++i)
   {
-    const auto look = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
-    if (first.t > begin &&
-        (is_due_at_begin(i, look(0).g, look(1).g) || (begin == integrator_.step_begin() && begins_past(i, look(0).g))))
+    const auto look    = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
+    const auto is_told = [&] { return !is_rounding(system_, integrator_, i, before_, g_); };
+    const bool past    = begin == integrator_.step_begin() && begins_past(i, look(0).g);
+    if (first.t > begin && (past || is_due_at_begin(i, look(0).g, look(1).g)) && is_told())
       first = {i, begin, 0.};
     for (int k = 0; k < last && t[k] < first.t; ++k)
     {
@@ -312,7 +301,7 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
       Crossing crossing;
       crossing.slope = (high.g - low.g) / (high.t - low.t);
       locate(i, low.t, low.g, high.t, high.g, crossing);
-      if (crossing.t < first.t)
+      if (crossing.t < first.t && is_told())
         first = crossing;
       break;
     }

@@ -30,4 +30,14 @@ std::string no_number_words(const SecondOrderSystem &system, const LocalState &s
   return message.str();
 }
 
+void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
+{
+  integrator.advance();
+  if (is_finite(integrator.local()))
+    return;
+  const std::string words = no_number_words(system, integrator.local());
+  integrator.cut(integrator.step_begin());
+  throw ConvergenceFailure(words);
+}
+
 } // namespace gestell::coupling

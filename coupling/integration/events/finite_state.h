@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/integration/system/second_order_system.h"
+#include "coupling/integration/system/time_integrator.h"
 
 #include <string>
 
@@ -12,5 +13,9 @@ bool is_finite(const LocalState &state);
 
 /// Which of them is none, for messages.
 std::string no_number_words(const SecondOrderSystem &system, const LocalState &state);
+
+/// A step of any method ends in a state, whatever looks on; else it is given up.
+/// @throws ConvergenceFailure
+void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system);
 
 } // namespace gestell::coupling

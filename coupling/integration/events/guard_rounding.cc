@@ -13,7 +13,7 @@ constexpr double roundings = 16.;
 } // namespace
 
 double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard,
-                      const LocalState &at)
+                      const LocalState &at, double h)
 {
   const EventSystem &events = system.events();
   const double       eps    = std::numeric_limits<double>::epsilon();
@@ -35,7 +35,7 @@ double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &int
   integrator.interpolate(integrator.step_begin(), q, v);
   const Eigen::SparseMatrix<double> W      = system.forces().directions().cwiseAbs();
   Eigen::VectorXd                   size_u = W.transpose() * q.cwiseAbs();
-  const Eigen::VectorXd             size_v = W.transpose() * v.cwiseAbs();
+  const Eigen::VectorXd             size_v = W.transpose() * (v.cwiseAbs() + q.cwiseAbs() / h);
   for (const ForceBlock &block : system.forces().blocks())
     size_u.segment(block.first_measure, block.n_measures).array() += block.size;
 
