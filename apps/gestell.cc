@@ -8,7 +8,7 @@
 #include "apps/command_line/completion.h"
 #include "apps/command_line/man_page.h"
 #include "apps/command_line/standard_streams.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -44,54 +44,54 @@ double TransmittedElement::size_of_terms() const
   return size;
 }
 
-TransmittedElement::Seen TransmittedElement::see(const LocalMotion &motion, const double *history) const
+TransmittedElement::Kinematics TransmittedElement::kinematics_of(const LocalMotion &motion, const double *history) const
 {
-  Seen      seen;
-  const int k = n_motions(), m = n_seen();
+  Kinematics kinematics;
+  const int  k = n_motions(), m = n_seen();
   for (int i = 0; i < m; ++i)
   {
-    double    *G         = seen.G + k * i;
-    const auto value     = measures_[i].evaluate(motion.u, motion.v, G, of_function(motion, history));
-    seen.s[i]            = value.s;
-    seen.rate[i]         = value.rate;
-    seen.acceleration[i] = value.bias;
+    double    *G               = kinematics.G + k * i;
+    const auto value           = measures_[i].evaluate(motion.u, motion.v, G, of_function(motion, history));
+    kinematics.s[i]            = value.s;
+    kinematics.rate[i]         = value.rate;
+    kinematics.acceleration[i] = value.bias;
     for (int j = 0; motion.a && j < k; ++j)
-      seen.acceleration[i] += G[j] * motion.a[j];
+      kinematics.acceleration[i] += G[j] * motion.a[j];
   }
-  seen.s[0] -= rest_;
+  kinematics.s[0] -= rest_;
   for (int i = 0; i < n_virtual(); ++i)
   {
-    seen.s[m + i]            = motion.u[k + i];
-    seen.rate[m + i]         = motion.v[k + i];
-    seen.acceleration[m + i] = motion.a ? motion.a[k + i] : 0.;
+    kinematics.s[m + i]            = motion.u[k + i];
+    kinematics.rate[m + i]         = motion.v[k + i];
+    kinematics.acceleration[m + i] = motion.a ? motion.a[k + i] : 0.;
   }
-  return seen;
+  return kinematics;
 }
 
-void TransmittedElement::spread(const Seen &seen, const double *P, double *p) const
+void TransmittedElement::spread(const Kinematics &kinematics, const double *P, double *p) const
 {
   const int k = n_motions(), m = n_seen();
   for (int j = 0; j < k; ++j)
   {
     p[j] = 0.;
     for (int i = 0; i < m; ++i)
-      p[j] += P[i] * seen.G[j + k * i];
+      p[j] += P[i] * kinematics.G[j + k * i];
   }
   for (int i = 0; i < n_virtual(); ++i)
     p[k + i] = P[m + i];
 }
 
-void TransmittedElement::spread_tangent(const Seen &seen, const double *dP, double *dp) const
+void TransmittedElement::spread_tangent(const Kinematics &kinematics, const double *dP, double *dp) const
 {
   const int k = n_motions(), m = n_seen(), n = n_measures(), n_law = law_->n_measures();
   for (int j = 0; j < n; ++j)
   {
     double column[max_of_law] = {}; // dP ds/du_j
     for (int b = 0; b < n_law; ++b)
-      if (const double ds = j < k ? (b < m ? seen.G[j + k * b] : 0.) : (b == m + j - k ? 1. : 0.); ds != 0.)
+      if (const double ds = j < k ? (b < m ? kinematics.G[j + k * b] : 0.) : (b == m + j - k ? 1. : 0.); ds != 0.)
         for (int a = 0; a < n_law; ++a)
           column[a] += dP[a + n_law * b] * ds;
-    spread(seen, column, dp + n * j);
+    spread(kinematics, column, dp + n * j);
   }
 }
 
@@ -100,8 +100,8 @@ void TransmittedElement::start(const LocalMotion &motion, double *history) const
   function().start(motion.u, motion.v, history + n_of_law_);
   if (!branches_)
     return;
-  const Seen seen = see(motion, history);
-  branches_->start(seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  branches_->start(kinematics.motion(motion), history);
 }
 
 void TransmittedElement::resume(const LocalMotion &motion, double *history) const
@@ -109,46 +109,46 @@ void TransmittedElement::resume(const LocalMotion &motion, double *history) cons
   function().start(motion.u, motion.v, history + n_of_law_);
   if (!branches_)
     return;
-  const Seen seen = see(motion, history);
-  branches_->resume(seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  branches_->resume(kinematics.motion(motion), history);
 }
 
 void TransmittedElement::force(const LocalMotion &motion, const double *history, double *p) const
 {
-  const Seen seen = see(motion, history);
-  double     P[max_of_law];
-  law_->force(seen.motion(motion), history, P);
-  spread(seen, P, p);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  double           P[max_of_law];
+  law_->force(kinematics.motion(motion), history, P);
+  spread(kinematics, P, p);
 }
 
 void TransmittedElement::tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                                  double *dp) const
 {
-  const Seen seen = see(motion, history);
-  double     P[max_of_law], dP[max_of_law * max_of_law];
-  law_->tangent(seen.motion(motion), history, w, P, dP);
-  spread(seen, P, p);
-  spread_tangent(seen, dP, dp);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  double           P[max_of_law], dP[max_of_law * max_of_law];
+  law_->tangent(kinematics.motion(motion), history, w, P, dP);
+  spread(kinematics, P, p);
+  spread_tangent(kinematics, dP, dp);
 }
 
 void TransmittedElement::derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                                      double *dp_dv) const
 {
-  const Seen seen = see(motion, history);
-  double     P[max_of_law], of_s[max_of_law * max_of_law], of_rate[max_of_law * max_of_law];
-  law_->derivatives(seen.motion(motion), history, P, of_s, of_rate);
-  spread(seen, P, p);
-  spread_tangent(seen, of_s, dp_du);
-  spread_tangent(seen, of_rate, dp_dv);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  double           P[max_of_law], of_s[max_of_law * max_of_law], of_rate[max_of_law * max_of_law];
+  law_->derivatives(kinematics.motion(motion), history, P, of_s, of_rate);
+  spread(kinematics, P, p);
+  spread_tangent(kinematics, of_s, dp_du);
+  spread_tangent(kinematics, of_rate, dp_dv);
 }
 
 void TransmittedElement::spread_structure(Matrices matrices, const double *u, double *K, double *D) const
 {
-  const Seen seen = see({0., u, at_rest, at_rest}, nullptr);
-  double     k[max_of_law * max_of_law], d[max_of_law * max_of_law];
-  matrices(*law_, seen.s, k, d);
-  spread_tangent(seen, k, K);
-  spread_tangent(seen, d, D);
+  const Kinematics kinematics = kinematics_of({0., u, at_rest, at_rest}, nullptr);
+  double           k[max_of_law * max_of_law], d[max_of_law * max_of_law];
+  matrices(*law_, kinematics.s, k, d);
+  spread_tangent(kinematics, k, K);
+  spread_tangent(kinematics, d, D);
 }
 
 void TransmittedElement::engaged(const double *u, double *K, double *D) const
@@ -168,10 +168,10 @@ void TransmittedElement::open_branch(const double *u, double *K, double *D) cons
 
 void TransmittedElement::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
-  const Seen seen = see(motion, history);
-  const int  k = n_motions(), n = n_measures(), n_law = law_->n_measures();
-  double     P[max_of_law], of_s[max_of_law * max_of_law], of_rate[max_of_law * max_of_law];
-  law_->derivatives(seen.motion(motion), history, P, of_s, of_rate);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  const int        k = n_motions(), n = n_measures(), n_law = law_->n_measures();
+  double           P[max_of_law], of_s[max_of_law * max_of_law], of_rate[max_of_law * max_of_law];
+  law_->derivatives(kinematics.motion(motion), history, P, of_s, of_rate);
   for (int b = 0; b < n_seen(); ++b)
   {
     double S[CombinedMeasure::max_measures * CombinedMeasure::max_measures] = {}; // s_b''
@@ -186,7 +186,7 @@ void TransmittedElement::geometric(const LocalMotion &motion, const double *hist
       }
       if (turned == 0.)
         continue;
-      spread(seen, of_rate + n_law * b, column);
+      spread(kinematics, of_rate + n_law * b, column);
       for (int i = 0; i < n; ++i)
         K[i + n * j] -= column[i] * turned;
     }
@@ -197,28 +197,28 @@ void TransmittedElement::accept(const LocalMotion &motion, double *history) cons
 {
   if (n_of_law_ == 0)
     return;
-  const Seen seen = see(motion, history);
-  branches_->accept(seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  branches_->accept(kinematics.motion(motion), history);
 }
 
 double TransmittedElement::stored_energy(const LocalMotion &motion, const double *history) const
 {
-  const Seen seen = see(motion, history);
-  return law_->stored_energy(seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  return law_->stored_energy(kinematics.motion(motion), history);
 }
 
 double TransmittedElement::stored_power(const LocalMotion &motion, const double *history) const
 {
-  const Seen seen = see(motion, history);
-  return law_->stored_power(seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  return law_->stored_power(kinematics.motion(motion), history);
 }
 
 double TransmittedElement::penetration(const LocalMotion &motion) const
 {
   if (!structure_)
     return 0.;
-  const Seen seen = see(motion, nullptr);
-  return structure_->penetration(seen.motion(motion));
+  const Kinematics kinematics = kinematics_of(motion, nullptr);
+  return structure_->penetration(kinematics.motion(motion));
 }
 
 /// s of the law as a function of the measures: s'' = G (g u'' + b), with the law's gradient G and b of the measures.
@@ -226,15 +226,15 @@ Play TransmittedElement::play(const double *u, const double *v, double *G) const
 {
   if (!structure_)
     return {};
-  const Seen seen                                = see({0., u, v, at_rest}, nullptr);
-  double     own[Play::max_motions * max_of_law] = {};
-  Play       play                                = structure_->play(seen.s, seen.rate, own);
-  const int  n_law = law_->n_measures(), n = n_measures();
+  const Kinematics kinematics                          = kinematics_of({0., u, v, at_rest}, nullptr);
+  double           own[Play::max_motions * max_of_law] = {};
+  Play             play                                = structure_->play(kinematics.s, kinematics.rate, own);
+  const int        n_law = law_->n_measures(), n = n_measures();
   for (int i = 0; i < play.n; ++i)
   {
-    spread(seen, own + n_law * i, G + n * i);
+    spread(kinematics, own + n_law * i, G + n * i);
     for (int j = 0; j < n_seen(); ++j)
-      play.bias[i] += own[j + n_law * i] * seen.acceleration[j];
+      play.bias[i] += own[j + n_law * i] * kinematics.acceleration[j];
   }
   return play;
 }
@@ -253,8 +253,8 @@ void TransmittedElement::guard_values(const LocalMotion &motion, const double *h
 {
   if (branches_)
   {
-    const Seen seen = see(motion, history);
-    branches_->guard_values(seen.motion(motion), history, g);
+    const Kinematics kinematics = kinematics_of(motion, history);
+    branches_->guard_values(kinematics.motion(motion), history, g);
   }
   function().guard_values(motion.u, history + n_of_law_, g + n_guards_of_law(history));
 }
@@ -267,20 +267,20 @@ void TransmittedElement::transition(int i, const LocalMotion &motion, double *hi
     function().transition(i - of_law, motion.u, motion.v, history + n_of_law_);
     return;
   }
-  const Seen seen = see(motion, history);
-  branches_->transition(i, seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  branches_->transition(i, kinematics.motion(motion), history);
 }
 
 bool TransmittedElement::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
-  const Seen seen = see(motion, history);
-  return commands_->command(order, seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  return commands_->command(order, kinematics.motion(motion), history);
 }
 
 double TransmittedElement::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  const Seen seen = see(motion, history);
-  return law_->quantity(i, seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion, history);
+  return law_->quantity(i, kinematics.motion(motion), history);
 }
 
 } // namespace gestell::mechanism

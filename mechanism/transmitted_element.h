@@ -86,7 +86,7 @@ private:
   static constexpr int max_of_law = max_seen + max_virtual;
 
   /// The motion of the law's measures; G [k x n_seen, column major].
-  struct Seen
+  struct Kinematics
   {
     double G[max_seen * CombinedMeasure::max_measures];
     double s[max_of_law], rate[max_of_law], acceleration[max_of_law];
@@ -96,14 +96,14 @@ private:
       return {of.t, s, rate, acceleration, nullptr, of.by_history, of.lambda};
     }
   };
-  int  n_seen() const { return int(measures_.size()); }
-  int  n_motions() const { return measures_.front().n_measures(); }
-  int  n_guards_of_law(const double *history) const { return branches_ ? branches_->n_guards(history) : 0; }
-  int  n_virtual() const { return law_->n_measures() - n_seen(); }
-  Seen see(const LocalMotion &motion, const double *history) const;
+  int        n_seen() const { return int(measures_.size()); }
+  int        n_motions() const { return measures_.front().n_measures(); }
+  int        n_guards_of_law(const double *history) const { return branches_ ? branches_->n_guards(history) : 0; }
+  int        n_virtual() const { return law_->n_measures() - n_seen(); }
+  Kinematics kinematics_of(const LocalMotion &motion, const double *history) const;
   /// p = G^T P with the virtual coordinates' P behind it and, of a derivative of P by the law's measures, that by u.
-  void spread(const Seen &seen, const double *P, double *p) const;
-  void spread_tangent(const Seen &seen, const double *dP, double *dp) const;
+  void spread(const Kinematics &kinematics, const double *P, double *p) const;
+  void spread_tangent(const Kinematics &kinematics, const double *dP, double *dp) const;
   /// K and D of the law by one of the functions of facets.h, on the measures of the motion.
   using Matrices = void (*)(const Element &law, const double *u, double *K, double *D);
   void spread_structure(Matrices matrices, const double *u, double *K, double *D) const;

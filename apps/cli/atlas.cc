@@ -34,9 +34,9 @@ void require_atlas(const std::filesystem::path &file, const std::filesystem::pat
 
 int write_atlas(const std::filesystem::path &file, bool quiet)
 {
-  const std::filesystem::path beside  = file.parent_path().empty() ? "." : file.parent_path();
-  const std::filesystem::path figures = beside / file.stem();
-  require_writable(beside);
+  const std::filesystem::path nearby  = file.parent_path().empty() ? "." : file.parent_path();
+  const std::filesystem::path figures = nearby / file.stem();
+  require_writable(nearby);
   require_atlas(file, figures);
   ProgressLine progress(quiet);
   progress.show("failure atlas");

@@ -142,9 +142,9 @@ void explain_miss(const std::vector<CacheEntry> &entries, const coupling::Recipe
   const auto different = differences(nearest->origin.recipe, recipe);
   std::cout << "  nearest: " << short_key(nearest->key) << ", " << origin_text(nearest->origin) << ", last used "
             << date_text(nearest->last_used) << "; it differs in\n";
-  for (const auto &[name, kept, asked] : different)
+  for (const auto &[name, kept, requested] : different)
     std::cout << "    " << name << ": kept " << ingredient_text(name, kept) << ", asked "
-              << ingredient_text(name, asked) << '\n';
+              << ingredient_text(name, requested) << '\n';
   if (different.empty())
     std::cout << "    the order of supports, interfaces or cuts\n";
 }

@@ -5,7 +5,7 @@
 #include "apps/scene/build/build_measures.h"
 #include "apps/scene/build/far_places.h"
 #include "apps/scene/build/free_bodies.h"
-#include "apps/scene/build/scene_in_words.h"
+#include "apps/scene/build/scene_summary.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/substructures/require_joints.h"
@@ -137,7 +137,7 @@ int check(const CommonOptions &options)
     std::cout << "frame: " << geometry << '\n';
   for (const std::string &statement : scene.frame.matrices.statements)
     std::cout << "frame: " << statement << '\n';
-  for (const std::string &line : scene_in_words(scene))
+  for (const std::string &line : scene_summary(scene))
     std::cout << "  " << line << '\n';
   if (!scene.joints.empty() && !places_known(scene))
     std::cout << "joints: closed when the frame is made; interfaces without 'position' are placed by its file\n";

@@ -14,7 +14,7 @@ namespace gestell::apps
 namespace
 {
 
-Json told(const coupling::CacheEntry &entry)
+Json to_json(const coupling::CacheEntry &entry)
 {
   Json json = {{"key", entry.key}, {"file", entry.file}, {"bytes", entry.bytes}, {"last_used_s", entry.last_used}};
   if (!entry.defect.empty())
@@ -28,7 +28,7 @@ Json told(const coupling::CacheEntry &entry)
   return json;
 }
 
-Json told(const coupling::SurfaceReport &surface)
+Json to_json(const coupling::SurfaceReport &surface)
 {
   return {{"tag", surface.tag},   {"name", surface.name},       {"kind", surface.kind},
           {"type", surface.type}, {"area_m2", surface.area},    {"min_m", surface.min},
@@ -72,7 +72,7 @@ Json told_run(const StudyTable &table, int i)
   return json;
 }
 
-Json told(const StudyOptimum &optimum, const StudyTable &table)
+Json to_json(const StudyOptimum &optimum, const StudyTable &table)
 {
   Eigen::VectorXd levels(Eigen::Index(table.variables.size()));
   for (Eigen::Index k = 0; k < levels.size(); ++k)
@@ -108,7 +108,7 @@ void add_findings(const StudyFindings &findings, Json &json)
   if (findings.choice)
     json["best_run"] = findings.choice->best < 0 ? Json() : Json(findings.choice->best + 1);
   if (findings.optimum)
-    json["optimum"] = told(*findings.optimum, findings.table);
+    json["optimum"] = to_json(*findings.optimum, findings.table);
   for (const RobustResult &result : findings.robust)
     for (const RobustFigures &figures : result.figures)
       json["scatter"][figures.output.name] = {{"nominal", figures.nominal},
@@ -125,7 +125,7 @@ std::string cache_answer(const std::vector<coupling::CacheEntry> &entries)
 {
   Json json = {{"folder", coupling::cache_folder()}, {"frames", Json::array()}};
   for (const coupling::CacheEntry &entry : entries)
-    json["frames"].push_back(told(entry));
+    json["frames"].push_back(to_json(entry));
   return json_text(json);
 }
 
@@ -134,13 +134,13 @@ std::string explanation_answer(const CacheExplanation &explanation)
   const bool used = explanation.own && explanation.defect.empty();
   Json       json = {{"scene", explanation.scene}, {"key", explanation.key}, {"in_cache", used}};
   if (explanation.own)
-    json["frame"] = told(*explanation.own);
+    json["frame"] = to_json(*explanation.own);
   if (!explanation.defect.empty())
     json["defect"] = explanation.defect;
   if (explanation.nearest)
-    json["nearest"] = told(*explanation.nearest);
-  for (const auto &[name, kept, asked] : explanation.differences)
-    json["differences"][name] = {{"kept", kept}, {"asked", asked}};
+    json["nearest"] = to_json(*explanation.nearest);
+  for (const auto &[name, kept, requested] : explanation.differences)
+    json["differences"][name] = {{"kept", kept}, {"asked", requested}};
   return json_text(json);
 }
 
@@ -198,7 +198,7 @@ std::string mesh_answer(const coupling::MeshReport &report)
                       {"min_m", solid.min},
                       {"max_m", solid.max}});
   for (const coupling::SurfaceReport &surface : report.surfaces)
-    surfaces.push_back(told(surface));
+    surfaces.push_back(to_json(surface));
   return json_text({{"points", report.n_points},
                     {"cells", report.n_cells},
                     {"kind_of_cells", report.cells},

@@ -77,12 +77,13 @@ void print_variables(const std::string &kind, const std::vector<FmuVariable> &va
 }
 
 /// Where the FMU is to be written.
-std::filesystem::path place_of_fmu(const CommonOptions &options, const ExportOptions &asked, const Scene &scene)
+std::filesystem::path place_of_fmu(const CommonOptions &options, const ExportOptions &requested, const Scene &scene)
 {
-  if (!asked.fmu.empty() && !options.folder.empty())
+  if (!requested.fmu.empty() && !options.folder.empty())
     throw std::invalid_argument("gestell export: --fmu names the file, -o the folder of one that is named after the "
                                 "scene; give one of both");
-  return asked.fmu.empty() ? results_path(options, scene) / (scene.name + ".fmu") : std::filesystem::path(asked.fmu);
+  return requested.fmu.empty() ? results_path(options, scene) / (scene.name + ".fmu")
+                               : std::filesystem::path(requested.fmu);
 }
 
 /// A file that is named is replaced if it is an FMU; a scene that was named by mistake is not.
@@ -97,24 +98,24 @@ void require_archive(const std::filesystem::path &file)
                                 " is there already and is no FMU, so that it is not replaced; give another name");
 }
 
-int export_scene(const CommonOptions &options, const ExportOptions &asked)
+int export_scene(const CommonOptions &options, const ExportOptions &requested)
 {
   library_of_fmus();
   ProgressLine progress(options.quiet);
   SceneNode    root   = read_scene_file(options.input, options.overrides);
   const Scene  plain  = read_scene(root, options.input, options.scripts);
-  const auto   file   = place_of_fmu(options, asked, plain);
+  const auto   file   = place_of_fmu(options, requested, plain);
   const auto   folder = std::filesystem::absolute(file).parent_path();
   require_writable(folder);
-  if (asked.fmu.empty())
+  if (requested.fmu.empty())
     OwnFolder(folder).require_free({file.filename().string()}, inputs_of(options));
   else
     require_archive(file);
-  add_scene_inputs(asked.inputs, plain, root);
+  add_scene_inputs(requested.inputs, plain, root);
   Session         session(read_scene(root, options.input, options.scripts), options.overrides, {progress.callback()});
   const FmuAnswer answer = fmu_of(root, session);
   progress.done();
-  if (asked.fmu.empty())
+  if (requested.fmu.empty())
     OwnFolder(folder).claim(file.filename().string());
   else
     std::filesystem::create_directories(folder);

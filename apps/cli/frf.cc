@@ -50,10 +50,10 @@ void print_response(const FrequencyResponse &response)
 }
 
 /// Files of the linear machine, for other programs.
-void export_machine(Session &session, const FrfOptions &asked, const std::string &format,
+void export_machine(Session &session, const FrfOptions &requested, const std::string &format,
                     const std::filesystem::path &folder)
 {
-  const auto model = state_space_of(session.scene(), session.machine(), asked);
+  const auto model = state_space_of(session.scene(), session.machine(), requested);
   OwnFolder  own(folder);
   const auto files = write_state_space(own, model, format);
   std::cout << "state space: " << model.states.size() << " states, " << model.inputs.size() << " inputs, "
@@ -70,16 +70,16 @@ std::vector<std::string> files_of(const std::vector<std::string> &measured)
   return files;
 }
 
-int find_response(const CommonOptions &options, const FrfOptions &asked, const std::string &format)
+int find_response(const CommonOptions &options, const FrfOptions &requested, const std::string &format)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  const HeldFolder            held(folder);
-  const auto                  inputs = inputs_of(options, files_of(asked.measured));
+  const ResultsLock           held(folder);
+  const auto                  inputs = inputs_of(options, files_of(requested.measured));
   require_room(folder, format.empty() ? std::vector<std::string>() : state_space_files(format), inputs);
-  const Result result = session.frequency_response(asked);
+  const Result result = session.frequency_response(requested);
   progress.done();
   const bool beside_a_run = OwnFolder(folder).owns("history.csv");
   if (beside_a_run)
@@ -93,7 +93,7 @@ int find_response(const CommonOptions &options, const FrfOptions &asked, const s
     answer_with(summary_json(result));
   print_response(*result.frf);
   if (!format.empty())
-    export_machine(session, asked, format, folder);
+    export_machine(session, requested, format, folder);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)

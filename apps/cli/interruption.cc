@@ -4,7 +4,7 @@
 #include "apps/cli/json_answer.h"
 #include "apps/output/folder_lock.h"
 #include "fem/values/mesh_phase.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <sys/wait.h>
 

@@ -191,7 +191,7 @@ int make_mesh(const CommonOptions &options, const MeshCommandOptions &mesh)
   const fem::FrameSpecification frame = frame_of(options, mesh);
   if (const std::string suspicion = suspect_density(frame.material.rho); !suspicion.empty())
     std::cerr << "gestell: warning: --density " << suspicion << '\n';
-  std::optional<HeldFolder> held;
+  std::optional<ResultsLock> held;
   if (!mesh.folder.empty())
   {
     held.emplace(mesh.folder);

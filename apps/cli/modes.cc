@@ -144,7 +144,7 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
 }
 
 /// Of the command line.
-struct Asked
+struct ModesCommand
 {
   ModesOptions    modes;
   ConvergeOptions mesh;
@@ -158,27 +158,27 @@ void compare_with(const std::string &file, const CommonOptions &options, Session
   add_compared_modes(session, result, other, of_other);
 }
 
-int find_modes(const CommonOptions &options, const Asked &asked)
+int find_modes(const CommonOptions &options, const ModesCommand &requested)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  const HeldFolder            held(folder);
-  const auto                  inputs = inputs_of(options, {asked.compare});
-  require_room(folder, {asked.mesh.converge > 0. ? "mesh_convergence.csv" : ""}, inputs);
+  const ResultsLock           held(folder);
+  const auto                  inputs = inputs_of(options, {requested.compare});
+  require_room(folder, {requested.mesh.converge > 0. ? "mesh_convergence.csv" : ""}, inputs);
 
   std::optional<coupling::MeshConvergence> convergence;
-  if (asked.mesh.converge > 0.)
+  if (requested.mesh.converge > 0.)
   {
-    convergence = converge_frame(session.scene(), asked.mesh, folder, session.progress());
+    convergence = converge_frame(session.scene(), requested.mesh, folder, session.progress());
     session.use_frame(convergence->frame);
   }
-  Result result = session.modes(asked.modes);
-  if (!asked.compare.empty())
-    compare_with(asked.compare, options, session, result);
+  Result result = session.modes(requested.modes);
+  if (!requested.compare.empty())
+    compare_with(requested.compare, options, session, result);
   if (convergence)
-    for (const std::string &warning : convergence_warnings(*convergence, asked.mesh.converge))
+    for (const std::string &warning : convergence_warnings(*convergence, requested.mesh.converge))
       result.warnings.push_back(warning);
   progress.done();
   const bool beside_a_run = OwnFolder(folder).owns("history.csv");
@@ -196,7 +196,7 @@ int find_modes(const CommonOptions &options, const Asked &asked)
     write_convergence(folder, *convergence);
   if (answers_in_json())
     answer_with(summary_json(result));
-  print_answer(result, convergence, asked.mesh.converge);
+  print_answer(result, convergence, requested.mesh.converge);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)
@@ -211,7 +211,7 @@ int find_modes(const CommonOptions &options, const Asked &asked)
 
 Command modes_command()
 {
-  const auto own = std::make_shared<Asked>();
+  const auto own = std::make_shared<ModesCommand>();
   return {
       "modes",
       "natural frequencies and shapes of the frame and of the coupled machine",

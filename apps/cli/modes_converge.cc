@@ -58,7 +58,7 @@ std::string reached(const coupling::MeshConvergence &convergence)
 
 } // namespace
 
-coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &asked,
+coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &requested,
                                          const std::filesystem::path &folder, const coupling::Progress &progress)
 {
   if (scene.frame.source == FrameSource::parts)
@@ -69,10 +69,10 @@ coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptio
                                              "made from geometry and reduced; give [frame] cad = \"FILE\" and "
                                              "reduction.method = \"craig-bampton\"");
   coupling::ConvergenceOptions options;
-  options.tolerance       = asked.converge;
-  options.n_frequencies   = asked.frequencies;
-  options.max_coordinates = asked.max_coordinates;
-  options.compliances     = asked.watch == "all";
+  options.tolerance       = requested.converge;
+  options.n_frequencies   = requested.frequencies;
+  options.max_coordinates = requested.max_coordinates;
+  options.compliances     = requested.watch == "all";
   options.after_mesh      = [&folder](const coupling::MeshConvergence &so_far) { write_convergence(folder, so_far); };
   return coupling::mesh_service().converge(scene.frame.geometry, scene.reduction.options, options, progress);
 }

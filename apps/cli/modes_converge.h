@@ -19,7 +19,7 @@ struct ConvergeOptions
 
 /// Refines the mesh of the scene's frame, see coupling::converge_mesh().
 /// @throws std::invalid_argument if the frame is not made from geometry, or options are out of range.
-coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &asked,
+coupling::MeshConvergence converge_frame(const Scene &scene, const ConvergeOptions &requested,
                                          const std::filesystem::path &folder, const coupling::Progress &progress);
 
 /// Prints meshes, limits, errors and whether they are within the tolerance.

@@ -1,7 +1,7 @@
 #include "apps/cli/command.h"
 #include "apps/output/text/write_file.h"
 #include "apps/templates/scene_templates.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 #include "fem/values/named_file.h"
 #include "fem/values/shell_word.h"
 

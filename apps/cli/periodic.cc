@@ -6,8 +6,8 @@
 #include "apps/output/result_folder.h"
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/noise.h"
-#include "apps/output/tables/summary_json.h"
 #include "apps/output/tables/section_table.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/session/session.h"
 #include "coupling/periodic/verified_orbit.h"
 #include "fem/values/number_text.h"
@@ -29,10 +29,13 @@ std::string stability_text(const coupling::PeriodicSolution &solution)
   if (!solution.stability_is_known())
     return "unknown";
   const coupling::RunVerification &run = solution.verification;
-  return (solution.stable() ? "stable, " : run.leaves ? "left by a run, " : "unstable, ") +
+  return (solution.stable() ? "stable, "
+          : run.leaves      ? "left by a run, "
+                            : "unstable, ") +
          short_text(solution.largest_multiplier(), 4) +
          (run.periods == coupling::verified_periods && !run.leaves
-              ? " (a run of " + std::to_string(run.periods) + " periods stays within " + short_text(run.departure, 2) + ")"
+              ? " (a run of " + std::to_string(run.periods) + " periods stays within " + short_text(run.departure, 2) +
+                    ")"
               : "");
 }
 
@@ -95,11 +98,11 @@ void print_solutions(const PeriodicResult &result)
 int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
 {
   ProgressLine progress(options.quiet);
-  const auto   told = nothing_to_save_before("periodic motions", progress.callback());
-  Session      session(options.input, options.overrides, options.scripts, {told, &interruption()});
+  const auto   on_progress = nothing_to_save_before("periodic motions", progress.callback());
+  Session      session(options.input, options.overrides, options.scripts, {on_progress, &interruption()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
-  const HeldFolder            held(folder);
+  const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options);
   require_room(folder, {}, inputs);
   const Result result = session.periodic(request);

@@ -150,9 +150,9 @@ int reduce_frame(const CommonOptions &options, const ReduceCommandOptions &reduc
     throw std::invalid_argument(scene.frame.place +
                                 ": --export cannot write a frame of parts, whose forces in joints need "
                                 "accelerations; -o alone writes it for [frame] reduced = ...");
-  const auto                format = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
-  const std::string         folder = exports ? results_path(options, scene).string() : options.folder;
-  std::optional<HeldFolder> held;
+  const auto                 format = exports ? matrix_format(reduce.export_format) : MatrixFormat::matrix_market;
+  const std::string          folder = exports ? results_path(options, scene).string() : options.folder;
+  std::optional<ResultsLock> held;
   if (!folder.empty())
     held.emplace(folder);
   {

@@ -21,11 +21,11 @@ inline std::filesystem::path results_path(const CommonOptions &options, const Sc
 
 /// A folder for results that can be written and is held, from before anything is computed until they are there; says
 /// where it cannot be held.
-class HeldFolder
+class ResultsLock
 {
 public:
   /// @throws std::invalid_argument as require_writable() and FolderLock
-  explicit HeldFolder(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
+  explicit ResultsLock(const std::filesystem::path &folder) : lock_((require_writable(folder), folder))
   {
     end_where_nothing_is_saved();
     if (!lock_.note().empty())

@@ -16,7 +16,7 @@
 #include "apps/session/session.h"
 #include "apps/session/story/run_facts.h"
 #include "apps/sizing/error_budget.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 #include "fem/values/shell_word.h"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ void print_answer(const coupling::RunResult &run)
 
 const char *const checkpoint_name = "checkpoint.bin";
 
-struct RunAsked
+struct RunCommand
 {
   bool        resume     = false;
   double      checkpoint = 30.; ///< [s] of wall time
@@ -95,12 +95,12 @@ void remove_checkpoint(const std::filesystem::path &folder, bool resumed)
 }
 
 /// Derivatives follow the whole motion, which is not kept.
-void keep_checkpoints(const RunAsked &asked, const std::filesystem::path &folder, Session &session)
+void keep_checkpoints(const RunCommand &requested, const std::filesystem::path &folder, Session &session)
 {
-  if (asked.sensitivities.empty())
-    session.keep_checkpoints({folder / checkpoint_name, asked.checkpoint, asked.resume,
-                              [folder, resumed = asked.resume] { claim_checkpoint(folder, resumed); }});
-  else if (asked.resume)
+  if (requested.sensitivities.empty())
+    session.keep_checkpoints({folder / checkpoint_name, requested.checkpoint, requested.resume,
+                              [folder, resumed = requested.resume] { claim_checkpoint(folder, resumed); }});
+  else if (requested.resume)
     throw std::invalid_argument("--resume: a run with --sensitivities cannot go on from a checkpoint, as derivatives "
                                 "follow its whole motion; leave out one of the two");
 }
@@ -136,39 +136,39 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
   }
 }
 
-int run_scene(const CommonOptions &options, const RunAsked &asked)
+int run_scene(const CommonOptions &options, const RunCommand &requested)
 {
   ProgressLine progress(options.quiet);
-  if (!(asked.checkpoint >= 0.) || !std::isfinite(asked.checkpoint))
+  if (!(requested.checkpoint >= 0.) || !std::isfinite(requested.checkpoint))
     throw std::invalid_argument("--checkpoint: needs a plain number of seconds, zero or above, got " +
-                                std::to_string(asked.checkpoint));
-  const auto told = nothing_to_save_before("integration", progress.callback());
-  Session    session(options.input, options.overrides, options.scripts, {told, &interruption()});
+                                std::to_string(requested.checkpoint));
+  const auto on_progress = nothing_to_save_before("integration", progress.callback());
+  Session    session(options.input, options.overrides, options.scripts, {on_progress, &interruption()});
   session.check_run();
   std::vector<OutputName> outputs;
-  if (asked.budget)
-    outputs = budget_outputs(session.scene(), asked.outputs);
+  if (requested.budget)
+    outputs = budget_outputs(session.scene(), requested.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
-  const HeldFolder            held(folder);
-  const auto                  inputs = inputs_of(options, {asked.compare});
-  require_room(folder, {asked.resume ? "" : checkpoint_name}, inputs);
+  const ResultsLock           held(folder);
+  const auto                  inputs = inputs_of(options, {requested.compare});
+  require_room(folder, {requested.resume ? "" : checkpoint_name}, inputs);
   std::optional<Session> other;
-  if (!asked.compare.empty())
-    require_comparable_runs(session, other.emplace(asked.compare, std::vector<std::string>(), options.scripts,
+  if (!requested.compare.empty())
+    require_comparable_runs(session, other.emplace(requested.compare, std::vector<std::string>(), options.scripts,
                                                    Watch{progress.callback(), &interruption()}));
   session.keep_swings();
-  keep_checkpoints(asked, folder, session);
-  Result result = asked.sensitivities.empty() ? session.run() : session.run(asked.sensitivities);
+  keep_checkpoints(requested, folder, session);
+  Result result = requested.sensitivities.empty() ? session.run() : session.run(requested.sensitivities);
   add_story(session, result);
   if (other && !result.run->interrupted)
     add_compared_run(session, result, *other);
-  if (asked.budget && result.run->failure.empty() && !result.run->interrupted)
+  if (requested.budget && result.run->failure.empty() && !result.run->interrupted)
     add_budget(session.scene(), outputs, result);
   prepare_folder(folder, inputs);
   progress.done();
-  write_answer(folder, result, asked.sensitivities.empty() ? resuming(options, folder) : "");
+  write_answer(folder, result, requested.sensitivities.empty() ? resuming(options, folder) : "");
   if (!result.run->interrupted)
-    remove_checkpoint(folder, asked.resume);
+    remove_checkpoint(folder, requested.resume);
 
   if (answers_in_json())
     answer_with(summary_json(result));
@@ -203,9 +203,9 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
               << "\n  the run itself is in " << folder.string() << '\n';
     return exit_failed;
   }
-  if (asked.budget && !result.budget && result.run->failure.empty())
+  if (requested.budget && !result.budget && result.run->failure.empty())
     return interruption() ? exit_interrupted : exit_failed;
-  if (result.run->interrupted && asked.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
+  if (result.run->interrupted && requested.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
     std::cerr << "gestell: interrupted; " << resuming(options, folder) << " goes on from there\n";
   const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
   return interrupted ? exit_interrupted : exit_done;
@@ -215,34 +215,34 @@ int run_scene(const CommonOptions &options, const RunAsked &asked)
 
 Command run_command()
 {
-  const auto asked = std::make_shared<RunAsked>();
+  const auto requested = std::make_shared<RunCommand>();
   return {
       "run",
       "simulate a scene in time",
       {"gestell run apps/scenes/press.toml -o results/press",
        "gestell run apps/scenes/press_minimal.toml --compare apps/scenes/press_minimal_light.toml"},
       CommandInput::scene,
-      {CommandOption{"--compare", &asked->compare,
+      {CommandOption{"--compare", &requested->compare,
                      "another scene, which runs as it stands in its file: its signals in the same charts, extremes "
                      "and modes beside each other"}
            .existing_file(),
-       {"--resume", &asked->resume,
+       {"--resume", &requested->resume,
         "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
-       {"--checkpoint", &asked->checkpoint,
+       {"--checkpoint", &requested->checkpoint,
         "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
         "time), 0: when interrupted alone"},
-       {"--budget", &asked->budget,
+       {"--budget", &requested->budget,
         "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
        {"--outputs",
-        &asked->outputs,
+        &requested->outputs,
         "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)",
         {},
         {},
         "--budget"},
-       {"--sensitivities", &asked->sensitivities,
+       {"--sensitivities", &requested->sensitivities,
         "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
         "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}},
-      [asked](const CommonOptions &options) { return run_scene(options, *asked); }};
+      [requested](const CommonOptions &options) { return run_scene(options, *requested); }};
 }
 
 } // namespace gestell::apps

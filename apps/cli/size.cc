@@ -5,8 +5,8 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/result_folder.h"
-#include "apps/output/tables/summary_json.h"
 #include "apps/output/tables/size_table.h"
+#include "apps/output/tables/summary_json.h"
 #include "apps/session/session.h"
 #include "apps/sizing/size_search.h"
 #include "apps/sizing/sized_scene.h"
@@ -33,14 +33,14 @@ struct SizeCommand
 const char *const sized_name = "sized.toml";
 const char *const all_name   = "size_all.csv";
 
-SizedModel found(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &asked)
+SizedModel found(const Scene &scene, const std::vector<OutputName> &outputs, const SizeCommand &requested)
 {
   SizeOptions options;
-  options.tolerance   = asked.tolerance;
-  options.max_cpu     = asked.max_cpu;
-  options.max_memory  = 1e9 * asked.max_memory_gb;
+  options.tolerance   = requested.tolerance;
+  options.max_cpu     = requested.max_cpu;
+  options.max_memory  = 1e9 * requested.max_memory_gb;
   options.stop        = &interruption();
-  options.exhaustive  = asked.exhaustive;
+  options.exhaustive  = requested.exhaustive;
   options.on_forecast = [](const SizeForecast &forecast) { std::cout << forecast_text(forecast) << std::endl; };
   options.on_rung     = [begins = true](const SizeRung &rung) mutable
   {
@@ -51,18 +51,18 @@ SizedModel found(const Scene &scene, const std::vector<OutputName> &outputs, con
   return size_search(scene, outputs, options);
 }
 
-int size_scene(const CommonOptions &options, const SizeCommand &asked)
+int size_scene(const CommonOptions &options, const SizeCommand &requested)
 {
-  if (asked.tolerance == 0.)
+  if (requested.tolerance == 0.)
     throw std::invalid_argument("--tolerance is missing: the relative error that each output may have, such as 0.01");
   Session session(options.input, options.overrides, options.scripts);
   session.check_run();
   const Scene                &scene   = session.scene();
-  const auto                  outputs = budget_outputs(scene, asked.outputs);
+  const auto                  outputs = budget_outputs(scene, requested.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
-  const HeldFolder            held(folder);
+  const ResultsLock           held(folder);
   require_room(folder, {sized_name, all_name}, inputs_of(options));
-  SizedModel model = found(scene, outputs, asked);
+  SizedModel model = found(scene, outputs, requested);
 
   prepare_folder(folder);
   const std::filesystem::path file = folder / sized_name;
@@ -80,7 +80,7 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
   result.budget    = budget;
   if (!model.result.met)
     result.warnings.push_back("no model keeps all outputs within the tolerance: " + model.result.stopped);
-  if (asked.exhaustive && model.result.all.empty())
+  if (requested.exhaustive && model.result.all.empty())
     result.warnings.push_back(
         "--exhaustive: all models are compared with the finer one of the proof, and there is none: " +
         model.result.finer);
@@ -104,21 +104,22 @@ int size_scene(const CommonOptions &options, const SizeCommand &asked)
 
 Command size_command()
 {
-  const auto asked = std::make_shared<SizeCommand>();
-  return {"size",
-          "find the smallest mesh, number of modes and integration that keep the outputs within a tolerance",
-          {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
-          CommandInput::scene,
-          {{"--tolerance", &asked->tolerance, "relative error that each output may have, 1e-8 to 1 (demanded)",
-            CommandOption::Range::above_zero},
-           {"--outputs", &asked->outputs,
-            "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
-           {"--max-cpu", &asked->max_cpu, "[s] that a model may take, from CAD to the end of the run",
-            CommandOption::Range::above_zero},
-           {"--exhaustive", &asked->exhaustive,
-            "try every model up to one rung finer than the chosen one, too, to show what the search has missed"},
-           {"--max-memory", &asked->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
-          [asked](const CommonOptions &options) { return size_scene(options, *asked); }};
+  const auto requested = std::make_shared<SizeCommand>();
+  return {
+      "size",
+      "find the smallest mesh, number of modes and integration that keep the outputs within a tolerance",
+      {"gestell size apps/scenes/press.toml --tolerance 0.01 --outputs F_P.max,F_P.min"},
+      CommandInput::scene,
+      {{"--tolerance", &requested->tolerance, "relative error that each output may have, 1e-8 to 1 (demanded)",
+        CommandOption::Range::above_zero},
+       {"--outputs", &requested->outputs,
+        "that count, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)"},
+       {"--max-cpu", &requested->max_cpu, "[s] that a model may take, from CAD to the end of the run",
+        CommandOption::Range::above_zero},
+       {"--exhaustive", &requested->exhaustive,
+        "try every model up to one rung finer than the chosen one, too, to show what the search has missed"},
+       {"--max-memory", &requested->max_memory_gb, "[GB] that the program may take", CommandOption::Range::above_zero}},
+      [requested](const CommonOptions &options) { return size_scene(options, *requested); }};
 }
 
 } // namespace gestell::apps

@@ -76,7 +76,7 @@ int map_stability(const CommonOptions &options, const StabilityCommandOptions &s
   const std::filesystem::path folder =
       with_scene ? results_path(options, *scene)
                  : std::filesystem::path(options.folder.empty() ? "results/stability" : options.folder);
-  const HeldFolder held(folder);
+  const ResultsLock held(folder);
   OwnFolder(folder).require_free(stability_files,
                                  with_scene ? inputs_of(options) : std::vector<std::filesystem::path>());
 

@@ -48,13 +48,13 @@ void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCa
   const bool merged = call.share.is_whole() || call.waits_for_shares;
   std::cout << "\nrows: " << (call.folder / (merged ? "runs.csv" : StudyFolder::name_of(call.share))).string() << '\n';
 
-  constexpr int most_told = 3;
-  int           told      = 0;
-  for (std::size_t i = 0; i < answer.table.runs.size() && told < most_told; ++i)
-    if (answer.table.runs[i].status == RunStatus::failed && ++told)
+  constexpr int most_listed = 3;
+  int           reported    = 0;
+  for (std::size_t i = 0; i < answer.table.runs.size() && reported < most_listed; ++i)
+    if (answer.table.runs[i].status == RunStatus::failed && ++reported)
       std::cerr << "gestell: warning: run " << i + 1 << " failed: " << answer.table.runs[i].message << '\n';
-  if (answer.n_failed() > most_told)
-    std::cerr << "gestell: warning: " << answer.n_failed() - most_told << " further runs failed; see runs.csv\n";
+  if (answer.n_failed() > most_listed)
+    std::cerr << "gestell: warning: " << answer.n_failed() - most_listed << " further runs failed; see runs.csv\n";
 }
 
 std::vector<std::filesystem::path> study_inputs(const CommonOptions &options, const StudyFile &study)
@@ -75,7 +75,7 @@ void share_among_ranks(const coupling::Launch &ranks, StudyCall &call)
   call.waits_for_shares = ranks.rank == 0;
 }
 
-int study_scene(const CommonOptions &options, const StudyCommand &asked)
+int study_scene(const CommonOptions &options, const StudyCommand &requested)
 {
   setenv("OPENBLAS_NUM_THREADS", "1", 1); // processes, not threads, do the work
   const StudyFile       study    = read_study(options.input, options.overrides);
@@ -86,9 +86,9 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
   call.folder = study_folder(options, study);
   call.jobs   = options.jobs;
   call.stop   = &interruption();
-  call.begin  = asked.resume ? StudyFolder::Begin::resumed : StudyFolder::Begin::anew;
-  if (!asked.share.empty())
-    call.share = share_of(asked.share);
+  call.begin  = requested.resume ? StudyFolder::Begin::resumed : StudyFolder::Begin::anew;
+  if (!requested.share.empty())
+    call.share = share_of(requested.share);
   const bool speaks = team_left().rank == 0;
   share_among_ranks(team_left(), call);
   require_writable(call.folder);
@@ -137,14 +137,15 @@ int study_scene(const CommonOptions &options, const StudyCommand &asked)
 
 Command study_command()
 {
-  const auto asked = std::make_shared<StudyCommand>();
-  return {"study",
-          "sweep, design of experiments or optimisation over a scene",
-          {"gestell study apps/studies/press_24.toml --jobs 2"},
-          CommandInput::study,
-          {{"--resume", &asked->resume, "go on with the study whose rows the folder holds"},
-           {"--share", &asked->share, "make this part of the runs alone, such as 3/10; a call without it merges them"}},
-          [asked](const CommonOptions &options) { return study_scene(options, *asked); }};
+  const auto requested = std::make_shared<StudyCommand>();
+  return {
+      "study",
+      "sweep, design of experiments or optimisation over a scene",
+      {"gestell study apps/studies/press_24.toml --jobs 2"},
+      CommandInput::study,
+      {{"--resume", &requested->resume, "go on with the study whose rows the folder holds"},
+       {"--share", &requested->share, "make this part of the runs alone, such as 3/10; a call without it merges them"}},
+      [requested](const CommonOptions &options) { return study_scene(options, *requested); }};
 }
 
 } // namespace gestell::apps

@@ -10,7 +10,7 @@
 #include "apps/version.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -41,7 +41,7 @@ public:
   EmptyCache() { setenv("GESTELL_CACHE", folder_.path().c_str(), 1); }
 
 private:
-  fem::PassingFolder folder_;
+  fem::TemporaryDirectory folder_;
 };
 
 bool is_file(const std::string &word)
@@ -49,13 +49,13 @@ bool is_file(const std::string &word)
   return fs::path(word).extension() == ".toml";
 }
 
-std::vector<CaseFile> asked_files(const VerifyOptions &asked)
+std::vector<CaseFile> asked_files(const VerifyOptions &requested)
 {
   std::vector<CaseFile> files;
-  for (const std::string &word : asked.cases)
+  for (const std::string &word : requested.cases)
     if (is_file(word))
       files.push_back(read_cases(word));
-  if (files.size() == asked.cases.size() && !files.empty())
+  if (files.size() == requested.cases.size() && !files.empty())
     return files;
   for (const std::string &file : case_files(shipped_cases()))
     files.push_back(read_cases(file));
@@ -100,10 +100,10 @@ void choose(std::vector<CaseFile> &files, const std::vector<std::string> &words)
 }
 
 /// Long cases count where they are named or all are asked for.
-int leave_long_ones(std::vector<CaseFile> &files, const VerifyOptions &asked)
+int leave_long_ones(std::vector<CaseFile> &files, const VerifyOptions &requested)
 {
   int n = 0;
-  if (!asked.all && asked.cases.empty())
+  if (!requested.all && requested.cases.empty())
     for (CaseFile &file : files)
     {
       const auto begin =
@@ -155,22 +155,22 @@ Verification computed(const std::vector<CaseFile> &files)
   return all;
 }
 
-int verify(const VerifyOptions &asked)
+int verify(const VerifyOptions &requested)
 {
-  std::vector<CaseFile> files = asked_files(asked);
-  choose(files, asked.cases);
-  if (asked.list)
+  std::vector<CaseFile> files = asked_files(requested);
+  choose(files, requested.cases);
+  if (requested.list)
   {
     list(files);
     return exit_done;
   }
-  const fs::path   folder = asked.folder;
-  const HeldFolder held(folder);
+  const fs::path    folder = requested.folder;
+  const ResultsLock held(folder);
   OwnFolder(folder).require_free({"verification.html", "verification.md", "verification.csv"});
-  if (!asked.docs.empty() && !fs::is_directory(asked.docs))
-    throw std::invalid_argument("--renew: there is no folder '" + asked.docs +
+  if (!requested.docs.empty() && !fs::is_directory(requested.docs))
+    throw std::invalid_argument("--renew: there is no folder '" + requested.docs +
                                 "'; it takes the folder of the documents, docs");
-  const int    n_skipped = leave_long_ones(files, asked);
+  const int    n_skipped = leave_long_ones(files, requested);
   Verification all       = computed(files);
   all.n_skipped          = n_skipped;
   write_or_rescue(folder,
@@ -180,8 +180,8 @@ int verify(const VerifyOptions &asked)
                     writing.write("verification.md", verification_document(all));
                     writing.write("verification.html", verification_page(all));
                   });
-  if (!asked.docs.empty())
-    write_file(fs::path(asked.docs) / "verification.md", verification_document(all));
+  if (!requested.docs.empty())
+    write_file(fs::path(requested.docs) / "verification.md", verification_document(all));
   std::cout << verdict_text(all) << "\nmanual: " << (folder / "verification.html").string() << '\n';
   return all.n_failed() == 0 ? exit_done : exit_failed;
 }

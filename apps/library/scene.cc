@@ -92,8 +92,8 @@ void Run::save(const std::string &folder) const
 {
   apps::require_writable(folder);
   const apps::FolderLock held(folder);
-  const apps::Request   &asked = parts_->result.asked;
-  apps::prepare_folder(folder, apps::input_files(asked.file, asked.set));
+  const apps::Request   &requested = parts_->result.requested;
+  apps::prepare_folder(folder, apps::input_files(requested.file, requested.set));
   apps::write_results(folder, parts_->result);
 }
 

@@ -67,7 +67,7 @@ std::string host()
   return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
 }
 
-struct flock whole_file(short type)
+struct flock whole_range(short type)
 {
   struct flock lock = {};
   lock.l_type       = type;
@@ -112,11 +112,11 @@ FolderLock::FolderLock(const fs::path &folder)
 }
 
 FolderLock::FolderLock(const fs::path &folder, Kind kind, const std::string &doing, const std::string &way_out)
-    : told_(folder), folder_(fs::absolute(folder).lexically_normal()), path_(folder_ / lock_name), kind_(kind),
+    : reported_(folder), folder_(fs::absolute(folder).lexically_normal()), path_(folder_ / lock_name), kind_(kind),
       process_(getpid())
 {
   if (!own_locks().add(folder_))
-    refuse_held(told_, std::to_string(process_), "", doing + " already", way_out);
+    refuse_held(reported_, std::to_string(process_), "", doing + " already", way_out);
   try
   {
     take(doing, way_out);
@@ -201,11 +201,11 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
       note_ = path_.string() + " cannot be made (" + std::strerror(errno) + ")";
       break;
     }
-    struct flock lock = whole_file(type);
+    struct flock lock = whole_range(type);
     if (fcntl(file_, F_SETLK, &lock) != 0)
     {
       const int reason = errno;
-      lock             = whole_file(type);
+      lock             = whole_range(type);
       if (reason == EACCES || reason == EAGAIN)
       {
         const bool known = fcntl(file_, F_GETLK, &lock) == 0;
@@ -213,7 +213,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
         {
           const Holder      holder  = holder_in(file_); // of several the last one
           const std::string process = lock.l_pid > 0 ? std::to_string(lock.l_pid) : holder.process;
-          refuse_held(told_, process, process == holder.process ? holder.host : "",
+          refuse_held(reported_, process, process == holder.process ? holder.host : "",
                       holder.doing.empty() ? computes : holder.doing, way_out);
         }
         close(file_); // it has just been let go
@@ -238,7 +238,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
   }
   if (note_.empty())
     note_ = "others make and remove it all the time";
-  note_ = told_.string() + ": " + note_ +
+  note_ = reported_.string() + ": " + note_ +
           ", so nothing keeps a second process from writing there at the same time; see to that yourself";
 }
 

@@ -45,7 +45,7 @@ private:
   void        give_up();
   std::string release() const;
 
-  std::filesystem::path              told_, folder_, path_; ///< the folder as it was given, whole, and its file
+  std::filesystem::path              reported_, folder_, path_; ///< the folder as it was given, whole, and its file
   Kind                               kind_;
   int                                process_;
   std::vector<std::filesystem::path> made_; ///< folders, outermost first

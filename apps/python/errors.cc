@@ -75,14 +75,14 @@ std::string in_python(std::string message)
   static const std::regex option("(^|[ (])--([a-z]+)(-[a-z]+)?");
   if (message.find("gestell ") != std::string::npos) // a line to type
     return message;
-  std::string told;
+  std::string reported;
   for (std::smatch found; std::regex_search(message, found, option); message = std::string(found.suffix()))
   {
     std::string name = found[2].str() + found[3].str();
     std::replace(name.begin(), name.end(), '-', '_');
-    told += found.prefix().str() + found[1].str() + (name == "from" ? "from_" : name);
+    reported += found.prefix().str() + found[1].str() + (name == "from" ? "from_" : name);
   }
-  return told + message;
+  return reported + message;
 }
 
 void bind_errors(py::module_ &module)

@@ -38,7 +38,7 @@ Interruptible::~Interruptible()
     sigaction(SIGINT, &of_python, nullptr);
 }
 
-const std::atomic<bool> &Interruptible::asked() const
+const std::atomic<bool> &Interruptible::requested() const
 {
   return interrupted;
 }

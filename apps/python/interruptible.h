@@ -14,7 +14,7 @@ public:
   ~Interruptible();
   Interruptible(const Interruptible &) = delete;
 
-  const std::atomic<bool> &asked() const;
+  const std::atomic<bool> &requested() const;
 };
 
 } // namespace gestell::python

@@ -99,11 +99,11 @@ Eigen::MatrixXd states_of(const PythonResult &result)
 
 std::vector<std::string> save(PythonResult &result, const py::object &folder)
 {
-  const std::string    path  = py::str(folder).cast<std::string>();
-  const apps::Request &asked = result.result().asked;
+  const std::string    path      = py::str(folder).cast<std::string>();
+  const apps::Request &requested = result.result().requested;
   apps::require_writable(path);
   const apps::FolderLock held(path);
-  apps::prepare_folder(path, apps::input_files(asked.file, asked.set));
+  apps::prepare_folder(path, apps::input_files(requested.file, requested.set));
   return apps::write_results(path, result.whole_result());
 }
 

@@ -1,18 +1,18 @@
 #include "apps/python/python_scene.h"
 
 #include "apps/atlas/scene_stability.h"
+#include "apps/python/callback_progress.h"
 #include "apps/python/interruptible.h"
 #include "apps/python/scene_values.h"
-#include "apps/python/told_progress.h"
 #include "apps/scene/build/build_machine.h"
-#include "apps/scene/build/scene_in_words.h"
+#include "apps/scene/build/scene_summary.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
 #include "apps/session/exchange/state_space_answer.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/sizing/sized_scene.h"
-#include "apps/study/runs/frame_shelf.h"
+#include "apps/study/runs/reduced_frame_store.h"
 #include "coupling/plugin/mesh_service.h"
 #include "fem/values/nearest_name.h"
 
@@ -103,9 +103,10 @@ private:
 /// The reduced frames of all scenes; two threads do not make the same.
 std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, const coupling::Progress &progress)
 {
-  static apps::FrameShelf *const shelf = new apps::FrameShelf(true); // outlives what the interpreter ends last
-  static std::mutex              alone;
-  if (!apps::FrameShelf::serves(scene))
+  static apps::ReducedFrameStore *const shelf =
+      new apps::ReducedFrameStore(true); // outlives what the interpreter ends last
+  static std::mutex alone;
+  if (!apps::ReducedFrameStore::serves(scene))
     return nullptr;
   const MakingFrame     once;
   const std::lock_guard lock(alone);
@@ -135,11 +136,11 @@ template <typename Compute>
 auto interruptibly(const Compute &compute, py::object progress = py::none())
 {
   const Interruptible interruptible;
-  ToldProgress        told(std::move(progress), interruptible.asked());
+  CallbackProgress    reported(std::move(progress), interruptible.requested());
   const auto          with_others = [&]
   {
     const py::gil_scoped_release unlocked;
-    return compute(told.watch());
+    return compute(reported.watch());
   };
   std::optional<decltype(with_others())> result;
   try
@@ -148,15 +149,15 @@ auto interruptibly(const Compute &compute, py::object progress = py::none())
   }
   catch (const std::exception &)
   {
-    told.raise();
-    if (!interruptible.asked())
+    reported.raise();
+    if (!interruptible.requested())
       throw;
   }
-  told.raise();
+  reported.raise();
   if constexpr (std::is_same_v<decltype(result), std::optional<std::shared_ptr<PythonResult>>>)
     if (result)
       raise_failure(*result);
-  if (interruptible.asked())
+  if (interruptible.requested())
   {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
     throw py::error_already_set();
@@ -258,7 +259,7 @@ std::vector<std::string> PythonScene::words() const
 {
   const Scene scene = this->scene();
   apps::check_scene(scene);
-  return apps::scene_in_words(scene);
+  return apps::scene_summary(scene);
 }
 
 std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const apps::Watch &watch) const
@@ -306,7 +307,7 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
         keep(scene, choice);
         auto       session = self.session(std::move(scene), watch);
         const auto keys    = choice.sensitivities.empty() ? std::nullopt : std::optional(choice.sensitivities);
-        auto       run     = session->run(keys, apps::SpectraAre::left_out);
+        auto       run     = session->run(keys, apps::SpectraChoice::skipped);
         return std::make_shared<PythonResult>(std::move(session), std::move(run));
       },
       choice.progress);

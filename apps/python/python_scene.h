@@ -38,7 +38,7 @@ struct SizeChoice
 
 /**
  * A scene as data: entries can be read and set, then computed.  A change costs its reading; frames are reduced once and
- * kept in memory for all scenes of the process (apps::FrameShelf).
+ * kept in memory for all scenes of the process (apps::ReducedFrameStore).
  *
  * Wrong input throws std::invalid_argument, a computation that fails std::runtime_error.  Computing leaves the lock of
  * the interpreter to others.

@@ -22,7 +22,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_told   = 3; ///< motions that grow
+constexpr std::size_t most_listed = 3; ///< motions that grow
 constexpr int         most_points = 1000000;
 constexpr double      slow        = 1e-3; ///< beside the fastest mode: a drive that weights hold, or a foundation
 
@@ -160,10 +160,10 @@ void warn_of_growth(const coupling::LinearResponse &linear, bool moves, std::vec
   if (growing->empty())
     return;
   std::string text;
-  for (std::size_t i = 0; i < std::min(growing->size(), most_told); ++i)
+  for (std::size_t i = 0; i < std::min(growing->size(), most_listed); ++i)
     text += (i > 0 ? ", " : "") + growth_text((*growing)[i]);
-  if (growing->size() > most_told)
-    text += " and " + std::to_string(growing->size() - most_told) + " more";
+  if (growing->size() > most_listed)
+    text += " and " + std::to_string(growing->size() - most_listed) + " more";
   const std::string where = moves ? "at this instant of its motion" : "at this operating point";
   warnings.push_back("the machine linearised " + where + " is unstable: " + text +
                      "; the response computed is never reached in time");

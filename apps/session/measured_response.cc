@@ -220,7 +220,7 @@ int pair_of(const std::string &name, const FrequencyResponse &response)
 }
 
 /// "PAIR=FILE" in its parts; -1: no pair is named.
-std::pair<int, std::string> asked(const std::string &text, const FrequencyResponse &response)
+std::pair<int, std::string> requested(const std::string &text, const FrequencyResponse &response)
 {
   const auto equals = text.find('=');
   if (equals == std::string::npos || fem::names_something(text))
@@ -243,7 +243,7 @@ std::vector<MeasuredResponse> measured_responses(const std::vector<std::string> 
   int                           next = 0;
   for (const std::string &text : files)
   {
-    const auto [named, file]      = asked(text, response);
+    const auto [named, file]      = requested(text, response);
     std::vector<ReadCurve> curves = curves_of(file);
     if (named >= 0 && curves.size() > 1)
       throw std::invalid_argument("--measured " + text + ": the file holds " + std::to_string(curves.size()) +

@@ -114,11 +114,11 @@ std::vector<std::string> along_warnings(const AlongResult &along)
                            ": its modal assurance is " + short_text(at.assurance[i], 2) +
                            "; look at the shapes, or take more --positions");
   }
-  constexpr std::size_t most_told = 5;
-  if (const std::size_t more = warnings.size(); more > most_told)
+  constexpr std::size_t most_listed = 5;
+  if (const std::size_t more = warnings.size(); more > most_listed)
   {
-    warnings.resize(most_told);
-    warnings.push_back("lines are uncertain at " + std::to_string(more - most_told) + " further positions");
+    warnings.resize(most_listed);
+    warnings.push_back("lines are uncertain at " + std::to_string(more - most_listed) + " further positions");
   }
   if (gaps > 0)
     warnings.insert(warnings.begin(), std::to_string(gaps) + " of " + std::to_string(along.modes.positions.size()) +

@@ -36,8 +36,8 @@ void add_modes(const std::vector<coupling::Mode> &modes, std::vector<double> &fr
   const double lowest = frequencies.front(), highest = frequencies.back();
   for (const coupling::Mode &mode : modes)
     if (mode.damping_ratio > least_damped && mode.damped_frequency_hz > 0.)
-      for (const double beside : {-2., -1., -0.5, 0., 0.5, 1., 2.})
-        if (const double f = mode.damped_frequency_hz * (1. + beside * mode.damping_ratio); f > lowest && f < highest)
+      for (const double nearby : {-2., -1., -0.5, 0., 0.5, 1., 2.})
+        if (const double f = mode.damped_frequency_hz * (1. + nearby * mode.damping_ratio); f > lowest && f < highest)
           frequencies.push_back(f);
   std::sort(frequencies.begin(), frequencies.end());
   frequencies.erase(std::unique(frequencies.begin(), frequencies.end()), frequencies.end());
@@ -162,10 +162,10 @@ void ResponseSweep::find_peaks(std::vector<Sample> &samples, FrequencyResponse &
   std::sort(samples.begin(), samples.end(), [](const Sample &a, const Sample &b) { return a.f < b.f; });
 }
 
-void ResponseSweep::run(const std::vector<double> &asked, const std::vector<coupling::Mode> &modes,
+void ResponseSweep::run(const std::vector<double> &requested, const std::vector<coupling::Mode> &modes,
                         FrequencyResponse &response, std::vector<std::string> &warnings)
 {
-  std::vector<double> frequencies = asked;
+  std::vector<double> frequencies = requested;
   add_modes(modes, frequencies);
   std::vector<Sample> samples = sampled(frequencies);
   add_between(samples);

@@ -32,7 +32,7 @@ public:
    *   - midpoints, until from one to the next no phase turns by more than a sixth of a turn,
    *   - tops of peaks.
    */
-  void run(const std::vector<double> &asked, const std::vector<coupling::Mode> &modes, FrequencyResponse &response,
+  void run(const std::vector<double> &requested, const std::vector<coupling::Mode> &modes, FrequencyResponse &response,
            std::vector<std::string> &warnings);
 
   const std::string &not_condensed() const { return machine_.not_condensed(); }

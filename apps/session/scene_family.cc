@@ -43,8 +43,8 @@ std::shared_ptr<const coupling::ReducedFrame> plain(const coupling::ReducedFrame
   return copy;
 }
 
-constexpr int    halvings = 50;
-constexpr double stands   = 1e-9; ///< frequency of a load that counts as zero, of that where the search begins
+constexpr int    halvings       = 50;
+constexpr double zero_frequency = 1e-9; ///< frequency of a load that counts as zero, of that where the search begins
 
 /// Of the loads on the frame and on bodies [rad/s]; infinite where none oscillates.
 double lowest_frequency(const Scene &scene)
@@ -185,9 +185,9 @@ std::string SceneFamily::standstill(double within, double beyond) const
   probe(beyond);
   for (int k = 0; ends && k < halvings; ++k)
     probe(0.5 * (within + beyond));
-  if (!ends || !(last < stands * first))
+  if (!ends || !(last < zero_frequency * first))
     return {};
-  const double where = std::abs(beyond) < stands * range ? 0. : beyond;
+  const double where = std::abs(beyond) < zero_frequency * range ? 0. : beyond;
   return "the period becomes infinite at " + key_ + " = " + short_text(where) + (unit_.empty() ? "" : ' ' + unit_);
 }
 

@@ -4,7 +4,7 @@
 #include "apps/scene/scene.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/prepared_machine.h"
-#include "apps/session/sensitivity/scene_twins.h"
+#include "apps/session/sensitivity/perturbed_scenes.h"
 #include "coupling/periodic/followed_equations.h"
 
 #include <memory>

@@ -222,8 +222,8 @@ Result Session::modes(const ModesOptions &options)
   progress()("modes", -1.);
   const auto geometric =
       options.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
-  Result result = begin_result(scene_, "modes", prepared, geometric);
-  result.asked  = {path_, overrides_, std::nullopt};
+  Result result    = begin_result(scene_, "modes", prepared, geometric);
+  result.requested = {path_, overrides_, std::nullopt};
   if (!options.along.empty())
   {
     result.along = modes_along_result(scene_, prepared, options, progress());
@@ -238,9 +238,9 @@ Result Session::frequency_response(const FrfOptions &options)
   check_frf_options(options);
   PreparedMachine &prepared = machine();
   progress()("modes", -1.);
-  Result result = begin_result(scene_, "frf", prepared);
-  result.asked  = {path_, overrides_, std::nullopt};
-  result.frf    = frequency_response_of(scene_, prepared, options, progress(), result.warnings);
+  Result result    = begin_result(scene_, "frf", prepared);
+  result.requested = {path_, overrides_, std::nullopt};
+  result.frf       = frequency_response_of(scene_, prepared, options, progress(), result.warnings);
   return finished(std::move(result));
 }
 
@@ -255,7 +255,7 @@ void Session::add_spectra(Result &result) const
   result.spectra = spectra(*result.run, scene_.run.last_period ? scene_.run.options.begin : result.run->from);
 }
 
-Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre spectra)
+Result Session::run(const std::optional<std::string> &sensitivities, SpectraChoice spectra)
 {
   check_run();
   const bool               differentiated = sensitivities.has_value();
@@ -273,13 +273,13 @@ Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre 
   scene_.run.options.from = result_window(scene_, prepared.machine, initial);
   Result result           = begin_result(scene_, "run", prepared);
   result.settings         = settings_text(scene_.run.options);
-  result.asked            = {path_, overrides_, scene_.run.options};
-  SceneTwins           twins;
+  result.requested        = {path_, overrides_, scene_.run.options};
+  PerturbedScenes      twins;
   coupling::Trajectory trajectory, *const followed = differentiated ? &trajectory : nullptr;
   const std::clock_t at_twins = std::clock();
   if (differentiated)
-    twins = scene_twins({root, path_, scripts_}, scene_, prepared, keys, sensitivities == "all" ? &left_out : nullptr,
-                        progress());
+    twins = perturbed_scenes({root, path_, scripts_}, scene_, prepared, keys,
+                             sensitivities == "all" ? &left_out : nullptr, progress());
   for (const auto *warnings : {&left_out, &twins.warnings})
     result.warnings.insert(result.warnings.end(), warnings->begin(), warnings->end());
   const std::clock_t at_run     = std::clock();
@@ -295,7 +295,7 @@ Result Session::run(const std::optional<std::string> &sensitivities, SpectraAre 
     result.sensitivities->cpu_s     = double(at_run - at_twins + std::clock() - behind_run) / CLOCKS_PER_SEC;
   }
   progress()("results", -1.);
-  if (spectra == SpectraAre::told)
+  if (spectra == SpectraChoice::computed)
     add_spectra(result);
   result.stages = stage_answer(scene_, prepared, result.run->end_state, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
@@ -335,9 +335,9 @@ Result Session::periodic_here(const PeriodicRequest &request)
 {
   PreparedMachine &prepared = machine();
   progress()("modes", -1.);
-  Result result   = begin_result(scene_, "periodic", prepared);
-  result.asked    = {path_, overrides_, std::nullopt};
-  result.periodic = periodic_motions(request, result);
+  Result result    = begin_result(scene_, "periodic", prepared);
+  result.requested = {path_, overrides_, std::nullopt};
+  result.periodic  = periodic_motions(request, result);
   return finished(std::move(result));
 }
 

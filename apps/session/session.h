@@ -34,10 +34,10 @@ struct FrameAnswer
 };
 
 /// Spectra and orders of a run's history: a tenth of the cost of a short run.
-enum class SpectraAre
+enum class SpectraChoice
 {
-  told,
-  left_out ///< until Session::add_spectra()
+  computed,
+  skipped ///< until Session::add_spectra()
 };
 
 /**
@@ -88,7 +88,7 @@ public:
   /// The scene simulated in time, with modes, stresses and warnings.
   /// @throws std::invalid_argument as read_checkpoint()
   /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
-  Result run(const std::optional<std::string> &sensitivities = {}, SpectraAre spectra = SpectraAre::told);
+  Result run(const std::optional<std::string> &sensitivities = {}, SpectraChoice spectra = SpectraChoice::computed);
   /// Of a run that left them out.
   void add_spectra(Result &result) const;
 

@@ -30,8 +30,8 @@ std::vector<const KeptState *> states_of(const coupling::KeptStates &kept)
 
 std::vector<char> away_from_rigid(const ReducedStress &stress)
 {
-  std::vector<char> away(stress.beside.size());
-  std::transform(stress.beside.begin(), stress.beside.end(), away.begin(), [](int beside) { return beside < 0; });
+  std::vector<char> away(stress.nearby.size());
+  std::transform(stress.nearby.begin(), stress.nearby.end(), away.begin(), [](int nearby) { return nearby < 0; });
   if (std::find(away.begin(), away.end(), 1) == away.end())
     away.assign(away.size(), 1); // a frame of few elements
   return away;
@@ -61,12 +61,12 @@ std::optional<StressPlace> place_of_largest(const ReducedFrame &frame, const Vec
   if (top < 0)
     return {};
   const auto       &x      = frame.points[stress.point[top]];
-  const std::string beside = stress.beside[top] >= 0 ? stress.rigid[stress.beside[top]] : "";
+  const std::string nearby = stress.nearby[top] >= 0 ? stress.rigid[stress.nearby[top]] : "";
   return StressPlace{{x[0], x[1], x[2]},
                      field.von_mises[top],
                      coupling::principal_stresses(field.at(top)),
                      coupling::disagreement(stress, state, top),
-                     beside};
+                     nearby};
 }
 
 StressAt stress_at(const Scene &scene, const ReducedFrame &frame, const std::string &label, const KeptState &kept)
@@ -77,10 +77,10 @@ StressAt stress_at(const Scene &scene, const ReducedFrame &frame, const std::str
   result.label           = label;
   result.t               = kept.t;
   result.field           = coupling::stress_field(stress, state);
-  std::vector<char> away = away_from_rigid(stress), beside(away.size());
-  std::transform(away.begin(), away.end(), beside.begin(), [](char is_away) { return !is_away; });
+  std::vector<char> away = away_from_rigid(stress), nearby(away.size());
+  std::transform(away.begin(), away.end(), nearby.begin(), [](char is_away) { return !is_away; });
   result.peak         = place_of_largest(frame, state, result.field, away);
-  result.beside_rigid = place_of_largest(frame, state, result.field, beside);
+  result.beside_rigid = place_of_largest(frame, state, result.field, nearby);
 
   const VectorXd u = frame.displacement.cast<double>() * kept.q.head(frame.displacement.cols());
   result.displacement.resize(3, stress.n_points());

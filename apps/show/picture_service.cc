@@ -2,7 +2,7 @@
 #include "apps/output/folder/own_folder.h"
 #include "apps/show/animated_png.h"
 #include "apps/show/renderer.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>

@@ -58,7 +58,7 @@ int show(const ShowOptions &options)
   request.series = pictures_of(options.folder, static_cast<std::size_t>(options.modes));
   request.folder = options.pictures.empty() ? std::filesystem::path(options.folder) / "pictures"
                                             : std::filesystem::path(options.pictures);
-  const HeldFolder held(request.folder);
+  const ResultsLock held(request.folder);
   OwnFolder(request.folder).require_free(names_of(request.series));
   request.width       = options.width;
   request.height      = options.width * 4 / 5;

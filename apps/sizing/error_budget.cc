@@ -35,7 +35,7 @@ std::string event_text(const coupling::Event &event)
 Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
 {
   std::map<std::string, std::vector<coupling::Event>> others;
-  std::map<std::string, std::size_t>                  seen;
+  std::map<std::string, std::size_t>                  visited;
   for (const coupling::Event &event : b.events)
     others[event.name].push_back(event);
   for (const coupling::Event &event : a.events)
@@ -43,7 +43,7 @@ Differs differing_event(const ModelAnswer &a, const ModelAnswer &b, double t)
     if (event.t > t)
       break;
     const std::vector<coupling::Event> &other = others[event.name];
-    const std::size_t                   k     = seen[event.name]++;
+    const std::size_t                   k     = visited[event.name]++;
     if (k >= other.size())
       return event_text(event) + " at " + short_text(event.t) + " s is missing";
     if (event.kind != other[k].kind)

@@ -63,9 +63,9 @@ void take_run(const coupling::RunResult &run, const std::vector<OutputName> &out
 void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<OutputName> &outputs,
                 ModelAnswer &answer)
 {
-  const bool asked =
+  const bool requested =
       std::any_of(outputs.begin(), outputs.end(), [](const auto &output) { return !output.of_signal(); });
-  if (!asked)
+  if (!requested)
     return;
   const auto modes = coupling::linearised_modes(small, modes_configuration(scene, small),
                                                 coupling::Linearisation{scene.modes.open}, scene.modes.number);
@@ -104,7 +104,7 @@ int more_than(int modes)
 
 int more_modes(const Scene &scene, const ModelAnswer &answer)
 {
-  const int asked = modes_asked(scene, answer), modes = asked < 0 ? answer.modes : asked;
+  const int requested = modes_asked(scene, answer), modes = requested < 0 ? answer.modes : requested;
   return std::min(answer.most_modes, more_than(modes));
 }
 
@@ -121,7 +121,7 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
   answer.most_modes =
       result.model.superposed > 0 ? result.model.superposed : std::max(0, answer.n_frame - answer.interface);
   answer.run_cpu = result.run->wall_s;
-  take_run(*result.run, outputs, result.asked.run->end, answer);
+  take_run(*result.run, outputs, result.requested.run->end, answer);
   for (std::size_t i = 0; i < outputs.size(); ++i)
     if (!outputs[i].of_signal())
     {

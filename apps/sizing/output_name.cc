@@ -41,24 +41,24 @@ OutputName mode_named(const std::string &given, const std::string &number, int m
 OutputName output_named(const std::string &given, const std::vector<std::string> &signals, int modes)
 {
   const std::size_t dot    = given.rfind('.');
-  const std::string before = given.substr(0, dot), behind = dot == std::string::npos ? "" : given.substr(dot + 1);
+  const std::string before = given.substr(0, dot), after = dot == std::string::npos ? "" : given.substr(dot + 1);
   if (before == "modes" && !among(signals, before))
-    return mode_named(given, behind, modes);
-  if (among(signals, before) && among(kinds, behind))
-    return {given, before, behind, 0};
+    return mode_named(given, after, modes);
+  if (among(signals, before) && among(kinds, after))
+    return {given, before, after, 0};
   if (among(counts, given) || among(counts, given.substr(0, given.find('.'))))
     refuse(given, "is a count, which has no error; name a number of a signal, such as " +
                       (signals.empty() ? "F.max" : signals.front() + ".max"));
   if (among(signals, given))
     refuse(given, "is a signal; say what of it: " + given + ".max, .min, .t_max, .t_min, .range or .final");
   if (among(signals, before))
-    refuse(given, "asks a signal for '" + behind +
+    refuse(given, "asks a signal for '" + after +
                       "', which it does not have; it has max, min, t_max, t_min, range and "
                       "final");
   const std::string nearest = nearest_name(before, signals);
-  refuse(given, "is no output of this scene" + (nearest.empty() ? ""
-                                                                : "; did you mean " + nearest + "." +
-                                                                      (among(kinds, behind) ? behind : "max") + "?"));
+  refuse(given,
+         "is no output of this scene" +
+             (nearest.empty() ? "" : "; did you mean " + nearest + "." + (among(kinds, after) ? after : "max") + "?"));
 }
 
 std::vector<OutputName> outputs_named(const std::string &list, const std::vector<std::string> &signals, int modes)

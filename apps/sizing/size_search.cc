@@ -305,10 +305,10 @@ bool Search::is_worth(const SizePlace &place, double coordinates)
 void Search::forecast(double coordinates, double model_cpu, double work)
 {
   const double  spent = cpu_now() - begin_, proof = mesh_can_change(scene_) ? of_finer_cells : 0.;
-  SizeForecast &told = result_.forecast;
-  told               = {coordinates, planned_.modes, model_cpu, spent, spent + (work + proof + 1.) * model_cpu};
+  SizeForecast &reported = result_.forecast;
+  reported               = {coordinates, planned_.modes, model_cpu, spent, spent + (work + proof + 1.) * model_cpu};
   if (options_.on_forecast)
-    options_.on_forecast(told);
+    options_.on_forecast(reported);
 }
 
 /// What is above the limits that were given ends the search.

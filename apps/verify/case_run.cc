@@ -21,15 +21,15 @@ namespace
 {
 
 /// Further settings of a computation, each taken once.
-class Asked
+class CaseRequest
 {
 public:
-  explicit Asked(const ReferenceCase &one) : case_(one) {}
+  explicit CaseRequest(const ReferenceCase &one) : case_(one) {}
 
   std::string text(const std::string &key, const std::string &otherwise = "")
   {
     names_.push_back(key);
-    for (const auto &[name, value] : case_.asked)
+    for (const auto &[name, value] : case_.requested)
       if (name == key)
         return value;
     return otherwise;
@@ -49,7 +49,7 @@ public:
   }
   void finish() const
   {
-    for (const auto &[name, value] : case_.asked)
+    for (const auto &[name, value] : case_.requested)
       if (std::find(names_.begin(), names_.end(), name) == names_.end())
         throw std::invalid_argument(case_.place + ": 'with' has an entry '" + name + "' that \"" + case_.compute +
                                     "\" does not take" + suggestion(name, names_));
@@ -60,52 +60,52 @@ private:
   std::vector<std::string> names_;
 };
 
-Result modes(Session &session, Asked &asked)
+Result modes(Session &session, CaseRequest &requested)
 {
   ModesOptions options;
-  options.along         = asked.text("along");
-  options.from          = asked.text("from");
-  options.to            = asked.text("to");
-  options.positions     = asked.number("positions", options.positions);
-  options.configuration = asked.text("configuration", options.configuration);
-  asked.finish();
+  options.along         = requested.text("along");
+  options.from          = requested.text("from");
+  options.to            = requested.text("to");
+  options.positions     = requested.number("positions", options.positions);
+  options.configuration = requested.text("configuration", options.configuration);
+  requested.finish();
   return session.modes(options);
 }
 
-Result responses(Session &session, Asked &asked)
+Result responses(Session &session, CaseRequest &requested)
 {
   FrfOptions options;
-  options.from    = asked.texts("from");
-  options.to      = asked.texts("to");
-  options.kind    = asked.text("kind", options.kind);
-  options.at      = asked.text("at", options.at);
-  options.lowest  = asked.text("lowest");
-  options.highest = asked.text("highest");
-  options.points  = asked.number("points", options.points);
-  options.spacing = asked.text("spacing", options.spacing);
-  asked.finish();
+  options.from    = requested.texts("from");
+  options.to      = requested.texts("to");
+  options.kind    = requested.text("kind", options.kind);
+  options.at      = requested.text("at", options.at);
+  options.lowest  = requested.text("lowest");
+  options.highest = requested.text("highest");
+  options.points  = requested.number("points", options.points);
+  options.spacing = requested.text("spacing", options.spacing);
+  requested.finish();
   return session.frequency_response(options);
 }
 
-Result periodic(Session &session, Asked &asked)
+Result periodic(Session &session, CaseRequest &requested)
 {
   PeriodicRequest request;
-  request.method    = asked.text("method");
-  request.period    = asked.text("period");
-  request.ratio     = asked.number("ratio", request.ratio);
-  request.harmonics = asked.number("harmonics", request.harmonics);
-  request.lead_in   = asked.number("lead_in", request.lead_in);
-  request.along     = asked.text("along");
-  request.from      = asked.text("from");
-  request.to        = asked.text("to");
-  request.points    = asked.number("points", request.points);
-  asked.finish();
+  request.method    = requested.text("method");
+  request.period    = requested.text("period");
+  request.ratio     = requested.number("ratio", request.ratio);
+  request.harmonics = requested.number("harmonics", request.harmonics);
+  request.lead_in   = requested.number("lead_in", request.lead_in);
+  request.along     = requested.text("along");
+  request.from      = requested.text("from");
+  request.to        = requested.text("to");
+  request.points    = requested.number("points", request.points);
+  requested.finish();
   return session.periodic(request);
 }
 
-Result run(Session &session, Asked &asked)
+Result run(Session &session, CaseRequest &requested)
 {
-  asked.finish();
+  requested.finish();
   Result result = session.run();
   if (!result.run->failure.empty())
     throw std::runtime_error(result.run->failure);
@@ -117,7 +117,7 @@ Result run(Session &session, Asked &asked)
 struct Computation
 {
   std::string name;
-  Result (*compute)(Session &session, Asked &asked);
+  Result (*compute)(Session &session, CaseRequest &requested);
 };
 
 const std::vector<Computation> &scene_computations()
@@ -157,11 +157,11 @@ CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more,
   set.insert(set.end(), more.begin(), more.end());
   const SceneNode root = read_scene_file(one.scene, set);
   parameters_          = Parameters(root.find("parameters"));
-  Session session(one.scene, set, fem::Scripts::harmless, {{}, interruption});
-  Asked   asked(one);
+  Session     session(one.scene, set, fem::Scripts::harmless, {{}, interruption});
+  CaseRequest requested(one);
   for (const Computation &computation : scene_computations())
     if (computation.name == one.compute)
-      result_ = computation.compute(session, asked);
+      result_ = computation.compute(session, requested);
 }
 
 AnswerValue CaseRun::value(const std::string &entry) const

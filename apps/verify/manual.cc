@@ -53,7 +53,7 @@ std::string data_of(const ReferenceCase &one)
     text += ", " + entry;
   if (one.compute != "run" && !one.scene.empty())
     text += "; " + one.compute;
-  for (const auto &[key, value] : one.asked)
+  for (const auto &[key, value] : one.requested)
     text += ", " + key + " " + value;
   if (!one.refined.empty())
   {

@@ -171,7 +171,7 @@ ReferenceCase read_case(const SceneTable &table, const SceneNode &node)
     one.scene = table.file("scene");
   if (table.has("set"))
     one.set = table.texts("set");
-  one.asked = pairs(table, "with");
+  one.requested = pairs(table, "with");
   if (table.has("methods"))
     for (const SceneTable &method : table.tables("methods"))
       one.methods[method.name()] = read_method(method);

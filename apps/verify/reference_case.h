@@ -75,7 +75,7 @@ struct ReferenceCase
   std::vector<std::string> set{};
   std::string              compute = "run"; ///< a word of computations()
   bool                     is_long = false;
-  std::vector<std::pair<std::string, std::string>> asked{}; ///< further settings of `compute`
+  std::vector<std::pair<std::string, std::string>> requested{}; ///< further settings of `compute`
   std::string              refined{}; ///< entry that takes `refinements`, as a check of an order asks
   std::vector<std::string> refinements{};
   std::map<std::string, coupling::MethodOptions>   methods{}; ///< of integrators, by the name in the expected table

@@ -85,16 +85,16 @@ Groups groups_of(const Partners &partners, int n)
 SparsePattern graph_of(const Groups &groups, const Partners &partners)
 {
   SparsePattern    graph{groups.count(), {0}, {}};
-  std::vector<int> seen(groups.count(), -1);
+  std::vector<int> visited(groups.count(), -1);
   for (int a = 0; a < groups.count(); ++a)
   {
     partners.for_each(groups.first[a],
                       [&](int i)
                       {
                         const int b = groups.of[i];
-                        if (b >= a && seen[b] != a)
+                        if (b >= a && visited[b] != a)
                           graph.rows.push_back(b);
-                        seen[b] = a;
+                        visited[b] = a;
                       });
     std::sort(graph.rows.begin() + graph.begin.back(), graph.rows.end());
     graph.begin.push_back(int(graph.rows.size()));

@@ -1,7 +1,7 @@
 #include "coupling/exchange/dmig.h"
 
 #include "coupling/exchange/bulk_cards.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -91,8 +91,8 @@ private:
 
   bool is_point(long id) const
   {
-    const auto behind = through_.upper_bound(id);
-    return points_.count(id) > 0 || (behind != through_.begin() && id <= std::prev(behind)->second);
+    const auto after = through_.upper_bound(id);
+    return points_.count(id) > 0 || (after != through_.begin() && id <= std::prev(after)->second);
   }
 
   RowLabel label(const BulkCards &cards, std::size_t at) const
@@ -273,7 +273,7 @@ bool has_dmig(TextFile &file)
 void write_dmig(const std::string &file, const std::map<std::string, Eigen::MatrixXd> &matrices,
                 const std::vector<RowLabel> &rows, const NodePlaces &places, const std::string &remark)
 {
-  WholeFile     out(file);
+  AtomicFile    out(file);
   std::ostream &stream = out.stream();
   stream << "$ " << remark << '\n';
   write_points(stream, rows, places);

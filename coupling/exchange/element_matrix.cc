@@ -131,9 +131,9 @@ private:
 
   void require_different_rows() const
   {
-    std::set<RowLabel> seen;
+    std::set<RowLabel> visited;
     for (const RowLabel &row : rows_)
-      if (!seen.insert(row).second)
+      if (!visited.insert(row).second)
         file_.fail(text_of(row) + " is a row of the element twice");
   }
 

@@ -107,16 +107,16 @@ Matrices matrices_of_file(const std::string &file, std::int64_t known_size)
   return {{"", {read_matrix_file(file, known_size)}}};
 }
 
-const LabelledMatrix &matrix_for(const Matrices &matrices, MatrixRole role, const std::string &asked,
+const LabelledMatrix &matrix_for(const Matrices &matrices, MatrixRole role, const std::string &requested,
                                  const std::string &file)
 {
   const RoleNames names = names_of(role);
-  if (!asked.empty())
+  if (!requested.empty())
   {
-    std::string capital = capitals(asked);
+    std::string capital = capitals(requested);
     if (const auto found = matrices.find(capital); found != matrices.end())
       return found->second;
-    throw std::invalid_argument(file + ": has no matrix '" + asked + "'; it has " + list_of(matrices));
+    throw std::invalid_argument(file + ": has no matrix '" + requested + "'; it has " + list_of(matrices));
   }
   for (const std::string &name : {std::string(), names.punched, names.type, only_one(matrices, names.first)})
     if (const auto found = matrices.find(name); found != matrices.end())

@@ -33,6 +33,6 @@ enum class MatrixRole
  * @throws std::invalid_argument  with the names that are there.
  */
 const LabelledMatrix &matrix_for(const std::map<std::string, LabelledMatrix> &matrices, MatrixRole role,
-                                 const std::string &asked, const std::string &file);
+                                 const std::string &requested, const std::string &file);
 
 } // namespace gestell::coupling

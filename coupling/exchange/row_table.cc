@@ -37,9 +37,9 @@ RowLabel node_and_motion(const TextFile &file, std::string_view node, std::strin
 
 void require_different(const TextFile &file, const std::vector<RowLabel> &rows)
 {
-  std::map<RowLabel, std::size_t> seen;
+  std::map<RowLabel, std::size_t> visited;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    if (const auto [first, is_new] = seen.emplace(rows[i], i); !is_new)
+    if (const auto [first, is_new] = visited.emplace(rows[i], i); !is_new)
       file.fail_at_end(text_of(rows[i]) + " is row " + std::to_string(first->second + 1) + " and row " +
                        std::to_string(i + 1));
 }

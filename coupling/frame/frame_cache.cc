@@ -1,7 +1,7 @@
 #include "coupling/frame/frame_cache.h"
 
+#include "coupling/frame/atomic_file.h"
 #include "coupling/frame/cache_folder.h"
-#include "coupling/frame/whole_file.h"
 
 #include <sys/stat.h>
 

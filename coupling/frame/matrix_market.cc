@@ -1,7 +1,7 @@
 #include "coupling/frame/matrix_market.h"
 
+#include "coupling/frame/atomic_file.h"
 #include "coupling/frame/number_in_file.h"
-#include "coupling/frame/whole_file.h"
 #include "coupling/integration/system/announced_size.h"
 
 #include <algorithm>
@@ -302,8 +302,8 @@ public:
   void finish() { file_.finish(); }
 
 private:
-  WholeFile file_;
-  char      digits_[40];
+  AtomicFile file_;
+  char       digits_[40];
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "coupling/frame/petsc_binary.h"
 
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 #include "coupling/integration/system/announced_size.h"
 
 #include <algorithm>
@@ -185,7 +185,7 @@ private:
     file_.stream().write(bytes, sizeof bytes);
   }
 
-  WholeFile file_;
+  AtomicFile file_;
 };
 
 } // namespace

@@ -1,8 +1,8 @@
 #include "coupling/frame/reduced_frame_file.h"
 
+#include "coupling/frame/checksummed_file.h"
 #include "coupling/frame/hdf5_file.h"
 #include "coupling/frame/reduced_stress_file.h"
-#include "coupling/frame/sealed_file.h"
 #include "coupling/frame/tried_file.h"
 #include "fem/values/available_memory.h"
 

@@ -19,8 +19,8 @@ struct FrameOrigin
 /**
  * Writes a reduced frame as HDF5: matrices as datasets in column-major order (dimensions reversed, as HDF5 counts rows
  * first), one group per interface and output, and its origin.  Format's version and a checksum of the whole stand as
- * text in the first 512 bytes (sealed_file.h).  The file appears complete or not at all: it is written beside its place
- * and then renamed, so that any number of processes may write the same one.  Equal frames give equal files.
+ * text in the first 512 bytes (checksummed_file.h).  The file appears complete or not at all: it is written beside its
+ * place and then renamed, so that any number of processes may write the same one.  Equal frames give equal files.
  *
  * @throws std::runtime_error if the folder cannot be made or the file not be written.
  * @throws std::invalid_argument for a frame that is not modal.

@@ -25,7 +25,7 @@ struct ReducedStress
   std::vector<int>                point;     ///< [points] of the frame's picture
   std::vector<std::array<int, 3>> triangles; ///< into stress points
   std::vector<std::string>        rigid;     ///< supports and interfaces that hold surfaces rigid
-  std::vector<int>                beside;    ///< [points] of `rigid`, or -1
+  std::vector<int>                nearby;    ///< [points] of `rigid`, or -1
   Eigen::MatrixXf                 mean;      // [6 points x (n1 + m + 3)] Pa
   Eigen::MatrixXf                 deviation; // the same: of one cell from the mean of the cells at its point
 

@@ -37,7 +37,7 @@ void write_stress(Hdf5File &file, const ReducedStress &stress)
     for (int k = 0; k < 3; ++k)
       triangles(k, Eigen::Index(t)) = stress.triangles[t][k];
   file.write("stress/point", column(stress.point));
-  file.write("stress/beside", column(stress.beside));
+  file.write("stress/beside", column(stress.nearby));
   file.write("stress/triangles", triangles);
   file.write("stress/mean", stress.mean);
   file.write("stress/deviation", stress.deviation);
@@ -51,7 +51,7 @@ ReducedStress read_stress(const Hdf5File &file, int n_points, int n)
   if (!file.has("stress"))
     return stress;
   stress.point     = values(file.read_integers("stress/point"));
-  stress.beside    = values(file.read_integers("stress/beside"));
+  stress.nearby    = values(file.read_integers("stress/beside"));
   stress.mean      = file.read_floats("stress/mean");
   stress.deviation = file.read_floats("stress/deviation");
   for (int i = 0; file.has("stress/rigid") && file.has("stress/rigid/" + std::to_string(i)); ++i)
@@ -60,9 +60,9 @@ ReducedStress read_stress(const Hdf5File &file, int n_points, int n)
 
   const Eigen::Index rows  = fem::stress_components * Eigen::Index(stress.point.size());
   const auto         shape = [&](const Eigen::MatrixXf &A) { return A.rows() == rows && A.cols() == n + 3; };
-  if (!shape(stress.mean) || !shape(stress.deviation) || stress.beside.size() != stress.point.size() ||
+  if (!shape(stress.mean) || !shape(stress.deviation) || stress.nearby.size() != stress.point.size() ||
       triangles.rows() != 3 || !all_within(stress.point, 0, n_points) ||
-      !all_within(stress.beside, -1, int(stress.rigid.size())) || !all_within(values(triangles), 0, stress.n_points()))
+      !all_within(stress.nearby, -1, int(stress.rigid.size())) || !all_within(values(triangles), 0, stress.n_points()))
     throw std::runtime_error("'stress' does not fit the matrices");
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     stress.triangles.push_back({triangles(0, t), triangles(1, t), triangles(2, t)});

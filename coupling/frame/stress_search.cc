@@ -63,12 +63,12 @@ Components principal_components(const MatrixXd &gram, const MatrixXd &states)
   const auto                 modes  = norm.eigenvectors();
   const MatrixXd             X      = modes.rightCols(n);
   const MatrixXd             whole  = root.tail(n).asDiagonal() * (X.transpose() * states); // |column|^2 = z^T S^T S z
-  const MatrixXd             beside = modes.leftCols(hidden).transpose() * states;
+  const MatrixXd             nearby = modes.leftCols(hidden).transpose() * states;
   const SymmetricEigenSolver principal(whole * whole.transpose());
   const MatrixXd            &U = principal.eigenvectors();
   Components                 result{MatrixXd(root.size(), root.size()), VectorXd(root.size())};
   result.basis << X * root.tail(n).cwiseInverse().asDiagonal() * U, modes.leftCols(hidden);
-  result.largest << (U.transpose() * whole).cwiseAbs().rowwise().maxCoeff(), beside.cwiseAbs().rowwise().maxCoeff();
+  result.largest << (U.transpose() * whole).cwiseAbs().rowwise().maxCoeff(), nearby.cwiseAbs().rowwise().maxCoeff();
   return result;
 }
 

@@ -264,15 +264,15 @@ void MachineParts::give_orders(int index, const LocalState &state)
   for (std::size_t i = 0; i < own.targets.size(); ++i)
   {
     const PlacedElement &target = placed[own.targets[i]];
-    const SwitchOrder   &told   = own.request.orders[i];
+    const SwitchOrder   &given  = own.request.orders[i];
     try
     {
-      target.commands->command(told.order, target.motion(state, by_history), history_of(target));
+      target.commands->command(given.order, target.motion(state, by_history), history_of(target));
     }
     catch (const std::domain_error &beyond) // it has no law that goes on so
     {
       std::ostringstream message;
-      message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << told.element
+      message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << given.element
               << "\": " << beyond.what();
       throw ConvergenceFailure(message.str());
     }

@@ -64,9 +64,9 @@ ModeComparison compare_modes(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B)
   for (Eigen::Index i = 0; i < cross.rows(); ++i)
     for (Eigen::Index j = 0; j < cross.cols(); ++j)
     {
-      result.mac(i, j) = quotient(result.mac(i, j), a[i] * b[j]);
-      const bool told  = result.seen_a[i] >= least_seen && result.seen_b[j] >= least_seen;
-      value(i, j)      = told ? result.mac(i, j) * result.seen_a[i] * result.seen_b[j] : 0.;
+      result.mac(i, j)    = quotient(result.mac(i, j), a[i] * b[j]);
+      const bool reported = result.seen_a[i] >= least_seen && result.seen_b[j] >= least_seen;
+      value(i, j)         = reported ? result.mac(i, j) * result.seen_a[i] * result.seen_b[j] : 0.;
     }
   if (value.size() == 0)
     return result;

@@ -88,15 +88,15 @@ void tell_contacts(const Machine &machine, MachinePoint &at)
 /// itself.
 bool is_smooth(const Machine &machine, const LocalState &local, int measure, double size, double slope)
 {
-  LocalState      beside = local;
+  LocalState      nearby = local;
   Eigen::VectorXd here = local.p, there = local.p;
-  machine.forces().force(beside, here);
+  machine.forces().force(nearby, here);
   double slopes[2];
   for (const int side : {0, 1})
   {
     const double way  = (side == 0 ? -beside_point : beside_point) * size;
-    beside.u[measure] = local.u[measure] + way;
-    machine.forces().force(beside, there);
+    nearby.u[measure] = local.u[measure] + way;
+    machine.forces().force(nearby, there);
     slopes[side] = (there[measure] - here[measure]) / way;
   }
   const double largest = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});

@@ -235,9 +235,9 @@ public:
 
   int first() const { return options_.n_modes > 0 ? options_.n_modes : std::min(first_search, n_); }
 
-  /// @param asked  how many were searched for
+  /// @param requested  how many were searched for
   /// @return 0: not known from these
-  int of(const DenseModes &modes, int asked)
+  int of(const DenseModes &modes, int requested)
   {
     const int found = int(modes.omega.size());
     if (options_.n_modes > 0)
@@ -245,7 +245,7 @@ public:
     const int by_limit     = limit_ > 0. ? std::max(1, int((modes.omega.array() <= limit_).count())) : 0;
     const int by_tolerance = tolerance_ > 0. ? enough_for_statics(modes) : 0;
     const int count        = std::max(by_limit, by_tolerance);
-    if (count < found || found == n_ || found < asked)
+    if (count < found || found == n_ || found < requested)
       return std::min(count, found);
     ended_ = found >= most_automatic;
     return ended_ ? found : 0;
@@ -396,10 +396,10 @@ Superposition superpose(const Machine &machine, const VectorXd &q, const Superpo
   ModeCount             rule(machine, options, shortfall);
   DenseModes            modes;
   int                   count = 0;
-  for (int asked = rule.first(); count == 0; asked *= 2)
+  for (int requested = rule.first(); count == 0; requested *= 2)
   {
-    modes = lowest(system, asked);
-    count = rule.of(modes, std::min(asked, machine.size()));
+    modes = lowest(system, requested);
+    count = rule.of(modes, std::min(requested, machine.size()));
   }
   Superposition result;
   result.modes = {modes.omega.head(count), modes.V.leftCols(count), options.diagonal_damping};

@@ -334,13 +334,13 @@ bool has_image(BranchEquations &equations, const BranchPoint &motion, const Bran
                        [&](const BranchPoint &a, const BranchPoint &b)
                        { return std::abs(a.parameter - motion.parameter) < std::abs(b.parameter - motion.parameter); });
   const VectorXd z      = equations.unknowns(motion.solution, motion.parameter),
-                 beside = equations.unknowns(near->solution, near->parameter);
+                 nearby = equations.unknowns(near->solution, near->parameter);
   BranchFollower follower(equations, options.to - options.from, options.tolerance);
   Point          start, there;
   start.tangent = VectorXd::Zero(z.size() + 1);
   try
   {
-    if (!follower.at_parameter(beside, motion.parameter, start, there))
+    if (!follower.at_parameter(nearby, motion.parameter, start, there))
       return false;
   }
   catch (const ConvergenceFailure &)
@@ -348,7 +348,7 @@ bool has_image(BranchEquations &equations, const BranchPoint &motion, const Bran
     return false;
   }
   const auto &mu = motion.solution.multipliers, &image_mu = there.solution.multipliers;
-  return (there.z - beside).norm() < (there.z - z).norm() && mu.size() == image_mu.size() && mu.size() > 0 &&
+  return (there.z - nearby).norm() < (there.z - z).norm() && mu.size() == image_mu.size() && mu.size() > 0 &&
          std::abs(there.solution.period - motion.solution.period) < equal_images * motion.solution.period &&
          (mu - image_mu).cwiseAbs().maxCoeff() < equal_images * mu.cwiseAbs().maxCoeff();
 }

@@ -91,7 +91,7 @@ Settled settle_damped(const PeriodicProblem &problem, const PeriodicGuess &guess
 }
 
 /// The passage that the settled motion is, with multipliers where the integrator tells them.
-PeriodicSolution told(const PeriodicProblem &problem, const Settled &settled, const PeriodicOptions &options)
+PeriodicSolution reported(const PeriodicProblem &problem, const Settled &settled, const PeriodicOptions &options)
 {
   PeriodFlow           flow(problem, options.integration);
   const double         period  = problem.period_is_unknown() ? settled.at.period : problem.period;
@@ -154,14 +154,14 @@ public:
     const Settled first = settle_damped(problem, guess, options);
     if (!(first.error <= options.tolerance))
       not_settled(first, problem);
-    std::vector<PeriodicSolution> found = {told(problem, first, options)};
+    std::vector<PeriodicSolution> found = {reported(problem, first, options)};
     PeriodicGuess                 other = first.at;
     other.v *= 1. + kick;
     if (problem.period_is_unknown())
       return found; // a drive that is kicked only needs long to come back
     const Settled second = settle(problem, other, options, options.tolerance, options.periods);
     if (second.error <= options.tolerance && !alike(first.at, second.at, problem))
-      found.push_back(told(problem, second, options));
+      found.push_back(reported(problem, second, options));
     else
       found[0].notes.push_back("a second start, half as fast again, settled " +
                                std::string(second.error <= options.tolerance ? "to the same motion" : "nowhere"));

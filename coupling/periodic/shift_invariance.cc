@@ -176,9 +176,9 @@ void AngleInvariance::find_driven()
     {
       LocalState state = samples_[k];
       state.t += time;
-      const VectorXd behind = laws_at(state);
+      const VectorXd after = laws_at(state);
       for (Law &law : laws_)
-        law.driven = law.driven || (law.first >= n_u_ && changes(law, at_samples_[k], behind));
+        law.driven = law.driven || (law.first >= n_u_ && changes(law, at_samples_[k], after));
     }
 }
 
@@ -259,13 +259,13 @@ void AngleInvariance::look_at_stiffness()
     dependences_.push_back({independent.row(k), 0, "the stiffness"});
 }
 
-bool AngleInvariance::changes(const Law &law, const VectorXd &before, const VectorXd &behind) const
+bool AngleInvariance::changes(const Law &law, const VectorXd &before, const VectorXd &after) const
 {
   double largest = 0.;
   for (const VectorXd &all : at_samples_)
     if (const auto of_law = all.segment(law.first, law.n); of_law.allFinite())
       largest = std::max(largest, of_law.cwiseAbs().maxCoeff());
-  const auto a = before.segment(law.first, law.n), b = behind.segment(law.first, law.n);
+  const auto a = before.segment(law.first, law.n), b = after.segment(law.first, law.n);
   if (!a.allFinite())
     return false;
   return !((a - b).cwiseAbs().maxCoeff() <=

@@ -48,7 +48,7 @@ private:
   {
     int             first, n; ///< in the vector of all forces and joints
     std::string     name;
-    Eigen::MatrixXd rows; ///< those of the angles on which it depends [k x angles], reduced row echelon form
+    Eigen::MatrixXd rows;   ///< those of the angles on which it depends [k x angles], reduced row echelon form
     bool            driven; ///< a joint that gives a function of the angles over the time, which may go any way
   };
 
@@ -59,17 +59,17 @@ private:
   void            make_samples(const PeriodicGuess &about, double t);
   Eigen::VectorXd laws_at(LocalState state) const;
   bool            changes(const Law &law, const Eigen::VectorXd &shift) const;
-  bool            changes(const Law &law, const Eigen::VectorXd &before, const Eigen::VectorXd &behind) const;
+  bool            changes(const Law &law, const Eigen::VectorXd &before, const Eigen::VectorXd &after) const;
 
-  SecondOrderSystem                    &system_;
-  std::vector<int>                      angles_;
-  int                                   n_, n_u_;
-  Eigen::MatrixXd                       to_measures_; ///< du of the angles [n_u x angles]
-  Eigen::VectorXd                       mass_;        ///< [angles]
-  std::vector<Law>                      laws_;
-  std::vector<LocalState>               samples_;
-  std::vector<Eigen::VectorXd>          at_samples_; ///< forces and joints there
-  std::vector<AngleDependence>          dependences_;
+  SecondOrderSystem           &system_;
+  std::vector<int>             angles_;
+  int                          n_, n_u_;
+  Eigen::MatrixXd              to_measures_; ///< du of the angles [n_u x angles]
+  Eigen::VectorXd              mass_;        ///< [angles]
+  std::vector<Law>             laws_;
+  std::vector<LocalState>      samples_;
+  std::vector<Eigen::VectorXd> at_samples_; ///< forces and joints there
+  std::vector<AngleDependence> dependences_;
 };
 
 /// Name of the coordinate that moves most in the first free shift of a problem.

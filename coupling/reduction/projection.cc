@@ -34,7 +34,7 @@ void add_stress(ReducedStress &reduced, const fem::StressRecovery &stress, const
   reduced.point     = stress.point;
   reduced.triangles = stress.triangles;
   reduced.rigid     = stress.rigid;
-  reduced.beside    = stress.beside;
+  reduced.nearby    = stress.nearby;
   const auto add    = [&](fem::StressOf which, Eigen::MatrixXf &to)
   {
     to.setZero(fem::stress_components * Eigen::Index(stress.point.size()), T.cols() + 3);

@@ -56,7 +56,7 @@ BasisFunction &basis_function(const ReductionOptions &options)
   return *function;
 }
 
-MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
+MatrixXd side_by_side(const MatrixXd &A, const MatrixXd &B)
 {
   MatrixXd both(B.rows(), A.cols() + B.cols());
   both << A, B;
@@ -69,7 +69,7 @@ bool complete(ReductionSpace &space, const fem::FrameMatrices &frame, const Matr
 {
   if (space.attachment.size() == 0)
     space.attachment.resize(frame.M.rows(), 0);
-  return append_attachment_modes(space.basis, frame, beside(std::exchange(space.attachment, {}), relief)) > 0;
+  return append_attachment_modes(space.basis, frame, side_by_side(std::exchange(space.attachment, {}), relief)) > 0;
 }
 
 /// Of those that stand first behind the interface.

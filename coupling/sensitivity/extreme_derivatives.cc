@@ -34,15 +34,15 @@ ExtremeDerivatives::ExtremeDerivatives(const RunResult &run, const std::vector<P
   const double far = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < run.signals.size(); ++i)
   {
-    const SignalSummary &told = run.signals[i];
-    extremes_.push_back({i, false, told.t_min, told.min, far});
-    extremes_.push_back({i, true, told.t_max, told.max, far});
-    sizes_.push_back(std::max(std::abs(told.min), std::abs(told.max)));
+    const SignalSummary &reported = run.signals[i];
+    extremes_.push_back({i, false, reported.t_min, reported.min, far});
+    extremes_.push_back({i, true, reported.t_max, reported.max, far});
+    sizes_.push_back(std::max(std::abs(reported.min), std::abs(reported.max)));
     for (const auto &[name, of, value] :
-         {std::tuple(".min", told.unit, told.min), std::tuple(".t_min", std::string("s"), told.t_min),
-          std::tuple(".max", told.unit, told.max), std::tuple(".t_max", std::string("s"), told.t_max),
-          std::tuple(".final", told.unit, told.final)})
-      outputs_.push_back({told.name + name, of, value, VectorXd::Constant(Index(twins.size()), none)});
+         {std::tuple(".min", reported.unit, reported.min), std::tuple(".t_min", std::string("s"), reported.t_min),
+          std::tuple(".max", reported.unit, reported.max), std::tuple(".t_max", std::string("s"), reported.t_max),
+          std::tuple(".final", reported.unit, reported.final)})
+      outputs_.push_back({reported.name + name, of, value, VectorXd::Constant(Index(twins.size()), none)});
   }
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     outputs_[i].is_zero = i % 5 % 2 == 0 && std::abs(outputs_[i].value) <= located * sizes_[i / 5];
@@ -93,12 +93,12 @@ void ExtremeDerivatives::set(const Extreme &extreme, const VectorXd &of_value, c
   instant.note       = {};
 }
 
-void ExtremeDerivatives::at_event(double t, const Told &told, const VectorXd &rates, const RowVectorXd &dt)
+void ExtremeDerivatives::at_event(double t, const Told &reported, const VectorXd &rates, const RowVectorXd &dt)
 {
   for (Extreme &extreme : extremes_)
   {
     const Index  i   = Index(extreme.signal);
-    const double off = std::abs(told.y[i] - extreme.value);
+    const double off = std::abs(reported.y[i] - extreme.value);
     if (std::abs(extreme.t - t) > near_ || is_rounding(extreme))
       continue;
     if (extreme.value != 0. && std::abs(extreme.value) <= located * sizes_[extreme.signal])
@@ -110,7 +110,7 @@ void ExtremeDerivatives::at_event(double t, const Told &told, const VectorXd &ra
     if (!(off < extreme.off - rounding * std::abs(extreme.value)))
       continue;
     extreme.off = off;
-    set(extreme, told.dy.row(i).transpose() + rates[i] * dt.transpose(), dt.transpose());
+    set(extreme, reported.dy.row(i).transpose() + rates[i] * dt.transpose(), dt.transpose());
   }
 }
 
@@ -137,7 +137,7 @@ std::string ExtremeDerivatives::no_turn(const Extreme &extreme, const Turn &turn
   if (turn.kink == Kink::jump)
     text << "the signal jumps there, at no event";
   else if (turn.kink == Kink::corner)
-    text << "the signal has a corner there, where its rate goes from " << turn.before << " to " << turn.behind
+    text << "the signal has a corner there, where its rate goes from " << turn.before << " to " << turn.after
          << " per second";
   else if (std::abs(turn.rate) * step > level * sizes_[extreme.signal])
     text << "the signal does not turn there, its rate is " << turn.rate << " per second";
@@ -183,18 +183,18 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
     output(extreme, true).note = "no derivative where one percent would move it by more than the run: the peak is flat";
 }
 
-void ExtremeDerivatives::at_window(double t, const Told &told, const VectorXd &rates, const RowVectorXd &dt)
+void ExtremeDerivatives::at_window(double t, const Told &reported, const VectorXd &rates, const RowVectorXd &dt)
 {
   for (Extreme &extreme : extremes_)
     if (extreme.t == t && !is_rounding(extreme))
-      set(extreme, told.dy.row(Index(extreme.signal)).transpose() + rates[Index(extreme.signal)] * dt.transpose(),
+      set(extreme, reported.dy.row(Index(extreme.signal)).transpose() + rates[Index(extreme.signal)] * dt.transpose(),
           dt.transpose());
 }
 
-void ExtremeDerivatives::at_end(double t, const Told &told, const VectorXd &rates, const RowVectorXd &end)
+void ExtremeDerivatives::at_end(double t, const Told &reported, const VectorXd &rates, const RowVectorXd &end)
 {
   for (std::size_t i = 0; i < sizes_.size(); ++i)
-    outputs_[5 * i + 4].derivative = told.dy.row(Index(i)).transpose() + rates[Index(i)] * end.transpose();
+    outputs_[5 * i + 4].derivative = reported.dy.row(Index(i)).transpose() + rates[Index(i)] * end.transpose();
   for (Extreme &extreme : extremes_)
     if (std::abs(extreme.t - t) <= near_ && !is_rounding(extreme))
       set(extreme, outputs_[5 * extreme.signal + 4].derivative, end.transpose());

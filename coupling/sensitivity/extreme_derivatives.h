@@ -35,14 +35,14 @@ public:
   std::map<std::size_t, double> turning_at(double t) const;
 
   /// About an event that moves by dt: before it, between two of one instant, behind it.
-  void at_event(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
+  void at_event(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
   /// Where a signal turns.
   /// @param step  [s] of the variational equations
   void at_turn(double t, std::size_t signal, const Turn &turn, double step);
   /// Extremes at t, where they begin to count, which moves by `dt`.
-  void at_window(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
+  void at_window(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
   /// The end of the run, which moves by `end`.
-  void at_end(double t, const Told &told, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &end);
+  void at_end(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &end);
 
   /// .min, .t_min, .max, .t_max, .final of every signal
   std::vector<OutputDerivatives> take() { return std::move(outputs_); }

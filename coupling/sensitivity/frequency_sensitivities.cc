@@ -89,9 +89,9 @@ struct TwoSidedMode
 /// By inverse iteration in the motions Z that joints leave free.
 VectorXd left_vector(const Matrices &own, const MatrixXd &Z, const VectorXd &v, double square)
 {
-  constexpr double beside     = 1e-8; // of omega^2: nearer than any other frequency, and regular
+  constexpr double nearby     = 1e-8; // of omega^2: nearer than any other frequency, and regular
   constexpr int    iterations = 4;    // from the right vector
-  const MatrixXd   A          = Z.transpose() * (own.K.transpose() - (1. + beside) * square * own.M) * Z,
+  const MatrixXd   A          = Z.transpose() * (own.K.transpose() - (1. + nearby) * square * own.M) * Z,
                  M            = Z.transpose() * own.M;
   VectorXd w                  = v;
   for (int i = 0; i < iterations; ++i)

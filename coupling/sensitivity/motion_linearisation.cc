@@ -307,14 +307,14 @@ void MotionLinearisation::differentiate(const MotionState &state, const std::vec
 void MotionLinearisation::find_inexact(const MotionState &state)
 {
   const Index n_u = state.local.u.size();
-  Linearised  told, seen, wide;
-  for (Linearised *at : {&told, &seen, &wide})
+  Linearised  reported, seen, wide;
+  for (Linearised *at : {&reported, &seen, &wide})
   {
     at->P_u.setZero(n_u, n_u);
     at->P_v.setZero(n_u, n_u);
   }
   product_.resize(n_u);
-  machine_.forces().derivatives(state.local, product_, told.P_u, told.P_v);
+  machine_.forces().derivatives(state.local, product_, reported.P_u, reported.P_v);
   const std::vector<char> all(blocks_.size(), 1);
   differentiate(state, all, 1., seen);
   differentiate(state, all, wider, wide);
@@ -324,13 +324,13 @@ void MotionLinearisation::find_inexact(const MotionState &state)
       {
         double terms = 0.;
         for (int j = blocks_[b].first_measure; j < blocks_[b].first_measure + blocks_[b].n_measures; ++j)
-          terms += std::abs(told.P_u(i, j)) * way(blocks_[b], j, false, state.local) / shift +
-                   std::abs(told.P_v(i, j)) * way(blocks_[b], j, true, state.local) / shift;
+          terms += std::abs(reported.P_u(i, j)) * way(blocks_[b], j, false, state.local) / shift +
+                   std::abs(reported.P_v(i, j)) * way(blocks_[b], j, true, state.local) / shift;
         for (int j = blocks_[b].first_measure; j < blocks_[b].first_measure + blocks_[b].n_measures; ++j)
         {
           const auto   of       = [&](const Linearised &at) { return (rates ? at.P_v : at.P_u)(i, j); };
           const double rounding = digit * terms / way(blocks_[b], j, rates, state.local);
-          if (!(std::abs(of(told) - of(seen)) <= sure * (std::abs(of(seen) - of(wide)) + rounding)))
+          if (!(std::abs(of(reported) - of(seen)) <= sure * (std::abs(of(seen) - of(wide)) + rounding)))
             inexact_[b] = 1;
         }
       }

@@ -262,8 +262,8 @@ void Passage::take_events(std::size_t number)
   LocalState rates;
   VectorXd   y_rates;
   signals_.find_rates(state, little * steps_.step(), rates, y_rates);
-  const Told told = signals_.tell(state, columns);
-  extremes_.at_event(state.t, told, y_rates, dt_);
+  const Told reported = signals_.tell(state, columns);
+  extremes_.at_event(state.t, reported, y_rates, dt_);
   for (const int guard : piece.guards)
   {
     const ActiveGuard active = machine_.events().guard(guard);
@@ -313,12 +313,12 @@ void Passage::tell_piece_begin(std::size_t number)
   const MotionState &state = steps_.state();
   if (!extremes_.any_at(state.t))
     return;
-  const Told told = signals_.tell(state, steps_.columns());
+  const Told reported = signals_.tell(state, steps_.columns());
   LocalState rates;
-  VectorXd   y_rates = VectorXd::Zero(told.y.size());
+  VectorXd   y_rates = VectorXd::Zero(reported.y.size());
   if (number > 0)
     signals_.find_rates(state, little * steps_.step(), rates, y_rates);
-  extremes_.at_event(state.t, told, y_rates, dt_);
+  extremes_.at_event(state.t, reported, y_rates, dt_);
 }
 
 void Passage::advance_to(double t)
@@ -373,20 +373,20 @@ RowVectorXd Passage::shift_of(double MachineTwin::*instant) const
 
 void Passage::tell_window()
 {
-  const Told told = signals_.tell(steps_.state(), steps_.columns());
+  const Told reported = signals_.tell(steps_.state(), steps_.columns());
   LocalState rates;
   VectorXd   y_rates;
   signals_.find_rates(steps_.state(), little * steps_.step(), rates, y_rates);
-  extremes_.at_window(steps_.state().t, told, y_rates, shift_of(&MachineTwin::from));
+  extremes_.at_window(steps_.state().t, reported, y_rates, shift_of(&MachineTwin::from));
 }
 
 void Passage::tell_end()
 {
-  const Told told = signals_.tell(steps_.state(), steps_.columns());
+  const Told reported = signals_.tell(steps_.state(), steps_.columns());
   LocalState rates;
   VectorXd   y_rates;
   signals_.find_rates(steps_.state(), little * steps_.step(), rates, y_rates);
-  extremes_.at_end(steps_.state().t, told, y_rates, shift_of(&MachineTwin::end));
+  extremes_.at_end(steps_.state().t, reported, y_rates, shift_of(&MachineTwin::end));
 }
 
 /// Of a motion too coarse to have the derivatives that its equations have along it.
@@ -398,7 +398,7 @@ std::string coarse_motion(const VariationalAccuracy &accuracy, const Sensitivity
   const auto  &method = problem.options.method;
   return "derivatives by " + problem.twins[std::size_t(worst)].key +
          (n > 1 ? " and " + std::to_string(n - 1) + (n > 2 ? " other entries" : " other entry") : "") +
-         " behind t = " + short_text(accuracy.behind) + " s may be off by about " + short_text(100. * off, 2) + " %: " +
+         " behind t = " + short_text(accuracy.after) + " s may be off by about " + short_text(100. * off, 2) + " %: " +
          (controlled(method) ? "nodes of the run lie too far apart for what moves there; give a smaller run.tolerance"
                              : "steps of " + short_text(method.step) +
                                    " s are too long for what moves there; give run.tolerance or a smaller run.step");
@@ -418,7 +418,7 @@ RunSensitivities Passage::result()
   found.warnings = meeting_events(events_, problem_.twins, near_);
   for (std::string &warning : growth_.warnings())
     found.warnings.push_back(std::move(warning));
-  if (std::isfinite(steps_.accuracy().behind))
+  if (std::isfinite(steps_.accuracy().after))
     found.warnings.push_back(coarse_motion(steps_.accuracy(), problem_));
   found.outputs = extremes_.take();
   found.outputs.insert(found.outputs.end(), events_.begin(), events_.end());

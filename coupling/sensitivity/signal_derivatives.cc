@@ -123,7 +123,7 @@ LocalState SignalDerivatives::local_at(const MotionState &state, const MotionCol
 
 Told SignalDerivatives::tell(const MotionState &state, const MotionColumns &columns) const
 {
-  Told told{values(state), MatrixXd(Index(signals_.size()), Index(twins_.size()))};
+  Told reported{values(state), MatrixXd(Index(signals_.size()), Index(twins_.size()))};
   for (int k = 0; k < int(twins_.size()); ++k)
   {
     const ParameterTwins &twins = twins_[std::size_t(k)];
@@ -133,11 +133,12 @@ Told SignalDerivatives::tell(const MotionState &state, const MotionColumns &colu
                    v_above = state.v + h * columns.v.col(k), v_below = state.v - h * columns.v.col(k),
                    a_above = state.a + h * columns.a.col(k), a_below = state.a - h * columns.a.col(k);
     for (std::size_t i = 0; i < signals_.size(); ++i)
-      told.dy(Index(i), k) = (twins.plus.machine->evaluate(twins.plus.signals[i], q_above, v_above, a_above, above) -
-                              twins.minus.machine->evaluate(twins.minus.signals[i], q_below, v_below, a_below, below)) /
-                             (2. * h);
+      reported.dy(Index(i), k) =
+          (twins.plus.machine->evaluate(twins.plus.signals[i], q_above, v_above, a_above, above) -
+           twins.minus.machine->evaluate(twins.minus.signals[i], q_below, v_below, a_below, below)) /
+          (2. * h);
   }
-  return told;
+  return reported;
 }
 
 VectorXd SignalDerivatives::values(const MotionState &state) const
@@ -224,7 +225,7 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
 {
   struct Over
   {
-    double way, rate, second, before, behind, jump; ///< jump: y behind less y before
+    double way, rate, second, before, after, jump; ///< jump: y behind less y before
   };
   const auto   y    = [&](const MotionState &m) { return machine_.evaluate(signals_[signal], m.q, m.v, m.a, m.local); };
   const double here = y(at);
@@ -256,10 +257,10 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   found.rate            = over[best].rate;
   found.second          = over[best].second;
   found.before          = last.before;
-  found.behind          = last.behind;
+  found.after           = last.after;
   found.kink            = jumps(but_one.jump, last.jump, rounding) ? Kink::jump
-                          : jumps(but_one.behind - but_one.before, last.behind - last.before, rounding / last.way) ? Kink::corner
-                                                                                                                   : Kink::none;
+                          : jumps(but_one.after - but_one.before, last.after - last.before, rounding / last.way) ? Kink::corner
+                                                                                                                 : Kink::none;
   const bool slow = !found.known() && found.kink == Kink::none && find_slow_turn(signal, at, longest * step, found);
   return slow ? longest * step : over[best].way;
 }

@@ -28,8 +28,8 @@ struct Turn
   double          rate = 0., second = 0., off = 0.; ///< y', y'', error of y''
   Eigen::VectorXd dy, d_rate;                       ///< dy/dx, dy'/dx [K]
   Kink            kink   = Kink::none;
-  double          before = 0., behind = 0.; ///< y' of either side
-  Eigen::VectorXd d_off{};                  ///< error of d_rate [K]; empty: none
+  double          before = 0., after = 0.; ///< y' of either side
+  Eigen::VectorXd d_off{};                 ///< error of d_rate [K]; empty: none
 
   /// y'' is known to a ten thousandth: changes of instants are told to as many figures.
   bool known() const;

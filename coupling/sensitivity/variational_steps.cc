@@ -366,8 +366,8 @@ void VariationalSteps::note_accuracy(double error, double length)
     of_run_ += relative_sizes(e_q_, e_v_);
   }
   accuracy_.off = accuracy_.off.cwiseMax(of_run_ + settled_ + relative_sizes(left_.q, left_.v));
-  if (accuracy_.off.maxCoeff() > accuracy_.believed && accuracy_.behind == never)
-    accuracy_.behind = state_.t;
+  if (accuracy_.off.maxCoeff() > accuracy_.believed && accuracy_.after == never)
+    accuracy_.after = state_.t;
 }
 
 /// Largest of e_q, e_v for each parameter, each coordinate by its own size.

@@ -40,7 +40,7 @@ struct VariationalAccuracy
   static constexpr double believed = 0.02; ///< errors up to it are not told
 
   Eigen::RowVectorXd off; ///< of each parameter: largest error that steps have left so far
-  double             behind = std::numeric_limits<double>::infinity(); ///< [s] from where one of them is not believed
+  double             after = std::numeric_limits<double>::infinity(); ///< [s] from where one of them is not believed
 };
 
 /**

@@ -38,7 +38,7 @@ void require_finite(const std::vector<Signal> &signals, const SignalSample &samp
 
 } // namespace
 
-std::string no_number_words(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
+std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   if (q.allFinite() && v.allFinite())
     return "";
@@ -134,7 +134,7 @@ void Recorder::begin()
 {
   if (energy_)
     energy_->begin();
-  behind_  = integrator_.local();
+  after_   = integrator_.local();
   pending_ = true;
   pictures();
   keeper_.follow();
@@ -145,12 +145,12 @@ void Recorder::begin()
 void Recorder::settle()
 {
   pending_ = false;
-  tell(behind_.t, behind_, probe_);
+  tell(after_.t, after_, probe_);
   extremes_.restart(probe_);
   values_behind();
   if (next_row_ == 0)
   {
-    row(behind_.t, probe_, result_.energy);
+    row(after_.t, probe_, result_.energy);
     next_row_ = 1;
   }
 }
@@ -179,7 +179,7 @@ void Recorder::step()
 /// A step between two events at one instant.
 void Recorder::follow_briefly()
 {
-  behind_ = integrator_.local();
+  after_ = integrator_.local();
   balance();
 }
 
@@ -194,10 +194,10 @@ void Recorder::balance()
 void Recorder::event(const Event &event)
 {
   values_before();
-  extremes_.happened(event.name);
+  extremes_.on_event(event.name);
   if (energy_)
     energy_->event(event);
-  behind_  = integrator_.local();
+  after_   = integrator_.local();
   pending_ = true;
   picture_event();
 }
@@ -221,7 +221,7 @@ void Recorder::values_before()
 void Recorder::values_behind()
 {
   for (; settled_ < result_.event_values.size(); ++settled_)
-    result_.event_values[settled_].behind = probe_.values;
+    result_.event_values[settled_].after = probe_.values;
 }
 
 void Recorder::rows()
@@ -288,7 +288,7 @@ void Recorder::picture(double t)
     integrator_.interpolate(inside, between_.local);
     forces_on_measures(machine_, between_.local, p_);
   }
-  if (const std::string words = no_number_words(t, between_.q, between_.v); !words.empty())
+  if (const std::string words = non_finite_state_message(t, between_.q, between_.v); !words.empty())
     throw ConvergenceFailure(words);
   result_.picture_times.push_back(t);
   result_.picture_forces.push_back(p_);
@@ -342,13 +342,13 @@ void Recorder::finish(RunOutcome &outcome)
   {
     result_.signals[i].final = last.values[i];
     if (!extremes_.reached())
-      extremes_.look_anew(i);
+      extremes_.reset_extremes(i);
     if (extremes_.watched(i))
       continue;
     outcome.warn("signal-window", signals_[i].name,
                  "signal " + signals_[i].name + " is watched from the event \"" + signals_[i].from +
                      "\" on, which did not happen: its extremes are those of the end");
-    extremes_.look_anew(i);
+    extremes_.reset_extremes(i);
   }
   if (!extremes_.reached())
     outcome.warn("result-window", "output.from",
@@ -362,7 +362,7 @@ void Recorder::exchange(StateArchive &archive)
 {
   archive(result_.signals, result_.rows, result_.event_values, result_.energy, result_.picture_times,
           result_.picture_states, result_.picture_velocities, result_.picture_forces);
-  archive(keeper_, around_, between_, a_, extremes_, behind_, pending_, length_, settled_, next_row_, next_picture_,
+  archive(keeper_, around_, between_, a_, extremes_, after_, pending_, length_, settled_, next_row_, next_picture_,
           close_until_, close_budget_);
   if (energy_)
     archive(*energy_);

@@ -15,7 +15,7 @@ namespace gestell::coupling
 {
 
 /// Why a motion is none: a coordinate or its rate is no finite number; "" if all are.
-std::string no_number_words(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
+std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
 /// Coordinates that signals read by their positions or rates, ascending.
 std::vector<int> coordinates_of(const std::vector<Signal> &signals);
@@ -77,7 +77,7 @@ private:
   std::optional<Accelerations> accelerations_; ///< if a signal reads any
   SignalExtremes               extremes_;
   SignalSample                 probe_;            ///< scratch
-  LocalState                   behind_;           ///< the motion behind the last event
+  LocalState                   after_;            ///< the motion behind the last event
   bool                         pending_  = false; ///< and it has not been told yet
   double                       length_   = 0.;    ///< of the last step that was told
   double                       row_step_ = 0., picture_step_ = 0.;

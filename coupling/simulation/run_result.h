@@ -75,9 +75,9 @@ struct SignalSummary
 /// Signals at a located event, by number: just before the first event of that instant, and behind the last one.
 struct EventValues
 {
-  double              t = 0.;         ///< [s] where they hold: not at an event that was gone over
-  std::vector<double> before, behind; ///< empty: none
-  std::vector<double> rate;           ///< [1/s] before; nan: no step was made since the motion restarted
+  double              t = 0.;        ///< [s] where they hold: not at an event that was gone over
+  std::vector<double> before, after; ///< empty: none
+  std::vector<double> rate;          ///< [1/s] before; nan: no step was made since the motion restarted
 };
 
 /// What the integration cost.

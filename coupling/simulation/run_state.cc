@@ -17,7 +17,7 @@ void exchange(StateArchive &archive, SignalSummary &summary)
 
 void exchange(StateArchive &archive, EventValues &values)
 {
-  archive(values.t, values.before, values.behind, values.rate);
+  archive(values.t, values.before, values.after, values.rate);
 }
 
 } // namespace gestell::coupling

@@ -58,7 +58,7 @@ SignalExtremes::SignalExtremes(SampledRun &run, const Sampling &sampling, const 
   }
 }
 
-void SignalExtremes::happened(const std::string &event)
+void SignalExtremes::on_event(const std::string &event)
 {
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (!watched_[i] && signals_[i].from == event)
@@ -73,7 +73,7 @@ void SignalExtremes::restart(const SignalSample &at)
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (anew_[i])
     {
-      look_anew(i);
+      reset_extremes(i);
       anew_[i] = false;
     }
   open_ = open_ || at.t >= from_;
@@ -92,7 +92,7 @@ void SignalExtremes::open(double t)
   }
 }
 
-void SignalExtremes::look_anew(std::size_t signal)
+void SignalExtremes::reset_extremes(std::size_t signal)
 {
   SignalSummary &summary = summaries_[signal];
   summary.min = summary.max = last().values[signal];

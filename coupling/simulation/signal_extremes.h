@@ -62,7 +62,7 @@ public:
                  std::vector<SignalSummary> &summaries);
 
   /// Signals that are watched from that event on count from the next restart() on.
-  void happened(const std::string &event);
+  void on_event(const std::string &event);
   /// The motion goes on from there, and what was before says nothing about it: the start, or the last of some events.
   void restart(const SignalSample &at);
   /// A step from the last sample to `end`.
@@ -78,7 +78,7 @@ public:
   bool   watched(std::size_t signal) const { return watched_[signal] != 0; }
   bool   reached() const { return open_ != 0; } ///< the instant from which on extremes count
   /// Extremes of a signal count from the last sample on.
-  void look_anew(std::size_t signal);
+  void reset_extremes(std::size_t signal);
 
   void exchange(StateArchive &archive);
 

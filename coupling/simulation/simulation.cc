@@ -6,9 +6,9 @@
 #include "coupling/simulation/checks/contacts_and_switches.h"
 #include "coupling/simulation/checks/run_checks.h"
 #include "coupling/simulation/checks/step_collapse_guard.h"
-#include "coupling/simulation/checks/unseen_forces.h"
+#include "coupling/simulation/checks/step_resolution_check.h"
+#include "coupling/simulation/flush_denormals.h"
 #include "coupling/simulation/kept_size.h"
-#include "coupling/simulation/no_tiny_numbers.h"
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/resumable_run.h"
 #include "coupling/simulation/run_method.h"
@@ -205,7 +205,7 @@ void Run::finish()
   result_.events    = motion_.driver().events();
   result_.end_state = integrator.instant().q;
   if (result_.failure.empty())
-    result_.failure = no_number_words(integrator.time(), result_.end_state, integrator.instant().v);
+    result_.failure = non_finite_state_message(integrator.time(), result_.end_state, integrator.instant().v);
   static_cast<IntegrationWork &>(result_.work) = integrator.work();
   result_.work.chatter                         = motion_.chattering_steps();
   for (const auto &observer : observers_)
@@ -226,7 +226,7 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
                    const std::atomic<bool> *stop, Trajectory *trajectory, const RunCheckpoints *checkpoints,
                    WatchedSignals *watched)
 {
-  const NoTinyNumbers while_it_runs;
+  const FlushDenormals while_it_runs;
   check_run(machine, options, signals.size());
   const auto [history, pictures, states] = kept_bytes(machine, options, signals.size());
   fem::require_available("the rows of history, and states for pictures and stresses,", history + pictures + states,

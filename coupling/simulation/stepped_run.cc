@@ -5,7 +5,7 @@
 #include "coupling/simulation/checks/contacts_and_switches.h"
 #include "coupling/simulation/checks/energy_check.h"
 #include "coupling/simulation/checks/run_checks.h"
-#include "coupling/simulation/no_tiny_numbers.h"
+#include "coupling/simulation/flush_denormals.h"
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/run_method.h"
 #include "coupling/simulation/simulation.h"
@@ -36,7 +36,7 @@ LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOpti
   machine.gather(options.begin, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), at);
   machine.events().follow_history(false);
   machine.events().start(at);
-  return loads_to_come(machine, at, options.end);
+  return load_breakpoints(machine, at, options.end);
 }
 
 /// Nothing is kept of a run that others follow.
@@ -59,7 +59,7 @@ SteppedRun::SteppedRun(Machine &machine, const InitialState &initial, const RunO
       values_(signals_.size()), target_(options.begin), slack_(no_time * method_.step), still_(initial.still),
       next_look_(first_look)
 {
-  const NoTinyNumbers while_it_starts;
+  const FlushDenormals while_it_starts;
   inside_.resize(machine);
   check_start(machine, initial, options_, method_, outcome_);
   loaded_ = loaded(machine, initial, options, steps_);
@@ -159,10 +159,10 @@ void SteppedRun::evaluate(const LocalState &local)
 /// The history is that of its end.
 void SteppedRun::look_behind_step(double t, Eigen::VectorXd on_step)
 {
-  const Eigen::VectorXd behind = machine_.events().save_history();
+  const Eigen::VectorXd after = machine_.events().save_history();
   machine_.events().restore_history(on_step);
   look_into_step(t, on_step, ahead_ ? checks_at(t) : checks_now());
-  machine_.events().restore_history(behind);
+  machine_.events().restore_history(after);
 }
 
 /// The last step reaches to t as well.  Behind an event its dense output is gone, and it is made anew.
@@ -193,9 +193,9 @@ void SteppedRun::end_in_step()
 
 void SteppedRun::go_on_to(double t)
 {
-  const NoTinyNumbers while_it_runs;
-  const double        end    = options_.end - slack_;
-  const bool          before = now_ < end;
+  const FlushDenormals while_it_runs;
+  const double         end    = options_.end - slack_;
+  const bool           before = now_ < end;
   try
   {
     move_to(t);
@@ -218,7 +218,7 @@ void SteppedRun::verify() const
 
 std::string SteppedRun::finish(const std::string &failure)
 {
-  const NoTinyNumbers while_they_tell;
+  const FlushDenormals while_they_tell;
   if (ahead_)
     restore_checks(there_.checks);
   outcome_.failure = failure;
@@ -252,7 +252,7 @@ void SteppedRun::move_to(double t)
 
 void SteppedRun::load_jumped()
 {
-  const NoTinyNumbers while_it_starts;
+  const FlushDenormals while_it_starts;
   if (ahead_)
     restore(there_);
   else
@@ -293,10 +293,10 @@ SteppedState SteppedRun::state()
 
 void SteppedRun::restore(const SteppedState &state)
 {
-  const NoTinyNumbers while_it_starts;
-  const SteppedState  at = state; // it may be the own one
-  ended_                 = at.ended;
-  end_                   = at.t;
+  const FlushDenormals while_it_starts;
+  const SteppedState   at = state; // it may be the own one
+  ended_                  = at.ended;
+  end_                    = at.t;
   events_.erase(std::remove_if(events_.begin(), events_.end(), [&](const Event &e) { return e.t > at.t; }),
                 events_.end());
   steps_.begin_with(at.history, options_.events);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/integration/events/motion.h"
-#include "coupling/integration/step/loads_to_come.h"
+#include "coupling/integration/step/load_breakpoints.h"
 #include "coupling/machine/accelerations.h"
 #include "coupling/machine/initial_state.h"
 #include "coupling/machine/machine.h"

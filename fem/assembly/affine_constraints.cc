@@ -155,13 +155,13 @@ void along_row(const BlockMatrix &A, const BlockMatrix::Rows &rows, int node, in
 } // namespace
 
 Eigen::SparseMatrix<double> AffineConstraints::project_free(const BlockMatrix                 &A,
-                                                            const Eigen::SparseMatrix<double> &beside) const
+                                                            const Eigen::SparseMatrix<double> &nearby) const
 {
   // Free displacements keep their entries.  Column j is taken from row j, A being symmetric; both come ascending.
   const BlockMatrix::Rows rows         = A.rows();
   const auto              visit_column = [&](int i, const auto &visit)
   {
-    Eigen::SparseMatrix<double>::InnerIterator more(beside, column_[i]);
+    Eigen::SparseMatrix<double>::InnerIterator more(nearby, column_[i]);
     along_row(A, rows, i / 3, i % 3,
               [&](int displacement, double value)
               {
@@ -189,7 +189,7 @@ Eigen::SparseMatrix<double> AffineConstraints::project_free(const BlockMatrix   
     }
   for (int j = n_free_; j < n_coordinates_; ++j)
   {
-    count += beside.outerIndexPtr()[j + 1] - beside.outerIndexPtr()[j];
+    count += nearby.outerIndexPtr()[j + 1] - nearby.outerIndexPtr()[j];
     sum.outerIndexPtr()[j + 1] = count;
   }
 
@@ -204,7 +204,7 @@ Eigen::SparseMatrix<double> AffineConstraints::project_free(const BlockMatrix   
     if (column_[i] >= 0)
       visit_column(i, put);
   for (int j = n_free_; j < n_coordinates_; ++j)
-    for (Eigen::SparseMatrix<double>::InnerIterator more(beside, j); more; ++more)
+    for (Eigen::SparseMatrix<double>::InnerIterator more(nearby, j); more; ++more)
       put(int(more.row()), more.value());
   return sum;
 }

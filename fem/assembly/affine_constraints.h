@@ -76,7 +76,7 @@ public:
 
 private:
   /// What A means for the free displacements, and `beside` [n x n], symmetric: their sum is made in one piece.
-  Eigen::SparseMatrix<double> project_free(const BlockMatrix &A, const Eigen::SparseMatrix<double> &beside) const;
+  Eigen::SparseMatrix<double> project_free(const BlockMatrix &A, const Eigen::SparseMatrix<double> &nearby) const;
 
   std::vector<int>                             column_;     // [3 n_nodes] coordinate or -1
   std::vector<int>                             new_column_; // coordinates of the new values

@@ -52,13 +52,13 @@ std::vector<int> partners(int n_nodes, const Elements &elements)
   std::vector<int> at(first.back()), next(first.begin(), first.end() - 1);
   for_each([&](std::size_t element, int node) { at[next[node]++] = static_cast<int>(element); });
 
-  std::vector<int> count(n_nodes, 0), seen(n_nodes, -1);
+  std::vector<int> count(n_nodes, 0), visited(n_nodes, -1);
   for (int node = 0; node < n_nodes; ++node)
     for (int i = first[node]; i < first[node + 1]; ++i)
       for (int k = 0; k < elements.n_nodes[at[i]]; ++k)
-        if (const int other = elements.nodes[at[i]][k]; seen[other] != node)
+        if (const int other = elements.nodes[at[i]][k]; visited[other] != node)
         {
-          seen[other] = node;
+          visited[other] = node;
           ++count[node];
         }
   return count;

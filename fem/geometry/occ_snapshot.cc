@@ -1,6 +1,6 @@
 #include "fem/geometry/occ_snapshot.h"
 
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <gmsh.h>
 
@@ -15,8 +15,8 @@ namespace gestell::fem
 
 TopoDS_Shape occ_snapshot()
 {
-  const PassingFolder folder;
-  const std::string   file = folder.path() / "shapes.brep";
+  const TemporaryDirectory folder;
+  const std::string        file = folder.path() / "shapes.brep";
   gmsh::write(file);
   TopoDS_Shape shape;
   if (!BRepTools::Read(shape, file.c_str(), BRep_Builder()))

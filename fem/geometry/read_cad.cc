@@ -4,8 +4,8 @@
 #include "fem/geometry/cad_file.h"
 #include "fem/geometry/defeature.h"
 #include "fem/geometry/gmsh_faces.h"
-#include "fem/geometry/harmless_files.h"
 #include "fem/geometry/load_inp.h"
+#include "fem/geometry/script_sandbox.h"
 #include "fem/geometry/shells.h"
 #include "fem/geometry/solid_union.h"
 #include "fem/geometry/step_attributes.h"
@@ -228,7 +228,7 @@ CadModel read_model(const CadSource &source, CadFile file, const std::string &op
 CadModel open_cad(const CadSource &source, const GmshSession &session)
 {
   const CadFile       file = check_cad_file(source);
-  const HarmlessFiles harmless(source, file);
+  const ScriptSandbox harmless(source, file);
   try
   {
     return read_model(source, file, harmless.path(), session);

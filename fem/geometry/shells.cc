@@ -31,7 +31,7 @@ std::vector<int> open_edges(const std::vector<int> &faces, const std::set<int> &
   return open;
 }
 
-std::string told(const std::vector<int> &edges, double unit)
+std::string reported(const std::vector<int> &edges, double unit)
 {
   Vector3 low, high;
   gmsh::model::getBoundingBox(1, edges.front(), low[0], low[1], low[2], high[0], high[1], high[2]);
@@ -61,7 +61,7 @@ std::string open_edges_of_faces(double unit)
 {
   const std::vector<int> loose = loose_faces();
   const std::vector<int> open  = loose.empty() ? loose : open_edges(loose, degenerate_edges());
-  return open.empty() ? "" : " (" + told(open, unit) + ")";
+  return open.empty() ? "" : " (" + reported(open, unit) + ")";
 }
 
 void check_shells(CadModel &model, const CadSource &source)
@@ -70,7 +70,8 @@ void check_shells(CadModel &model, const CadSource &source)
   const std::set<int> degenerate = degenerate_edges();
   for (const Solid &solid : model.solids)
     if (const std::vector<int> open = open_edges(solid.faces, degenerate); !open.empty())
-      throw std::invalid_argument(head + ": the shell of solid \"" + solid.name + "\" is " + told(open, model.unit) +
+      throw std::invalid_argument(head + ": the shell of solid \"" + solid.name + "\" is " +
+                                  reported(open, model.unit) +
                                   ", lengths in m; close it in the CAD program (sew or heal), and export it again.");
   const std::vector<int> loose = loose_faces();
   if (loose.empty())

@@ -19,9 +19,9 @@ Value in_gmsh_child(const CadSource &source, const std::string &phase, const Chi
 {
   const ChildTask task = gmsh_task(source, phase);
   return in_child<Value>(task, progress,
-                         [&](const ChildProgress &told)
+                         [&](const ChildProgress &on_progress)
                          {
-                           Value value = work(told);
+                           Value value = work(on_progress);
                            if (!is_finite(value))
                              throw std::invalid_argument(task.head +
                                                          ": gmsh finds lengths or volumes in it that are no finite "

@@ -127,18 +127,18 @@ double WantedSize::operator()(const Vector3 &x) const
 
 double excess_of_triangles(const WantedSize &wanted, double unit)
 {
-  const auto                     points = points_of_mesh(unit);
-  const std::vector<std::size_t> nodes  = nodes_of(triangle, -1);
-  double                         asked  = 0.;
+  const auto                     points    = points_of_mesh(unit);
+  const std::vector<std::size_t> nodes     = nodes_of(triangle, -1);
+  double                         requested = 0.;
   for (std::size_t i = 0; i + 2 < nodes.size(); i += 3)
   {
     const Vector3 a = points.at(nodes[i]), b = points.at(nodes[i + 1]), c = points.at(nodes[i + 2]);
     const double  w = wanted((1. / 3.) * (a + b + c));
-    asked += 2. / std::sqrt(3.) * norm(cross(b - a, c - a)) / (w * w);
+    requested += 2. / std::sqrt(3.) * norm(cross(b - a, c - a)) / (w * w);
   }
   for (const MeshedEdge &edge : edges_of_mesh(unit))
-    asked += 2. * edge.n_sides;
-  return double(nodes.size()) / 3. / asked;
+    requested += 2. * edge.n_sides;
+  return double(nodes.size()) / 3. / requested;
 }
 
 bool has_size_fields()

@@ -66,13 +66,15 @@ Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &prog
                const std::vector<SizePoint> &refined)
 {
   return in_gmsh_child<Mesh>(source_of(specification), mesh_phase::reading, progress,
-                             [&](const ChildProgress &told) { return mesh_of_frame(specification, told, refined); });
+                             [&](const ChildProgress &on_progress)
+                             { return mesh_of_frame(specification, on_progress, refined); });
 }
 
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress)
 {
   return in_gmsh_child<GeometryReport>(source_of(specification), mesh_phase::reading, progress,
-                                       [&](const ChildProgress &told) { return report_of_frame(specification, told); });
+                                       [&](const ChildProgress &on_progress)
+                                       { return report_of_frame(specification, on_progress); });
 }
 
 GeometryReport inspect_geometry(const FrameSpecification &specification)

@@ -79,7 +79,7 @@ void receive_values(void *values, std::size_t size, int from)
 }
 
 /// The kind of a failure, and its message.
-std::pair<Kind, std::string> told(const std::exception_ptr &failure)
+std::pair<Kind, std::string> described(const std::exception_ptr &failure)
 {
   if (!failure)
     return {Kind::none, ""};
@@ -141,7 +141,7 @@ int Ranks::next_order() const
 
 void Ranks::settle(const std::exception_ptr &failure) const
 {
-  auto [kind, message] = told(failure);
+  auto [kind, message] = described(failure);
   int         lowest   = kind == Kind::none ? size_ : rank_; // rank that speaks for all
   MPI_Request request  = MPI_REQUEST_NULL;
   MPI_Iallreduce(MPI_IN_PLACE, &lowest, 1, MPI_INT, MPI_MIN, comm(), &request);

@@ -3,7 +3,7 @@
 #include "fem/process/child_messages.h"
 #include "fem/process/ended_by_signal.h"
 #include "fem/values/message_text.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -88,7 +88,7 @@ void limit(__rlimit_resource_t resource, double value)
 class Child
 {
 public:
-  Child(const ChildTask &task, MessageWriter &out, const PassingFolder &folder) : task_(task), out_(out)
+  Child(const ChildTask &task, MessageWriter &out, const TemporaryDirectory &folder) : task_(task), out_(out)
   {
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) // the parent says when to stop
       std::signal(number, SIG_IGN);
@@ -184,11 +184,11 @@ public:
     while (polled[0].fd >= 0 && !answer_) // a child of another thread may hold the other end
     {
       const int n = ::poll(polled, 2, int(told_again.count()));
-      if (ended.asked())
+      if (ended.requested())
         return false;
-      if (const auto now = std::chrono::steady_clock::now(); progress_ && now - told_ >= told_again)
+      if (const auto now = std::chrono::steady_clock::now(); progress_ && now - reported_ >= told_again)
       {
-        told_ = now;
+        reported_ = now;
         progress_(phase_, share_);
       }
       if (n > 0 && polled[1].revents && !hear_words())
@@ -278,8 +278,7 @@ private:
 
   std::string way_out() const
   {
-    return reads() ? task_.way_out
-                   : "choose another mesh.size, or repair the geometry in the CAD program";
+    return reads() ? task_.way_out : "choose another mesh.size, or repair the geometry in the CAD program";
   }
 
   std::string out_of_memory() const
@@ -329,7 +328,7 @@ private:
   int                                   messages_, words_;
   std::string                           phase_, said_;
   double                                share_             = -1.;
-  std::chrono::steady_clock::time_point told_              = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point reported_          = std::chrono::steady_clock::now();
   bool                                  ran_out_of_memory_ = false;
   MessageReader                         reader_;
   std::optional<TextMessage>            answer_;
@@ -347,8 +346,8 @@ void tell_out_of_memory()
   throw std::bad_alloc();
 }
 
-[[noreturn]] void be_child(const ChildTask &task, const PassingFolder &folder, pid_t parent, int messages, int words,
-                           const std::function<std::string(const ChildProgress &)> &work)
+[[noreturn]] void be_child(const ChildTask &task, const TemporaryDirectory &folder, pid_t parent, int messages,
+                           int words, const std::function<std::string(const ChildProgress &)> &work)
 {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent)
@@ -382,10 +381,10 @@ bool in_one_process()
 std::string bytes_from_child(const ChildTask &task, const ChildProgress &progress,
                              const std::function<std::string(const ChildProgress &)> &work)
 {
-  const EndedBySignal ended; // obeyed when all below is gone
-  const PassingFolder folder;
-  Pipe                messages, words;
-  const pid_t         parent = ::getpid(), child = ::fork();
+  const EndedBySignal      ended; // obeyed when all below is gone
+  const TemporaryDirectory folder;
+  Pipe                     messages, words;
+  const pid_t              parent = ::getpid(), child = ::fork();
   if (child < 0)
     throw std::runtime_error(task.head + ": no child process can be made to read it: " + std::strerror(errno) +
                              "; GESTELL_ONE_PROCESS=1 in the environment does without.");

@@ -15,11 +15,11 @@ using ChildProgress = std::function<void(const std::string &phase, double share)
 /// What is done in a child, for its messages.
 struct ChildTask
 {
-  std::string   path;         ///< of the file that is read
-  std::string   head;         ///< "<place>: <file>"
-  std::string   phase;        ///< that reads: the first; once another is told of, the limits are lifted
-  ReadingLimits limits;       ///< of reading
-  bool          alone = true; ///< false: no child, see in_one_process()
+  std::string   path;             ///< of the file that is read
+  std::string   head;             ///< "<place>: <file>"
+  std::string   phase;            ///< that reads: the first; once another is told of, the limits are lifted
+  ReadingLimits limits;           ///< of reading
+  bool          alone   = true;   ///< false: no child, see in_one_process()
   std::string   library = "gmsh"; ///< that reads, for messages
   std::string   way_out = "the file is probably damaged: export the model again, or in another format"; ///< of reading
 };
@@ -52,9 +52,9 @@ Value in_child(const ChildTask &task, const ChildProgress &progress, const Work 
   if (!task.alone)
     return work(progress);
   return value_of<Value>(bytes_from_child(task, progress,
-                                          [&](const ChildProgress &told)
+                                          [&](const ChildProgress &reported)
                                           {
-                                            Value value = work(told);
+                                            Value value = work(reported);
                                             return bytes_of(value);
                                           }));
 }

@@ -42,7 +42,7 @@ EndedBySignal::~EndedBySignal()
   }
 }
 
-bool EndedBySignal::asked() const
+bool EndedBySignal::requested() const
 {
   return noted != 0;
 }

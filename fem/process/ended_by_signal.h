@@ -16,7 +16,7 @@ public:
   EndedBySignal(const EndedBySignal &)            = delete;
   EndedBySignal &operator=(const EndedBySignal &) = delete;
 
-  bool asked() const;
+  bool requested() const;
 
 private:
   static constexpr int n_signals        = 3;

@@ -226,7 +226,7 @@ private:
 
   void mark(const RigidNodes &rigid)
   {
-    result_.beside.assign(result_.point.size(), -1);
+    result_.nearby.assign(result_.point.size(), -1);
     for (std::size_t r = 0; r < rigid.size(); ++r)
     {
       result_.rigid.push_back(rigid[r].first);
@@ -241,8 +241,8 @@ private:
         const Lame moduli = lame(material_of_(cell));
         for (int k = 0; k < reference_cell(mesh_.kind(cell)).n_corners; ++k)
           if (const auto point = point_of_.find({nodes[k], moduli[0], moduli[1]});
-              point != point_of_.end() && result_.beside[point->second] < 0)
-            result_.beside[point->second] = static_cast<int>(r);
+              point != point_of_.end() && result_.nearby[point->second] < 0)
+            result_.nearby[point->second] = static_cast<int>(r);
       }
     }
   }

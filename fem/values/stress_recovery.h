@@ -34,7 +34,7 @@ struct StressRecovery
 
   /// Supports and interfaces that hold surfaces rigid: at their rims the stress has no limit as the mesh is refined.
   std::vector<std::string> rigid;
-  std::vector<int>         beside; ///< [points] of `rigid`: has a part in a cell at the point; -1: none
+  std::vector<int>         nearby; ///< [points] of `rigid`: has a part in a cell at the point; -1: none
 
   bool empty() const { return point.empty(); }
 };

@@ -48,10 +48,10 @@ std::vector<int> all(const TriangleSurface &surface)
 
 /// The triangles that hang together with the first one, turned as it is.
 std::vector<int> shell_of(TriangleSurface &surface, int first, const std::map<Edge, std::vector<int>> &around,
-                          std::vector<bool> &seen)
+                          std::vector<bool> &visited)
 {
   std::vector<int> shell = {first};
-  seen[first]            = true;
+  visited[first]         = true;
   for (std::size_t next = 0; next < shell.size(); ++next)
   {
     const std::array<int, 3> here = surface.triangles[shell[next]];
@@ -60,7 +60,7 @@ std::vector<int> shell_of(TriangleSurface &surface, int first, const std::map<Ed
       const Edge e = edge(here, i);
       for (const int other : around.at(std::minmax(e.first, e.second)))
       {
-        if (seen[other])
+        if (visited[other])
           continue;
         auto &triangle = surface.triangles[other];
         for (int j = 0; j < 3; ++j)
@@ -69,7 +69,7 @@ std::vector<int> shell_of(TriangleSurface &surface, int first, const std::map<Ed
             std::swap(triangle[1], triangle[2]);
             break;
           }
-        seen[other] = true;
+        visited[other] = true;
         shell.push_back(other);
       }
     }
@@ -108,13 +108,13 @@ void turn_outwards(TriangleSurface &surface)
       const Edge e = edge(surface.triangles[t], i);
       around[std::minmax(e.first, e.second)].push_back(t);
     }
-  std::vector<bool>             seen(surface.triangles.size(), false);
+  std::vector<bool>             visited(surface.triangles.size(), false);
   std::vector<std::vector<int>> shells;
   std::vector<double>           volumes;
   for (const int t : all(surface))
-    if (!seen[t])
+    if (!visited[t])
     {
-      shells.push_back(shell_of(surface, t, around, seen));
+      shells.push_back(shell_of(surface, t, around, visited));
       volumes.push_back(volume_of(surface, shells.back()));
     }
   const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };

@@ -16,45 +16,45 @@ FollowerLoad::FollowerLoad(const Placement &point, const Vector3d &e, std::share
           "1 or more: it lies on a body");
 }
 
-FollowerLoad::Seen FollowerLoad::see(const LocalMotion &motion) const
+FollowerLoad::Kinematics FollowerLoad::kinematics_of(const LocalMotion &motion) const
 {
-  Seen                   seen;
+  Kinematics             kinematics;
   Placement::MovedVector x, e;
   point_.position(motion.u, motion.v, x);
   point_.direction(e_, motion.u, motion.v, e);
   for (int i = 0; i < n_measures(); ++i)
-    seen.G[i] = e.value.dot(x.J.col(i));
-  seen.rate = e.value.dot(x.rate);
-  return seen;
+    kinematics.G[i] = e.value.dot(x.J.col(i));
+  kinematics.rate = e.value.dot(x.rate);
+  return kinematics;
 }
 
 void FollowerLoad::start(const LocalMotion &motion, double *history) const
 {
-  const Seen seen = see(motion);
-  branches_->start(seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion);
+  branches_->start(kinematics.motion(motion), history);
 }
 
 void FollowerLoad::force(const LocalMotion &motion, const double *history, double *p) const
 {
-  const Seen seen = see(motion);
-  double     P;
-  law_->force(seen.motion(motion), history, &P);
+  const Kinematics kinematics = kinematics_of(motion);
+  double           P;
+  law_->force(kinematics.motion(motion), history, &P);
   for (int i = 0; i < n_measures(); ++i)
-    p[i] = P * seen.G[i];
+    p[i] = P * kinematics.G[i];
 }
 
 void FollowerLoad::tangent(const LocalMotion &motion, const double *history, const TangentWeights &w, double *p,
                            double *dp) const
 {
-  const Seen seen = see(motion);
-  const int  k    = n_measures();
-  double     P, dP;
-  law_->tangent(seen.motion(motion), history, {0., w.v, 0.}, &P, &dP); // the law sees no displacement
+  const Kinematics kinematics = kinematics_of(motion);
+  const int        k          = n_measures();
+  double           P, dP;
+  law_->tangent(kinematics.motion(motion), history, {0., w.v, 0.}, &P, &dP); // the law sees no displacement
   for (int j = 0; j < k; ++j)
   {
-    p[j] = P * seen.G[j];
+    p[j] = P * kinematics.G[j];
     for (int i = 0; i < k; ++i)
-      dp[i + k * j] = seen.G[i] * dP * seen.G[j];
+      dp[i + k * j] = kinematics.G[i] * dP * kinematics.G[j];
   }
 }
 
@@ -77,10 +77,10 @@ void add_bending(const Placement &point, const Vector3d &e, const double *u, dou
 
 void FollowerLoad::geometric(const LocalMotion &motion, const double *history, double *K) const
 {
-  const Seen seen = see(motion);
-  const int  k    = n_measures();
-  double     P, dP, turn[Placement::max_measures * Placement::max_measures] = {}; // dG_i/du_j
-  law_->tangent(seen.motion(motion), history, {0., 1., 0.}, &P, &dP);
+  const Kinematics kinematics = kinematics_of(motion);
+  const int        k          = n_measures();
+  double           P, dP, turn[Placement::max_measures * Placement::max_measures] = {}; // dG_i/du_j
+  law_->tangent(kinematics.motion(motion), history, {0., 1., 0.}, &P, &dP);
   Placement::MovedVector x, e;
   point_.position(motion.u, nullptr, x);
   point_.direction(e_, motion.u, nullptr, e);
@@ -94,32 +94,32 @@ void FollowerLoad::geometric(const LocalMotion &motion, const double *history, d
       of_rate += turn[i + k * j] * motion.v[i];
     }
     for (int i = 0; i < k; ++i)
-      K[i + k * j] -= P * turn[i + k * j] + dP * seen.G[i] * of_rate;
+      K[i + k * j] -= P * turn[i + k * j] + dP * kinematics.G[i] * of_rate;
   }
 }
 
 void FollowerLoad::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
-  const Seen seen = see(motion);
-  branches_->guard_values(seen.motion(motion), history, g);
+  const Kinematics kinematics = kinematics_of(motion);
+  branches_->guard_values(kinematics.motion(motion), history, g);
 }
 
 void FollowerLoad::transition(int i, const LocalMotion &motion, double *history) const
 {
-  const Seen seen = see(motion);
-  branches_->transition(i, seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion);
+  branches_->transition(i, kinematics.motion(motion), history);
 }
 
 bool FollowerLoad::command(const SwitchCommand &order, const LocalMotion &motion, double *history) const
 {
-  const Seen seen = see(motion);
-  return commands_->command(order, seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion);
+  return commands_->command(order, kinematics.motion(motion), history);
 }
 
 double FollowerLoad::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  const Seen seen = see(motion);
-  return law_->quantity(i, seen.motion(motion), history);
+  const Kinematics kinematics = kinematics_of(motion);
+  return law_->quantity(i, kinematics.motion(motion), history);
 }
 
 } // namespace gestell::mechanism

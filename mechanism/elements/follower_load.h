@@ -59,7 +59,7 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
 private:
-  struct Seen
+  struct Kinematics
   {
     double s = 0., rate = 0., acceleration = 0.;
     double G[Placement::max_measures];
@@ -69,7 +69,7 @@ private:
       return {of.t, &s, &rate, &acceleration, nullptr, of.by_history, nullptr};
     }
   };
-  Seen see(const LocalMotion &motion) const;
+  Kinematics kinematics_of(const LocalMotion &motion) const;
 
   Placement                       point_;
   Vector3d                        e_;

@@ -35,9 +35,9 @@ public:
   void law(const Measures<Number> &m, const double *history, Number *p) const
   {
     const Number u = -m.u[0], force = parameters_.stiffness * u - parameters_.damping * m.v[0];
-    const bool   stands =
+    const bool   at_rest =
         parameters_.bilateral || (m.by_history ? is_closed(history) : closes(value(m.u[0]), value(m.v[0])));
-    p[0] = stands ? force : Number(0. * force);
+    p[0] = at_rest ? force : Number(0. * force);
   }
 
   const Branches *branches() const override { return parameters_.bilateral ? nullptr : this; }

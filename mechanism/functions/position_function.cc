@@ -74,9 +74,9 @@ PositionFunction::Value PositionFunction::at(double x, const double *history) co
     if (spline_->is_periodic())
       return spline_->at(x);
     const bool   before = history ? history[begins] < 0. : x < spline_->begin();
-    const bool   behind = history ? history[ends] > 0. : x > spline_->end();
+    const bool   after  = history ? history[ends] > 0. : x > spline_->end();
     const double end    = before ? spline_->begin() : spline_->end();
-    if (!before && !behind)
+    if (!before && !after)
       return spline_->at(x);
     const Value there = spline_->at(end);
     return {there.value + there.first * (x - end), there.first, 0.};

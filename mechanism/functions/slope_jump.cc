@@ -24,21 +24,21 @@ double crossing(const PositionFunction &f, int i, double sign, double low, doubl
   return high;
 }
 
-std::optional<SlopeJump> jump_between(const PositionFunction::Value &before, const PositionFunction::Value &behind)
+std::optional<SlopeJump> jump_between(const PositionFunction::Value &before, const PositionFunction::Value &after)
 {
-  if (differ(before.value, behind.value))
-    return SlopeJump{"", "the value", before.value, behind.value};
-  if (differ(before.first, behind.first))
-    return SlopeJump{"", "the slope", before.first, behind.first};
+  if (differ(before.value, after.value))
+    return SlopeJump{"", "the value", before.value, after.value};
+  if (differ(before.first, after.first))
+    return SlopeJump{"", "the slope", before.first, after.first};
   return {};
 }
 
 } // namespace
 
-bool differ(double before, double behind)
+bool differ(double before, double after)
 {
   constexpr double rounded = 1e-6, relative = 1e-5;
-  return std::abs(behind - before) > rounded + relative * (std::abs(before) + std::abs(behind));
+  return std::abs(after - before) > rounded + relative * (std::abs(before) + std::abs(after));
 }
 
 std::optional<SlopeJump> first_jump(const PositionFunction &f, double from, double to)

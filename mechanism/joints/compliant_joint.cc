@@ -28,7 +28,7 @@ CompliantJoint::CompliantJoint(const Placement &first, const Placement &second, 
   }
 }
 
-void CompliantJoint::see(const double *u, const double *v, Seen &seen) const
+void CompliantJoint::kinematics_of(const double *u, const double *v, Kinematics &kinematics) const
 {
   Placement::MovedVector x_1, x_2;
   const int              k_1 = first_.n_measures(), k = n_measures();
@@ -38,29 +38,30 @@ void CompliantJoint::see(const double *u, const double *v, Seen &seen) const
   {
     const Equation &equation = equations_[i];
     const auto      value =
-        equation.demand.measure.evaluate({first_, second_, x_1, x_2}, u, v, seen.G + Eigen::Index(i) * k);
-    seen.s[i]      = value.s - equation.demand.offset;
-    seen.rate[i]   = value.rate;
-    seen.lambda[i] = -equation.stiffness * seen.s[i] - equation.damping * value.rate;
+        equation.demand.measure.evaluate({first_, second_, x_1, x_2}, u, v, kinematics.G + Eigen::Index(i) * k);
+    kinematics.s[i]      = value.s - equation.demand.offset;
+    kinematics.rate[i]   = value.rate;
+    kinematics.lambda[i] = -equation.stiffness * kinematics.s[i] - equation.damping * value.rate;
   }
 }
 
-void CompliantJoint::spread(const Seen &seen, double *p) const
+void CompliantJoint::spread(const Kinematics &kinematics, double *p) const
 {
   const int k = n_measures();
   std::fill_n(p, k, 0.);
   for (int i = 0; i < n_equations(); ++i)
     for (int j = 0; j < k; ++j)
-      p[j] += seen.G[j + k * i] * seen.lambda[i];
+      p[j] += kinematics.G[j + k * i] * kinematics.lambda[i];
 }
 
-void CompliantJoint::add_up(const Seen &seen, double w_k, double w_d, double *matrix) const
+void CompliantJoint::add_up(const Kinematics &kinematics, double w_k, double w_d, double *matrix) const
 {
   const int k = n_measures();
   std::fill_n(matrix, k * k, 0.);
   for (int i = 0; i < n_equations(); ++i)
   {
-    const double *G = seen.G + Eigen::Index(i) * k, c = w_k * equations_[i].stiffness + w_d * equations_[i].damping;
+    const double *G = kinematics.G + Eigen::Index(i) * k,
+                 c  = w_k * equations_[i].stiffness + w_d * equations_[i].damping;
     for (int b = 0; b < k; ++b)
       if (const double column = c * G[b]; column != 0.) // most directions move few of the measures
         for (int a = 0; a < k; ++a)
@@ -70,42 +71,42 @@ void CompliantJoint::add_up(const Seen &seen, double w_k, double w_d, double *ma
 
 void CompliantJoint::force(const LocalMotion &motion, const double *, double *p) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
-  spread(seen, p);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
+  spread(kinematics, p);
 }
 
 void CompliantJoint::tangent(const LocalMotion &motion, const double *, const TangentWeights &w, double *p,
                              double *dp) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
-  spread(seen, p);
-  add_up(seen, -w.u, -w.v, dp);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
+  spread(kinematics, p);
+  add_up(kinematics, -w.u, -w.v, dp);
 }
 
 void CompliantJoint::derivatives(const LocalMotion &motion, const double *, double *p, double *dp_du,
                                  double *dp_dv) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
-  spread(seen, p);
-  add_up(seen, -1., 0., dp_du);
-  add_up(seen, 0., -1., dp_dv);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
+  spread(kinematics, p);
+  add_up(kinematics, -1., 0., dp_du);
+  add_up(kinematics, 0., -1., dp_dv);
 }
 
 void CompliantJoint::engaged(const double *u, double *K, double *D) const
 {
-  Seen seen;
-  see(u, at_rest, seen);
-  add_up(seen, 1., 0., K);
-  add_up(seen, 0., 1., D);
+  Kinematics kinematics;
+  kinematics_of(u, at_rest, kinematics);
+  add_up(kinematics, 1., 0., K);
+  add_up(kinematics, 0., 1., D);
 }
 
 void CompliantJoint::geometric(const LocalMotion &motion, const double *, double *K) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
   const int k = n_measures();
   for (int e = 0; e < n_equations(); ++e)
   {
@@ -117,28 +118,28 @@ void CompliantJoint::geometric(const LocalMotion &motion, const double *, double
       for (int i = 0; i < k; ++i)
         turned += S[i + k * j] * motion.v[i];
       for (int i = 0; i < k; ++i)
-        K[i + k * j] += equations_[e].damping * seen.G[i + k * e] * turned - seen.lambda[e] * S[i + k * j];
+        K[i + k * j] += equations_[e].damping * kinematics.G[i + k * e] * turned - kinematics.lambda[e] * S[i + k * j];
     }
   }
 }
 
 double CompliantJoint::stored_energy(const LocalMotion &motion, const double *) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
   double energy = 0.;
   for (int i = 0; i < n_equations(); ++i)
-    energy += 0.5 * equations_[i].stiffness * seen.s[i] * seen.s[i];
+    energy += 0.5 * equations_[i].stiffness * kinematics.s[i] * kinematics.s[i];
   return energy;
 }
 
 double CompliantJoint::stored_power(const LocalMotion &motion, const double *) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
   double power = 0.;
   for (int i = 0; i < n_equations(); ++i)
-    power += equations_[i].stiffness * seen.s[i] * seen.rate[i];
+    power += equations_[i].stiffness * kinematics.s[i] * kinematics.rate[i];
   return power;
 }
 
@@ -153,23 +154,24 @@ std::vector<Quantity> CompliantJoint::quantities() const
 
 double CompliantJoint::quantity(int i, const LocalMotion &motion, const double *) const
 {
-  Seen seen;
-  see(motion.u, motion.v, seen);
+  Kinematics kinematics;
+  kinematics_of(motion.u, motion.v, kinematics);
   if (i < n_equations())
-    return equations_[i].told_as_described ? along_as_described(i, motion.u, seen) : seen.lambda[i];
+    return equations_[i].told_as_described ? along_as_described(i, motion.u, kinematics) : kinematics.lambda[i];
   double sum = 0.;
   for (int j = 0; j < n_equations(); ++j)
     if (equations_[j].demand.unit == "N")
-      sum += seen.lambda[j] * seen.lambda[j];
+      sum += kinematics.lambda[j] * kinematics.lambda[j];
   return std::sqrt(sum);
 }
 
-double CompliantJoint::along_as_described(int i, const double *u, const Seen &seen) const
+double CompliantJoint::along_as_described(int i, const double *u, const Kinematics &kinematics) const
 {
   double force = 0.;
   for (int j = 0; j < n_equations(); ++j)
     if (equations_[j].told_as_described)
-      force += seen.lambda[j] * equations_[i].demand.measure.a.dot(first_.direction(equations_[j].demand.measure.a, u));
+      force += kinematics.lambda[j] *
+               equations_[i].demand.measure.a.dot(first_.direction(equations_[j].demand.measure.a, u));
   return force;
 }
 

@@ -71,17 +71,17 @@ public:
 
 private:
   /// lambda_i, G [k x n, column major] of all equations: the places are evaluated once.
-  struct Seen
+  struct Kinematics
   {
     double s[max_equations], rate[max_equations], lambda[max_equations];
     double G[max_equations * PlacedMeasure::max_measures];
   };
-  void   see(const double *u, const double *v, Seen &seen) const;
-  double along_as_described(int i, const double *u, const Seen &seen) const;
+  void   kinematics_of(const double *u, const double *v, Kinematics &kinematics) const;
+  double along_as_described(int i, const double *u, const Kinematics &kinematics) const;
   /// p = G^T lambda
-  void spread(const Seen &seen, double *p) const;
+  void spread(const Kinematics &kinematics, double *p) const;
   /// matrix = sum_i c_i G_i^T G_i, c_i = w_k k_i + w_d d_i
-  void add_up(const Seen &seen, double w_k, double w_d, double *matrix) const;
+  void add_up(const Kinematics &kinematics, double w_k, double w_d, double *matrix) const;
 
   Placement             first_, second_;
   std::vector<Equation> equations_;

@@ -35,11 +35,12 @@ bool ConstraintElement::command(const SwitchCommand &order, const LocalMotion &m
   const double before = law_->at(motion.t, history).rate;
   if (!law_->command(order, motion.t, history))
     return false;
-  if (const double behind = law_->at(motion.t, history).rate; differ(before, behind))
+  if (const double after = law_->at(motion.t, history).rate; differ(before, after))
   {
     std::ostringstream message;
     message << "the order \"" << order.name << "\" makes the speed of the prescribed motion jump from " << before
-            << " to " << behind << ", an impact that an ideal joint cannot carry; order \"set\" with an acceleration first";
+            << " to " << after
+            << ", an impact that an ideal joint cannot carry; order \"set\" with an acceleration first";
     throw std::domain_error(message.str());
   }
   return true;

@@ -14,15 +14,15 @@ namespace
 {
 
 /// Masses would jump, with energy from nowhere.
-void refuse_jump(const std::string &kink, const std::string &what, double before, double behind)
+void refuse_jump(const std::string &kink, const std::string &what, double before, double after)
 {
-  if (!differ(before, behind))
+  if (!differ(before, after))
     return;
   std::ostringstream message;
-  message
-      << what << " jumps from " << before << " to " << behind << " (" << kink
-      << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a spring: an "
-         "element on a measure of type \"position function\", instead of the joint";
+  message << what << " jumps from " << before << " to " << after << " (" << kink
+          << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a "
+             "spring: an "
+             "element on a measure of type \"position function\", instead of the joint";
   throw std::domain_error(message.str());
 }
 
@@ -96,9 +96,9 @@ void MeasureJoint::transition(int i, const LocalMotion &motion, double *history)
   {
     const PrescribedMotion before = prescribed(motion.t, history);
     ConstraintElement::transition(i, motion, history);
-    const PrescribedMotion behind = prescribed(motion.t, history);
-    refuse_jump(kink, "the prescribed motion", before.value, behind.value);
-    refuse_jump(kink, "the speed of the prescribed motion", before.rate, behind.rate);
+    const PrescribedMotion after = prescribed(motion.t, history);
+    refuse_jump(kink, "the prescribed motion", before.value, after.value);
+    refuse_jump(kink, "the speed of the prescribed motion", before.rate, after.rate);
     return;
   }
   const auto s = [&]

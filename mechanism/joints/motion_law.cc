@@ -151,17 +151,17 @@ ProfileMotion::ProfileMotion(const CommandedProfile &speed) : speed_(speed)
     largest = std::max(largest, std::abs(level));
   for (std::size_t piece = 0; profile.ends(piece); ++piece)
   {
-    const double t = profile.corner(piece), before = profile.value(piece, t), behind = profile.value(piece + 1, t);
-    require(std::abs(behind - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed", behind - before,
+    const double t = profile.corner(piece), before = profile.value(piece, t), after = profile.value(piece + 1, t);
+    require(std::abs(after - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed", after - before,
             "zero: give its ramps a largest 'acceleration', as no finite force makes masses jump");
   }
   if (speed_.waits())
   {
     std::vector<double> history(speed_.n_history());
     speed_.start(0., history.data());
-    const double before = speed_.at(0., true, history.data()).value, behind = profile.value(profile.piece_at(0.), 0.);
-    require(std::abs(behind - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed at its start",
-            behind - before, "zero: give ramps with a largest 'acceleration' from the initial speed on");
+    const double before = speed_.at(0., true, history.data()).value, after = profile.value(profile.piece_at(0.), 0.);
+    require(std::abs(after - before) <= 1e-9 * largest, "prescribed motion", "jump of the speed at its start",
+            after - before, "zero: give ramps with a largest 'acceleration' from the initial speed on");
   }
 }
 

@@ -52,7 +52,7 @@ void require_finite(const std::vector<MeasuredResponse> &curves)
   }
 }
 
-FrequencyResponse asked()
+FrequencyResponse requested()
 {
   FrequencyResponse response;
   response.pairs.resize(2);
@@ -63,12 +63,12 @@ FrequencyResponse asked()
 
 void measured(const std::string &bytes)
 {
-  require_finite(measured_responses({file_of("measured.csv", bytes)}, asked()));
+  require_finite(measured_responses({file_of("measured.csv", bytes)}, requested()));
 }
 
 void universal(const std::string &bytes)
 {
-  require_finite(measured_responses({file_of("measured.uff", bytes)}, asked()));
+  require_finite(measured_responses({file_of("measured.uff", bytes)}, requested()));
 }
 
 } // namespace

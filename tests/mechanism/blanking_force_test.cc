@@ -98,17 +98,17 @@ TEST(BlankingForce, LargestPenetrationIsThatOfTheInstant)
 {
   constexpr int       largest = 2;
   const BlankingForce sheet(press);
-  Eigen::VectorXd     history = fresh(sheet);
-  const auto          told    = [&](double z) { return sheet.quantity(largest, at(z).motion(true), history.data()); };
+  Eigen::VectorXd     history  = fresh(sheet);
+  const auto          reported = [&](double z) { return sheet.quantity(largest, at(z).motion(true), history.data()); };
   sheet.transition(0, at(0.).motion(true), history.data());
-  EXPECT_NEAR(told(5e-4), 5e-4, 1e-15) << "ahead of the last accepted motion";
+  EXPECT_NEAR(reported(5e-4), 5e-4, 1e-15) << "ahead of the last accepted motion";
   sheet.accept(at(5e-4).motion(true), history.data());
-  EXPECT_NEAR(told(4e-4), 5e-4, 1e-15) << "behind it";
+  EXPECT_NEAR(reported(4e-4), 5e-4, 1e-15) << "behind it";
   for (const double z : {0.0014, 0.0024, 0.004})
     sheet.transition(1, at(z).motion(true), history.data());
-  EXPECT_EQ(told(0.006), press.thickness) << "a sheet that is severed";
+  EXPECT_EQ(reported(0.006), press.thickness) << "a sheet that is severed";
   sheet.accept(at(0.006).motion(true), history.data());
-  EXPECT_EQ(told(0.001), press.thickness);
+  EXPECT_EQ(reported(0.001), press.thickness);
 }
 
 TEST(BlankingForce, NeedsAnUnloadingLineSteeperThanTheRise)

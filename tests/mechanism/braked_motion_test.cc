@@ -77,9 +77,9 @@ TEST(BrakedMotion, GoesOnWithItsSpeedAndComesToRest)
     const double       at_order = v * (order - start);
     EXPECT_NEAR(motion_at(motion, 0.9).value, v * 0.7, 1e-15) << name;
     EXPECT_EQ(motion_at(motion, 0.9).rate, v) << name;
-    for (const double behind : {1e-12, 0.1, 7.})
+    for (const double after : {1e-12, 0.1, 7.})
     {
-      const PrescribedMotion rest = motion_at(motion, order + end + behind);
+      const PrescribedMotion rest = motion_at(motion, order + end + after);
       EXPECT_NEAR(rest.value, at_order + way * v * T, 1e-14) << name;
       EXPECT_EQ(rest.rate, 0.) << name;
       EXPECT_EQ(rest.acceleration, 0.) << name;
@@ -98,10 +98,10 @@ TEST(BrakedMotion, HasTheWayAndTheAccelerationOfItsSpeed)
     {
       const double           t    = share * end;
       const PrescribedMotion here = motion_at(motion, order + t), before = motion_at(motion, order + t - d),
-                             behind = motion_at(motion, order + t + d);
+                             after = motion_at(motion, order + t + d);
       EXPECT_NEAR(here.rate, v * speed(t), 1e-14) << name << " at " << t;
-      EXPECT_NEAR((behind.value - before.value) / (2. * d), here.rate, 1e-9) << name << " at " << t;
-      EXPECT_NEAR((behind.rate - before.rate) / (2. * d), here.acceleration, 1e-8) << name << " at " << t;
+      EXPECT_NEAR((after.value - before.value) / (2. * d), here.rate, 1e-9) << name << " at " << t;
+      EXPECT_NEAR((after.rate - before.rate) / (2. * d), here.acceleration, 1e-8) << name << " at " << t;
     }
   }
 }
@@ -115,9 +115,9 @@ TEST(BrakedMotion, NeitherJumpsNorBendsItsWay)
     const BrakedMotion motion(parameters);
     for (const double t : {0., 0.15, T, end})
     {
-      const PrescribedMotion before = motion_at(motion, order + t - d), behind = motion_at(motion, order + t + d);
-      EXPECT_NEAR(behind.value, before.value, 3. * d * v) << name << " at " << t;
-      EXPECT_NEAR(behind.rate, before.rate, 10. * d * v / T) << name << " at " << t;
+      const PrescribedMotion before = motion_at(motion, order + t - d), after = motion_at(motion, order + t + d);
+      EXPECT_NEAR(after.value, before.value, 3. * d * v) << name << " at " << t;
+      EXPECT_NEAR(after.rate, before.rate, 10. * d * v / T) << name << " at " << t;
     }
   }
 }

@@ -289,13 +289,13 @@ TEST(DrawingForce, TellsThePathDrawnAtTheInstant)
   constexpr int      drawn = 2;
   const DrawingForce sheet({1e4, 1e8, 0., 3e-3}); // rises over 0.1 mm
   Eigen::VectorXd    history = started(sheet, probe1(-1e-3, 0.1));
-  const auto told = [&](double z) { return sheet.quantity(drawn, probe1(z, 0.1).motion(true), history.data()); };
+  const auto reported = [&](double z) { return sheet.quantity(drawn, probe1(z, 0.1).motion(true), history.data()); };
   sheet.transition(0, probe1(0., 0.1).motion(true), history.data());
-  EXPECT_EQ(told(5e-5), 0.);
+  EXPECT_EQ(reported(5e-5), 0.);
   sheet.transition(1, probe1(1e-4, 0.1).motion(true), history.data());
-  EXPECT_NEAR(told(6e-4), 5e-4, 1e-15) << "ahead of the last accepted motion";
+  EXPECT_NEAR(reported(6e-4), 5e-4, 1e-15) << "ahead of the last accepted motion";
   sheet.transition(0, probe1(7e-4, 0.).motion(true), history.data());
-  EXPECT_NEAR(told(2e-4), 6e-4, 1e-15) << "on the way back";
+  EXPECT_NEAR(reported(2e-4), 6e-4, 1e-15) << "on the way back";
 }
 
 TEST(DrawingForce, ComesBackOnlyBeyondTheLargestPath)

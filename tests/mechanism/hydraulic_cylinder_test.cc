@@ -77,12 +77,12 @@ TEST(HydraulicCylinder, IsASpringOfItsClosedColumnsAtAnyStroke)
     const Probe           probe    = oil(0.01 + x, x, -x);
     const Eigen::VectorXd history  = started(cylinder, probe);
     const double          volume_a = 6e-4 + 2e-3 * x, volume_b = 4e-4 - 1.2e-3 * x;
-    const double          K    = 1.4e9 * (2e-3 * 2e-3 / volume_a + 1.2e-3 * 1.2e-3 / volume_b);
-    Eigen::Matrix3d       told = Eigen::Matrix3d::Zero(), lost = told, of_u, of_v;
+    const double          K        = 1.4e9 * (2e-3 * 2e-3 / volume_a + 1.2e-3 * 1.2e-3 / volume_b);
+    Eigen::Matrix3d       reported = Eigen::Matrix3d::Zero(), lost = reported, of_u, of_v;
     Eigen::Vector3d       p;
-    cylinder.engaged(probe.u.data(), told.data(), lost.data());
+    cylinder.engaged(probe.u.data(), reported.data(), lost.data());
     cylinder.derivatives(probe.motion(), history.data(), p.data(), of_u.data(), of_v.data());
-    EXPECT_NEAR(told(0, 0), K, 1e-12 * K) << x;
+    EXPECT_NEAR(reported(0, 0), K, 1e-12 * K) << x;
     EXPECT_NEAR(-of_u(0, 0), K, 1e-12 * K) << x;
   }
 }

@@ -34,12 +34,12 @@ coupling::MethodOptions random_method(Dice &dice, bool jointed)
 }
 
 /// How much the largest energy of the last third exceeds that of the first.
-double energy_growth(const Told &told)
+double energy_growth(const Told &reported)
 {
-  const int column = told.column("energy stored"), n = told.n_rows();
+  const int column = reported.column("energy stored"), n = reported.n_rows();
   double    early = 0., late = 0.;
   for (int i = 0; i < n; ++i)
-    if (const double now = std::abs(told.at(i, column)); 3 * i < n)
+    if (const double now = std::abs(reported.at(i, column)); 3 * i < n)
       early = std::max(early, now);
     else if (3 * i > 2 * n)
       late = std::max(late, now);
@@ -75,9 +75,9 @@ public:
 private:
   Told forced(coupling::MethodOptions options, double steps)
   {
-    const Told told = trial_.forced(options, steps);
-    cpu_s_ += told.cpu_s;
-    return told;
+    const Told reported = trial_.forced(options, steps);
+    cpu_s_ += reported.cpu_s;
+    return reported;
   }
 
   void find(const std::string &kind, const coupling::MethodOptions &options, double value, double bound)
@@ -89,18 +89,18 @@ private:
   }
 
   /// Nothing, of a machine at rest.
-  static std::optional<bool> grew(const Told &told, double factor)
+  static std::optional<bool> grew(const Told &reported, double factor)
   {
-    const double grown = energy_growth(told);
-    if (std::isnan(grown) && told.run.failure.empty())
+    const double grown = energy_growth(reported);
+    if (std::isnan(grown) && reported.run.failure.empty())
       return {};
-    return !told.run.failure.empty() || !(grown < factor);
+    return !reported.run.failure.empty() || !(grown < factor);
   }
 
   /// A body that nothing moves holds modes that no motion shows.
-  static bool has_body_at_rest(const Told &told)
+  static bool has_body_at_rest(const Told &reported)
   {
-    return std::any_of(told.run.signals.begin(), told.run.signals.end(),
+    return std::any_of(reported.run.signals.begin(), reported.run.signals.end(),
                        [](const coupling::SignalSummary &signal)
                        {
                          const std::string quantity = signal.name.substr(signal.name.rfind('.') + 1);
@@ -113,23 +113,23 @@ private:
     // The mode may begin with a millionth of the motion.
     const double steps = 3. * std::log(1e6 * growth) / std::log(radius);
     if (steps < most_steps)
-      if (const Told told = forced(options_, std::max(100., steps));
-          !grew(told, growth).value_or(true) && !has_body_at_rest(told))
+      if (const Told reported = forced(options_, std::max(100., steps));
+          !grew(reported, growth).value_or(true) && !has_body_at_rest(reported))
         find("guard refused what does not grow", options_, radius, 1.);
     coupling::MethodOptions offered = options_;
     offered.step                    = coupling::StabilityGuard(spectrum_, options_).largest_stable_step();
     if (!(offered.step > 0.))
       return;
-    const Told told = trial_.run(offered, 1, offered.step * 50.);
-    if (!told.refused.empty())
-      find("guard refuses the step it offers: " + told.refused, offered, offered.step, 0.);
+    const Told reported = trial_.run(offered, 1, offered.step * 50.);
+    if (!reported.refused.empty())
+      find("guard refuses the step it offers: " + reported.refused, offered, offered.step, 0.);
     let_pass(offered, "guard offers a step that grows");
   }
 
   void let_pass(const coupling::MethodOptions &options, const std::string &kind)
   {
-    const Told told = forced(options, few_steps);
-    if (!grew(told, growth).value_or(false))
+    const Told reported = forced(options, few_steps);
+    if (!grew(reported, growth).value_or(false))
       return;
     const Told longer = forced(options, most_steps);
     find(kind, options, energy_growth(longer), growth);

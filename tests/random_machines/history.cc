@@ -112,7 +112,7 @@ bool History::between_rows(double t) const
 
 /// The maximum of sign * signal, against the largest row, and against the rows beside it and what the motion may do
 /// between two rows.
-void History::extreme(int column, double sign, double told, double t_told)
+void History::extreme(int column, double sign, double reported, double t_told)
 {
   const int  n     = dense_.n_rows();
   const auto value = [&](int i) { return sign * dense_.at(std::clamp(i, 0, n - 1), column); };
@@ -125,18 +125,18 @@ void History::extreme(int column, double sign, double told, double t_told)
   const double       t        = dense_.at(top, 0);
   const std::string  what     = at_time(std::string(sign > 0. ? "max" : "min") + " of " + name, t);
   const double       short_of = !accurate_ && is_force_like(name) ? linear_inside : 1e-4;
-  if (sign * told < value(top) - short_of * size)
-    find("extreme short of the history", what, told, sign * value(top));
+  if (sign * reported < value(top) - short_of * size)
+    find("extreme short of the history", what, reported, sign * value(top));
 
   // On either side of a jump the signal goes on as on its own side.
-  const int beside = int(t_told / dense_.at(1, 0));
+  const int nearby = int(t_told / dense_.at(1, 0));
   double    step   = 0.;
-  for (int i = beside - 2; i <= beside + 3; ++i)
+  for (int i = nearby - 2; i <= nearby + 3; ++i)
     step = std::max(step, std::min(std::abs(value(i) - value(i - 1)), std::abs(value(i + 1) - value(i))));
-  const double beyond = sign * told - std::max(value(beside), value(beside + 1));
+  const double beyond = sign * reported - std::max(value(nearby), value(nearby + 1));
   const double noise  = (accurate_ ? 1e-6 : 1e-4) * size + tolerance_ * size_of(machine_, name);
   if (beyond > 2. * step + noise && !between_rows(t_told))
-    find(beyond_history, at_time(what + ", told", t_told), told, sign * value(beside));
+    find(beyond_history, at_time(what + ", told", t_told), reported, sign * value(nearby));
 }
 
 void History::frictions()

@@ -24,7 +24,7 @@ private:
   void   find(const std::string &kind, const std::string &what, double value, double bound);
   void   finite();
   void   extremes();
-  void   extreme(int column, double sign, double told, double t_told);
+  void   extreme(int column, double sign, double reported, double t_told);
   void   frictions();
   void   contacts();
   void   joints();

@@ -41,7 +41,7 @@ coupling::MethodOptions fixed(const std::string &method, int order)
 }
 
 /// That of a run and the twin's history, row by row of the latter, in the same sense.
-Distance distance(const RandomMachine &machine, const Told &told, const std::vector<double> &twin)
+Distance distance(const RandomMachine &machine, const Told &reported, const std::vector<double> &twin)
 {
   Distance          largest;
   const auto       &signals = machine.twin->signals();
@@ -49,12 +49,12 @@ Distance distance(const RandomMachine &machine, const Told &told, const std::vec
   const std::size_t n       = signals.size();
   for (std::size_t k = 0; k < n; ++k)
   {
-    const int column = told.column(signals[k]);
+    const int column = reported.column(signals[k]);
     double    sum = 0., size = at_rest * size_of(machine, signals[k]);
     for (int row = 0; row <= twin_rows; ++row)
     {
       const double value = twin[row * n + k];
-      sum += std::abs(told.at(row * every, column) - value);
+      sum += std::abs(reported.at(row * every, column) - value);
       size = std::max(size, std::abs(value));
     }
     if (const double value = sum / (twin_rows * size); !(value <= largest.value))
@@ -70,18 +70,18 @@ bool begins(const std::string &text, const std::string &words)
 
 /// The start lies inside the contact that is named; a pressure is below zero; of fixed steps the balance is open,
 /// Newton failed, or events were more than are located.
-bool has_cause(const RandomMachine &machine, const std::string &warning, const Told &told, bool accurate)
+bool has_cause(const RandomMachine &machine, const std::string &warning, const Told &reported, bool accurate)
 {
   if (!accurate && begins(warning, "the energy balance is open"))
-    return told.run.energy.residual > 0.01 * told.run.energy.exchanged;
+    return reported.run.energy.residual > 0.01 * reported.run.energy.exchanged;
   if (!accurate && begins(warning, "Newton failed"))
-    return told.run.work.rejected > 0;
+    return reported.run.work.rejected > 0;
   if (!accurate && begins(warning, "chatter"))
-    return told.run.work.chatter > 0;
+    return reported.run.work.chatter > 0;
   if (begins(warning, "switch "))
     return machine.scene.find("[switch.") != std::string::npos; // whether it is thrown is left to chance
   if (warning.find("the pressure in chamber") != std::string::npos)
-    return std::any_of(told.run.signals.begin(), told.run.signals.end(),
+    return std::any_of(reported.run.signals.begin(), reported.run.signals.end(),
                        [](const coupling::SignalSummary &signal)
                        { return signal.name.find(".pressure_") != std::string::npos && signal.min < 0.; });
   const std::string words = "the start lies inside the contact of \"";
@@ -90,14 +90,14 @@ bool has_cause(const RandomMachine &machine, const std::string &warning, const T
   const std::string name = warning.substr(words.size(), warning.find('"', words.size()) - words.size());
   for (const ContactFact &contact : machine.contacts)
     if (contact.name == name)
-      return contact.loses || told.at(0, told.column(name + ".force")) != 0.;
+      return contact.loses || reported.at(0, reported.column(name + ".force")) != 0.;
   return false;
 }
 
 /// A piston at the end of its stroke: its law ends there, which the run tells.
-bool leaves_its_law(const Told &told)
+bool leaves_its_law(const Told &reported)
 {
-  return std::any_of(told.run.warnings.begin(), told.run.warnings.end(),
+  return std::any_of(reported.run.warnings.begin(), reported.run.warnings.end(),
                      [](const std::string &warning)
                      { return warning.find("the end of its stroke") != std::string::npos; });
 }
@@ -154,9 +154,9 @@ private:
 
   Told run(const coupling::MethodOptions &method, int rows)
   {
-    Told told = trial_.run(method, rows);
-    verdict_.cpu_s += told.cpu_s;
-    return told;
+    Told reported = trial_.run(method, rows);
+    verdict_.cpu_s += reported.cpu_s;
+    return reported;
   }
 
   /// A run, judged by itself.  Empty if it failed.
@@ -241,7 +241,7 @@ private:
   }
 
   /// What a change of ten tolerances makes of the motion.
-  double sensitivity(const Told &told, const Way &way)
+  double sensitivity(const Told &reported, const Way &way)
   {
     if (sensitivity_)
       return *sensitivity_;
@@ -252,20 +252,20 @@ private:
                              .run(way.method, dense_rows);
       verdict_.cpu_s += other.cpu_s;
       if (other.complete())
-        largest = std::max(largest, distance(machine_, told, other).value);
+        largest = std::max(largest, distance(machine_, reported, other).value);
     }
     verdict_.sensitive = largest > 0.01;
     sensitivity_       = largest;
     return largest;
   }
 
-  double self_distance(const Told &told, Way way)
+  double self_distance(const Told &reported, Way way)
   {
     way.method.tolerance /= 10.;
     const Told finer = run(way.method, dense_rows);
     if (finer.slow)
       return std::numeric_limits<double>::infinity(); // not known
-    return finer.complete() ? distance(machine_, told, finer).value : 0.;
+    return finer.complete() ? distance(machine_, reported, finer).value : 0.;
   }
 
   /// A method with fixed steps, which are halved until the motion is that of the reference.

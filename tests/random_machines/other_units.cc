@@ -67,9 +67,9 @@ UnitPowers drawn_units(std::uint64_t seed)
 }
 
 /// Signals in the units that the machine was described in.
-void restore(Told &told, const UnitPowers &powers)
+void restore(Told &reported, const UnitPowers &powers)
 {
-  coupling::RunResult &run   = told.run;
+  coupling::RunResult &run   = reported.run;
   const std::size_t    width = run.columns.size();
   for (std::size_t i = 0; i < run.rows.size(); ++i)
     run.rows[i] /= growth(powers, run.units[i % width]);
@@ -106,24 +106,25 @@ private:
   {
     Way there = way;
     there.method.step *= growth(powers_, "s");
-    const Told here = run(original_, way);
-    Told       told = run(other_, there);
-    if (here.slow || told.slow)
+    const Told here     = run(original_, way);
+    Told       reported = run(other_, there);
+    if (here.slow || reported.slow)
       return; // judge() says so
     std::ostringstream units;
     units << way.name << " in units 2^(" << powers_[0] << ", " << powers_[1] << ", " << powers_[2] << ")";
-    const std::string failure = here.refused + here.run.failure, failure_there = told.refused + told.run.failure;
+    const std::string failure       = here.refused + here.run.failure,
+                      failure_there = reported.refused + reported.run.failure;
     if (failure.empty() != failure_there.empty())
       verdict_.findings.push_back({"fails in one system of units", units.str(), failure + failure_there});
-    if (!here.complete() || !told.complete())
+    if (!here.complete() || !reported.complete())
       return;
-    restore(told, powers_);
-    const Distance apart = distance(machine_, here, told);
+    restore(reported, powers_);
+    const Distance apart = distance(machine_, here, reported);
     if (apart.value <= same_motion)
       return;
     double bound = same_motion + 10. * known_to(here, way);
     // Where rounding turns a decision, such as whether a step is short enough, both are as near as the tolerance says.
-    const auto &a = here.run.work, &b = told.run.work;
+    const auto &a = here.run.work, &b = reported.run.work;
     if (apart.value > bound && way.method.tolerance > 0. && (a.steps != b.steps || a.newton != b.newton))
       bound += 10. * self_distance(here, way);
     if (apart.value > bound)
@@ -131,28 +132,28 @@ private:
   }
 
   /// What rounding of masses and starting values makes of the motion.
-  double known_to(const Told &told, const Way &way)
+  double known_to(const Told &reported, const Way &way)
   {
     double largest = 0.;
     for (std::uint64_t draw = 1; draw <= 3; ++draw)
       if (const Told noisy = run(original_.perturbed(few_digits, machine_.seed + draw, !machine_.closed_start), way);
           noisy.complete())
-        largest = std::max(largest, distance(machine_, told, noisy).value);
+        largest = std::max(largest, distance(machine_, reported, noisy).value);
     return largest;
   }
 
-  double self_distance(const Told &told, Way way)
+  double self_distance(const Told &reported, Way way)
   {
     way.method.tolerance /= 10.;
     const Told finer = run(original_, way);
-    return finer.complete() ? distance(machine_, told, finer).value : 0.;
+    return finer.complete() ? distance(machine_, reported, finer).value : 0.;
   }
 
   Told run(const Trial &trial, const Way &way)
   {
-    Told told = trial.run(way.method, rows_of_units);
-    verdict_.cpu_s += told.cpu_s;
-    return told;
+    Told reported = trial.run(way.method, rows_of_units);
+    verdict_.cpu_s += reported.cpu_s;
+    return reported;
   }
 
   const RandomMachine &machine_;

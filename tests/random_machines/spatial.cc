@@ -132,15 +132,15 @@ private:
     }
     if (bodies_.size() == 1)
       turns_freely_ = kind == "spherical";
-    Point centre, beside;
+    Point centre, nearby;
     for (int i = 0; i < 3; ++i)
     {
       centre[i] = rounded(at[i]);
-      beside[i] = centre[i] + rounded(size_) * rounded(axis[i]);
+      nearby[i] = centre[i] + rounded(size_) * rounded(axis[i]);
     }
     add_fact(name, from, to, centre);
     if (kind == "revolute" || kind == "rigid")
-      add_fact(name, from, to, beside);
+      add_fact(name, from, to, nearby);
   }
 
   void yields(const std::string &kind)

@@ -122,7 +122,7 @@ Told Trial::forced(const coupling::MethodOptions &method, double steps) const
 
 Told Trial::computed(const coupling::RunOptions &options) const
 {
-  Told              told;
+  Told              reported;
   const double      began = cpu_seconds();
   std::atomic<bool> stop  = false;
   try
@@ -130,15 +130,15 @@ Told Trial::computed(const coupling::RunOptions &options) const
     coupling::Machine model   = apps::build_machine(scene_);
     const auto        signals = apps::scene_signals(scene_, model);
     const auto        look    = [&](double) { stop = cpu_seconds() - began > patience; };
-    told.run                  = coupling::simulate(model, initial_, options, signals, look, &stop);
-    told.slow                 = told.run.interrupted;
+    reported.run              = coupling::simulate(model, initial_, options, signals, look, &stop);
+    reported.slow             = reported.run.interrupted;
   }
   catch (const std::exception &refusal)
   {
-    told.refused = refusal.what();
+    reported.refused = refusal.what();
   }
-  told.cpu_s = cpu_seconds() - began;
-  return told;
+  reported.cpu_s = cpu_seconds() - began;
+  return reported;
 }
 
 Distance distance(const RandomMachine &machine, const Told &a, const Told &b)

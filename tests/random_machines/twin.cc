@@ -51,7 +51,7 @@ void Twin::add_force(Measure u, std::function<double(double t, double u, double 
 void Twin::tell(const std::string &signal, Measure s, Quantity quantity)
 {
   names_.push_back(signal);
-  told_.push_back({std::move(s), quantity});
+  reported_.push_back({std::move(s), quantity});
 }
 
 std::vector<Jet> Twin::coordinates(const State &y) const
@@ -135,13 +135,15 @@ void Twin::sample(const State &y, double t, std::vector<double> &rows) const
   const std::vector<double> a = accelerations(q, y, dy, t);
   Jet                       time(t);
   time.d = 1.;
-  for (const Told &told : told_)
+  for (const Told &reported : reported_)
   {
-    const Jet s            = told.s(q.data(), time);
+    const Jet s            = reported.s(q.data(), time);
     double    acceleration = s.dd;
     for (std::size_t i = 0; i < a.size(); ++i)
       acceleration += s.g[i] * a[i];
-    rows.push_back(told.quantity == Quantity::value ? s.v : told.quantity == Quantity::rate ? s.d : acceleration);
+    rows.push_back(reported.quantity == Quantity::value  ? s.v
+                   : reported.quantity == Quantity::rate ? s.d
+                                                         : acceleration);
   }
 }
 

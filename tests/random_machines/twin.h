@@ -89,7 +89,7 @@ private:
   std::vector<Load>        loads_;
   std::vector<double>      breaks_;
   std::vector<std::string> names_;
-  std::vector<Told>        told_;
+  std::vector<Told>        reported_;
 };
 
 } // namespace gestell::tests

@@ -24,17 +24,17 @@ TEST(Twin, TellsTheValuesRatesAndAccelerationsOfAForcedOscillator)
   twin.tell("x", x, Twin::Quantity::value);
   twin.tell("v", x, Twin::Quantity::rate);
   twin.tell("a", x, Twin::Quantity::acceleration);
-  const std::vector<double> told = twin.history(3., 30, 1e-12);
-  ASSERT_EQ(told.size(), 31u * 3u);
+  const std::vector<double> reported = twin.history(3., 30, 1e-12);
+  ASSERT_EQ(reported.size(), 31u * 3u);
   for (int row = 0; row <= 30; ++row)
   {
     const double t = 0.1 * row, pushed = t > 1. ? 1. : 0.;
     const double exact = 0.5 * std::cos(t) + pushed * (1. - std::cos(t - 1.));
-    EXPECT_NEAR(told[3 * row], exact, 1e-10);
-    EXPECT_NEAR(told[3 * row + 1], -0.5 * std::sin(t) + pushed * std::sin(t - 1.), 1e-10);
+    EXPECT_NEAR(reported[3 * row], exact, 1e-10);
+    EXPECT_NEAR(reported[3 * row + 1], -0.5 * std::sin(t) + pushed * std::sin(t - 1.), 1e-10);
     if (row != 10) // the force jumps
     {
-      EXPECT_NEAR(told[3 * row + 2], pushed - exact, 1e-10);
+      EXPECT_NEAR(reported[3 * row + 2], pushed - exact, 1e-10);
     }
   }
 }
@@ -52,10 +52,10 @@ TEST(Twin, ABeadOnARodThatIsTurned_IsThrownOutAsItsClosedSolutionSays)
   twin.add_mass(3., y);
   twin.tell("r", far, Twin::Quantity::value);
   twin.tell("a", far, Twin::Quantity::acceleration);
-  const std::vector<double> told = twin.history(1.5, 1, 1e-12);
-  ASSERT_EQ(told.size(), 4u);
-  EXPECT_NEAR(told[2], std::cosh(3.), 1e-9);
-  EXPECT_NEAR(told[3], w * w * std::cosh(3.), 1e-9);
+  const std::vector<double> reported = twin.history(1.5, 1, 1e-12);
+  ASSERT_EQ(reported.size(), 4u);
+  EXPECT_NEAR(reported[2], std::cosh(3.), 1e-9);
+  EXPECT_NEAR(reported[3], w * w * std::cosh(3.), 1e-9);
 }
 
 TEST(Twin, FindsWeightsThatAreAThousandthOff)

@@ -77,11 +77,11 @@ Browser::Browser(const std::filesystem::path &page)
   session_          = call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}})["sessionId"];
   for (const char *domain : {"Runtime.enable", "Log.enable", "Page.enable", "Network.enable"})
     call(domain);
-  const double asked = now(), cpu = cpu_seconds();
+  const double requested = now(), cpu = cpu_seconds();
   call("Page.navigate", {{"url", address_}});
   while (!loaded_)
     note(next_message());
-  load_seconds_     = now() - asked;
+  load_seconds_     = now() - requested;
   load_cpu_seconds_ = cpu_seconds() - cpu;
 }
 

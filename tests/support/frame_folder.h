@@ -47,7 +47,7 @@ inline coupling::ReducedFrame some_frame()
   frame.stress.point       = {0, 1, 2, 1};
   frame.stress.triangles   = {{0, 1, 2}, {0, 3, 2}};
   frame.stress.rigid       = {"support feet", "interface crown"};
-  frame.stress.beside      = {-1, 0, 1, -1};
+  frame.stress.nearby      = {-1, 0, 1, -1};
   frame.stress.mean        = Eigen::MatrixXf::Random(24, 8);
   frame.stress.deviation   = Eigen::MatrixXf::Random(24, 8);
   return frame;

@@ -142,10 +142,10 @@ Result with_stress(Result result)
   at.field.components.setZero(6, n);
   at.field.von_mises         = 10e6 * Eigen::VectorXd::LinSpaced(n, 1., double(n));
   at.field.components.row(2) = at.field.von_mises.transpose();
-  const auto place           = [&](Eigen::Index i, double disagreement, const std::string &beside)
+  const auto place           = [&](Eigen::Index i, double disagreement, const std::string &nearby)
   {
     return StressPlace{stress.points[i], at.field.von_mises[i],
-                       coupling::principal_stresses(at.field.at(static_cast<int>(i))), disagreement, beside};
+                       coupling::principal_stresses(at.field.at(static_cast<int>(i))), disagreement, nearby};
   };
   at.peak         = place(n - 1, 0.2, "");
   at.beside_rigid = place(0, 0.5, "support feet");

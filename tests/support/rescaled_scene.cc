@@ -119,7 +119,7 @@ private:
   }
 
   /// Of the table that the key stands in, its keys: the kind of a first column is that of the argument.
-  void scale(SceneNode &value, const Key &key, const std::vector<Key> &beside, const SceneNode &table,
+  void scale(SceneNode &value, const Key &key, const std::vector<Key> &nearby, const SceneNode &table,
              bool turning) const
   {
     const Kind kind = kind_of(key, table, turning);
@@ -130,11 +130,11 @@ private:
     for (SceneNode &element : value.elements)
       if (rows && element.elements.size() == 2)
       {
-        scale(element.elements[0], argument(beside, table, turning));
+        scale(element.elements[0], argument(nearby, table, turning));
         scale(element.elements[1], kind);
       }
       else
-        scale(element, key, beside, table, turning);
+        scale(element, key, nearby, table, turning);
   }
 
   /// A stiffness is one of N/m^n beside an exponent n.

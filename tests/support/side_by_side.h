@@ -26,8 +26,8 @@ inline std::vector<Answer> side_by_side(const Folder &folder, int n, int at_once
   std::vector<Answer> answers;
   for (int i = 1; i <= n; ++i)
   {
-    const std::string beside = "call." + std::to_string(i), code = read(folder / (beside + ".code"));
-    answers.push_back({code.empty() ? -1 : std::stoi(code), read(folder / (beside + ".text"))});
+    const std::string nearby = "call." + std::to_string(i), code = read(folder / (nearby + ".code"));
+    answers.push_back({code.empty() ? -1 : std::stoi(code), read(folder / (nearby + ".text"))});
   }
   return answers;
 }

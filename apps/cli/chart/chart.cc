@@ -333,7 +333,7 @@ SignalSamples chart_model(const ChartRequest &request, const Scene &scene, WorkP
 
 int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_options)
 {
-  if (chart_options.reductions.asked)
+  if (chart_options.reductions.requested)
   {
     ReductionChart reductions = chart_options.reductions;
     reductions.modes          = chart_options.modes;
@@ -350,7 +350,7 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
                                 "leave the option out or give the scene a [reduction]");
   choose_methods(chart_options.methods, PeerChoice::with, 0);
   const std::filesystem::path folder = results_path(options, scene);
-  const HeldFolder            held(folder);
+  const ResultsLock           held(folder);
   OwnFolder(folder).require_free(chart_files(), inputs_of(options, {chart_options.reference}));
 
   ChartRequest request{options, chart_options, {}, {}};
@@ -367,9 +367,9 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   chart.version     = version;
   chart.peers       = chart_options.peers ? peers::peer_version() : "";
   chart.targets     = ladder("--error", chart_options.errors, kind::number, {1e-2, 1e-3, 1e-5, 1e-7});
-  if (const auto beside = std::filesystem::path(chart_options.reference).parent_path();
-      request.file && incomplete(beside))
-    chart.notes.push_back("--reference: " + incomplete_words(beside));
+  if (const auto nearby = std::filesystem::path(chart_options.reference).parent_path();
+      request.file && incomplete(nearby))
+    chart.notes.push_back("--reference: " + incomplete_words(nearby));
   if (chart_options.peers && !peers::peers_available())
     chart.notes.push_back("this build has no SUNDIALS: general-purpose integrators are missing");
 
@@ -423,7 +423,7 @@ Command chart_command()
        CommandOption{"--samples", &own->samples, "instants that errors are measured at (default 2000)"}.at_most(1e6),
        CommandOption{"--limit", &own->limit, "CPU time of one run [s]; longer ones are given up (default 20, quick 5)"}
            .above_zero(),
-       {"--reductions", &own->reductions.asked, "reductions of the frame instead, over numbers of modes"},
+       {"--reductions", &own->reductions.requested, "reductions of the frame instead, over numbers of modes"},
        CommandOption{"--outputs", &own->reductions.outputs, "whose largest error they have, such as F_P.max,F_P.min"}
            .with("--reductions"),
        CommandOption{"--full", &own->reductions.full, "the full frame as reference, not one with many modes (slow)"}

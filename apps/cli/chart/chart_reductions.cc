@@ -104,20 +104,20 @@ void write_comparison(const ReductionComparison &comparison, const std::string &
 
 } // namespace
 
-int chart_reductions(const CommonOptions &options, const ReductionChart &asked)
+int chart_reductions(const CommonOptions &options, const ReductionChart &requested)
 {
   Session session(options.input, options.overrides, options.scripts);
   session.check_run();
   const Scene                &scene   = session.scene();
-  const auto                  outputs = budget_outputs(scene, asked.outputs);
+  const auto                  outputs = budget_outputs(scene, requested.outputs);
   const std::filesystem::path folder  = results_path(options, scene);
-  const HeldFolder            held(folder);
+  const ResultsLock           held(folder);
   OwnFolder(folder).require_free({"reductions.csv", "charts/"}, inputs_of(options));
   ComparisonOptions how;
-  how.full     = asked.full;
+  how.full     = requested.full;
   how.on_point = print_point;
   how.stop     = &interruption();
-  how.modes    = asked.modes;
+  how.modes    = requested.modes;
   std::cout << "  reduction         modes  coordinates  prepare [CPU s]  run [CPU s]  largest error, of which output\n";
   const ReductionComparison comparison = compare_reductions(scene, outputs, how);
   OwnFolder(folder).remove_all([](const std::string &name) { return has_form(name, "charts/reductions_*"); });

@@ -11,11 +11,11 @@ namespace gestell::apps
 /// `gestell chart --reductions`: error against CPU time of the reductions of a scene's frame.
 struct ReductionChart
 {
-  bool             asked = false, full = false;
+  bool             requested = false, full = false;
   std::string      outputs; ///< empty: largest and smallest value of every signal
   std::vector<int> modes;   ///< empty: as usual
 };
 
-int chart_reductions(const CommonOptions &options, const ReductionChart &asked);
+int chart_reductions(const CommonOptions &options, const ReductionChart &requested);
 
 } // namespace gestell::apps

@@ -259,7 +259,7 @@ WorkRun measure(const WorkProblem &problem, const peers::PeerOptions &options, c
     peer.stop    = problem.stop;
     return peers::run_peer(problem.machine, peer, options);
   };
-  const auto told = [&](const peers::PeerResult &result)
+  const auto reported = [&](const peers::PeerResult &result)
   {
     WorkRun run;
     run.work    = result.work;
@@ -270,10 +270,10 @@ WorkRun measure(const WorkProblem &problem, const peers::PeerOptions &options, c
     return run;
   };
   const peers::PeerResult first = once(problem.samples);
-  WorkRun                 run   = told(first);
+  WorkRun                 run   = reported(first);
   if (run.failure.empty())
     run.values = signals_of(problem, first, options.events);
-  time_unsampled(problem, run, [&] { return told(once({problem.samples.back()})); });
+  time_unsampled(problem, run, [&] { return reported(once({problem.samples.back()})); });
   return run;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #include "apps/output/exchange/state_space_files.h"
 
 #include "apps/output/exchange/mat_file.h"
+#include "coupling/frame/atomic_file.h"
 #include "coupling/frame/matrix_market.h"
-#include "coupling/frame/whole_file.h"
 #include "fem/values/nearest_name.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::vector<std::string> write_matrix_market(OwnFolder &folder, const StateSpace
                                   model.scene + " linearised at " + model.at + ", x' = A x + B u, y = C x + D u");
   }
   files.push_back("state_space.csv");
-  coupling::WholeFile table(folder.claim(files.back()).string());
+  coupling::AtomicFile table(folder.claim(files.back()).string());
   table.stream() << "kind, number, name\n";
   for (const auto &[kind, names] : names_of(model))
     for (std::size_t i = 0; i < names->size(); ++i)

@@ -1,7 +1,7 @@
 #include "apps/output/folder/own_folder.h"
 
 #include "apps/output/text/write_file.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
 #include "apps/output/folder/writing.h"
 
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <cstdlib>
 
@@ -15,7 +15,7 @@ struct Writing::Room
   {
     file.stream() << std::string(bytes, ' ') << std::flush;
   }
-  coupling::WholeFile file;
+  coupling::AtomicFile file;
 };
 
 void Writing::keep_room(const std::string &name, std::size_t bytes)

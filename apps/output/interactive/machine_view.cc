@@ -154,11 +154,11 @@ Eigen::VectorXd state_at(const Result &result, double t)
     return {};
   const auto &times  = result.run->picture_times;
   const auto &states = result.run->picture_states;
-  const auto  behind = std::size_t(std::lower_bound(times.begin(), times.end(), t) - times.begin());
-  if (behind == 0 || behind == times.size())
-    return states[std::min(behind, times.size() - 1)];
-  const double share = (t - times[behind - 1]) / (times[behind] - times[behind - 1]);
-  return states[behind - 1] + share * (states[behind] - states[behind - 1]);
+  const auto  after  = std::size_t(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+  if (after == 0 || after == times.size())
+    return states[std::min(after, times.size() - 1)];
+  const double share = (t - times[after - 1]) / (times[after] - times[after - 1]);
+  return states[after - 1] + share * (states[after] - states[after - 1]);
 }
 
 /// Puts the bodies where they are at the instant of a stress, beside the frame.

@@ -28,10 +28,10 @@ std::string table_html(const StressResult &stress, const DisplayUnit &unit)
     for (const auto *place : {&at.peak, &at.beside_rigid})
       if (*place)
       {
-        const auto &[where, von_mises, principal, disagreement, beside] = **place;
+        const auto &[where, von_mises, principal, disagreement, nearby] = **place;
         table.add({at.label, short_text(at.t, 6), peak(value(von_mises)),
                    "(" + short_text(where[0]) + ", " + short_text(where[1]) + ", " + short_text(where[2]) + ")",
-                   beside.empty() ? "" : "beside " + beside, value(principal.values[0]), value(principal.values[1]),
+                   nearby.empty() ? "" : "beside " + nearby, value(principal.values[0]), value(principal.values[1]),
                    value(principal.values[2]), short_text(100. * disagreement, 2) + " %"});
       }
   return table.html();
@@ -47,8 +47,8 @@ std::string statement(const StressResult &stress)
     html += " The largest one was looked for at all " + std::to_string(stress.points.size()) +
             " points of the skin and in " + std::to_string(stress.n_states) + " states of the run, " +
             short_text(stress.step, 3) + " s apart: among these none is larger.";
-  const auto beside = [](const StressAt &at) { return at.beside_rigid.has_value(); };
-  if (std::any_of(stress.instants.begin(), stress.instants.end(), beside))
+  const auto nearby = [](const StressAt &at) { return at.beside_rigid.has_value(); };
+  if (std::any_of(stress.instants.begin(), stress.instants.end(), nearby))
     html += " Rows “beside” are elements at surfaces that are held rigid: at their rims the stress has no limit as "
             "the mesh is refined, so that it says more about the mesh than about the frame.";
   const auto coarse = [](const StressAt &at) { return at.peak && at.peak->disagreement > resolved_disagreement; };

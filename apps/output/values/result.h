@@ -92,7 +92,7 @@ struct Result
   std::string command;     ///< "run", "modes", "frf"
   std::string settings;    ///< how it was computed, plain text for the report, may be empty
 
-  Request                                     asked;
+  Request                                     requested;
   ModelFacts                                  model;
   std::vector<std::pair<std::string, double>> wall_s; ///< phase, seconds; in the order of the work
   std::optional<coupling::RunResult>          run;    ///< absent where only modes were computed

@@ -213,11 +213,11 @@ void describe(Visitor &v, const Outcome &x)
   v("failure", unless_empty(x.failure), "", "why it stopped early; null: it did not");
 }
 
-inline Outcome outcome_of(const coupling::RunResult &run, const Request &asked)
+inline Outcome outcome_of(const coupling::RunResult &run, const Request &requested)
 {
   const std::size_t width = run.columns.size(), last_row = run.rows.size() - width;
   const bool        rows  = width > 0 && run.rows.size() >= width;
-  const double      begin = asked.run ? asked.run->begin : 0.;
+  const double      begin = requested.run ? requested.run->begin : 0.;
   return {run.method,        rows ? run.rows.front() : begin,         rows ? run.rows[last_row] : begin,
           run.events.size(), run.failure.empty() && !run.interrupted, run.interrupted,
           run.failure};
@@ -247,8 +247,8 @@ void describe(Visitor &v, const Result &x)
   v("version", x.version, "", "of the program");
   v("commit", unless_empty(x.commit), "", "the program was built from; null: without a repository");
   v("command", x.command, "", "of the program");
-  v("asked", x.asked, "", "what was asked for");
-  v.maybe(x.run.has_value(), "outcome", outcome_of(run, x.asked), "", "how the run went");
+  v("asked", x.requested, "", "what was asked for");
+  v.maybe(x.run.has_value(), "outcome", outcome_of(run, x.requested), "", "how the run went");
   v("model", x.model, "", "size and accuracy of the model");
   v("bodies_from_cad", x.bodies_from_cad, "", "texts: file, mass, centre and inertia of each body read from CAD");
   v("frequencies_hz",

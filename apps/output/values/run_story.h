@@ -75,7 +75,7 @@ struct EventValue
 {
   double      t = 0.; ///< [s]
   std::string object, event, signal, unit;
-  double      before = 0., behind = 0.;
+  double      before = 0., after = 0.;
   double      rate = std::numeric_limits<double>::quiet_NaN(); ///< of a displacement, just before [unit/s]
   double impulse   = std::numeric_limits<double>::quiet_NaN(); ///< of a force, until the object's next event [unit s]
 };
@@ -89,7 +89,7 @@ void describe(Visitor &v, const EventValue &x)
   v("signal", x.signal, "", "of the object");
   v("unit", x.unit, "", "of `before` and `behind`");
   v("before", x.before, "", "value just before the event");
-  v("behind", x.behind, "", "value just behind it");
+  v("behind", x.after, "", "value just behind it");
   v("rate", x.rate, "", "`unit`/s, of a displacement, just before; null: of a force, or not known");
   v("impulse", x.impulse, "",
     "`unit` s, of a force until the next event of its object; null: of a displacement, or rows are too far apart");

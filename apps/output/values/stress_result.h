@@ -22,7 +22,7 @@ struct StressPlace
   double                      von_mises = 0.; ///< [Pa]
   coupling::PrincipalStresses principal;
   double                      disagreement = 0.; ///< see coupling::disagreement()
-  std::string                 beside;            ///< support or interface that holds the surface there rigid, or ""
+  std::string                 nearby;            ///< support or interface that holds the surface there rigid, or ""
 };
 
 template <class Visitor>
@@ -33,7 +33,7 @@ void describe(Visitor &v, const StressPlace &x)
   v("principal", x.principal.values, "Pa", "principal stresses, descending");
   v("first_direction", x.principal.first, "1", "unit vector of the first");
   v("disagreement", x.disagreement, "1", "of neighbouring cells, relative");
-  v("beside", x.beside, "", "support or interface that holds the surface rigid there; empty: none");
+  v("beside", x.nearby, "", "support or interface that holds the surface rigid there; empty: none");
 }
 
 /// The stresses at one instant.

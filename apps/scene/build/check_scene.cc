@@ -1,9 +1,9 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/far_places.h"
 #include "apps/scene/build/free_bodies.h"
+#include "apps/scene/build/placeholder_frame.h"
 #include "apps/scene/build/result_window.h"
 #include "apps/scene/build/scene_magnitudes.h"
-#include "apps/scene/build/stand_in_frame.h"
 #include "apps/scene/build/superposed_machine.h"
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/machine/configuration/assembly.h"
@@ -20,7 +20,7 @@ coupling::Machine machine_to_check(const Scene &scene)
     return build_machine(scene);
   if (path == FramePath::from_file)
     return build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file));
-  return build_machine(scene, stand_in_frame(scene));
+  return build_machine(scene, placeholder_frame(scene));
 }
 
 bool places_known(const Scene &scene)

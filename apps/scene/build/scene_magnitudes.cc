@@ -101,9 +101,9 @@ void judge_bodies(const Scene &scene, const coupling::MachineModel &machine, dou
 {
   for (const BodyRequest &body : scene.bodies)
   {
-    const double arm  = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 0.;
-    const bool   told = arm < 1e-4 || arm > 20.; // warn_of_implausible_numbers() has one then
-    if (!told && body.kind == coupling::BodyKind::planar)
+    const double arm      = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 0.;
+    const bool   reported = arm < 1e-4 || arm > 20.; // warn_of_implausible_numbers() has one then
+    if (!reported && body.kind == coupling::BodyKind::planar)
     {
       const double own    = extent_of(machine.body(body.name));
       const double excess = std::max(least_gyration * own / arm, size > 0. ? arm / (most_gyration * size) : 0.);

@@ -46,7 +46,7 @@ struct SceneNode
   std::vector<SceneNode> elements; ///< of an array
 
   mutable bool                  used = false; ///< somebody asked for it
-  mutable std::set<std::string> asked;        ///< keys somebody asked this table for
+  mutable std::set<std::string> requested;    ///< keys somebody asked this table for
 
   const SceneNode *find(const std::string &key) const;
   SceneNode       *find(const std::string &key);

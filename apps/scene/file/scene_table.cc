@@ -81,7 +81,7 @@ const SceneNode *SceneTable::look_up(const std::string &key) const
 {
   if (keys_ && !open_)
     declaration(key);
-  node_->asked.insert(key);
+  node_->requested.insert(key);
   const SceneNode *value = node_->find(key);
   if (value)
     value->used = true;
@@ -95,7 +95,7 @@ const SceneNode &SceneTable::demand(const std::string &key, const std::string &w
     return *value;
   std::vector<std::string> unknown;
   for (const auto &entry : node_->entries)
-    if (!node_->asked.count(entry.first))
+    if (!node_->requested.count(entry.first))
       unknown.push_back(entry.first);
   const auto meant = nearest_name(key, unknown);
   throw error("the key '" + key + "' is missing; it needs " + what +

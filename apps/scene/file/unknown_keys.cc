@@ -23,13 +23,13 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
   for (const auto &[key, value] : table.entries)
   {
     if (!value.used)
-      throw unknown({key, value}, path, {table.asked.begin(), table.asked.end()});
+      throw unknown({key, value}, path, {table.requested.begin(), table.requested.end()});
     // A table nobody looked into, as opposed to one without the key, has told nobody its keys.
     const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
-    if (value.type == SceneNode::Type::table && (!value.asked.empty() || value.entries.empty()))
+    if (value.type == SceneNode::Type::table && (!value.requested.empty() || value.entries.empty()))
       refuse_unknown(value, own);
     for (std::size_t i = 0; i < value.elements.size(); ++i)
-      if (!value.elements[i].asked.empty())
+      if (!value.elements[i].requested.empty())
         refuse_unknown(value.elements[i], own + "[" + std::to_string(i + 1) + "]");
   }
 }

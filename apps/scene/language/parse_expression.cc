@@ -27,7 +27,7 @@ struct UnknownName
 {
   std::size_t              token;
   std::vector<std::string> meant;
-  std::string              before, behind; ///< message around a proposal
+  std::string              before, after; ///< message around a proposal
 };
 
 class Parser
@@ -209,8 +209,8 @@ private:
   {
     const bool        inside = is("(");
     const std::size_t unit   = !inside ? 0 : token(1).kind == Token::number && token(1).value == 1. ? 2 : 1;
-    const std::size_t behind = unit + 1;
-    const bool        ends   = inside ? is(")", behind) : !is("^", behind) && !is_unit(behind);
+    const std::size_t after  = unit + 1;
+    const bool        ends   = inside ? is(")", after) : !is("^", after) && !is_unit(after);
     return is_unit(unit) && unit_named(token(unit).text).counts == Counts::minutes && ends &&
            !is_operand(token(unit).text);
   }
@@ -437,10 +437,10 @@ Expression parse_expression(const std::string &text, const std::vector<Variable>
       Parser other(text, variables, parameters, names);
       other.replace(unknown.token, meant);
       if (makes_sense(other, kind, text))
-        parser.fail(unknown.before + "; did you mean '" + meant + "'?" + unknown.behind, unknown.token);
+        parser.fail(unknown.before + "; did you mean '" + meant + "'?" + unknown.after, unknown.token);
     }
     parser.fail(unknown.before + (kind ? "; " + with_article(*kind) + " is given as \"" + kind->example + "\"" : "") +
-                    unknown.behind,
+                    unknown.after,
                 unknown.token);
   }
 }

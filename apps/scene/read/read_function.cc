@@ -103,9 +103,9 @@ void close(const SceneTable &table, const PositionFunction::Period &period,
     for (const auto &point : points)
       largest = std::max(largest, std::abs(point.f));
     if (std::abs(last.f - value) > as_written * largest)
-      throw table.error("table", "does not close: its last row, one period after the first, is " +
-                                   short_text(last.f) + ", but must be the value of the first row plus 'rise', " +
-                                   short_text(value) + "; correct it or leave it out");
+      throw table.error("table", "does not close: its last row, one period after the first, is " + short_text(last.f) +
+                                     ", but must be the value of the first row plus 'rise', " + short_text(value) +
+                                     "; correct it or leave it out");
     points.back().f = value;
   }
   else
@@ -166,9 +166,10 @@ void refuse_jumps(const SceneTable &table, const PositionFunction &f, const Kind
   const bool         turns = x.refused == Counts::turns;
   const double       at    = std::round(1e9 * jump->x / period) / 1e9 * period + 0.; // located to rounding
   std::ostringstream text;
-  text << jump->what << " jumps from " << jump->before << " to " << jump->behind << " at "
+  text << jump->what << " jumps from " << jump->before << " to " << jump->after << " at "
        << (turns ? at * 180. / M_PI : at) << (turns ? " deg" : "") << " (" << jump->kink
-       << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a spring: an "
+       << "), an impact that an ideal joint cannot carry; round the course off there, or let it act through a spring: "
+          "an "
           "element on a measure of type \"position function\", instead of the joint";
   throw table.error("function", text.str());
 }

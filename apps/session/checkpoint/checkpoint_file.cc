@@ -1,7 +1,7 @@
 #include "apps/session/checkpoint/checkpoint_file.h"
 
+#include "coupling/frame/atomic_file.h"
 #include "coupling/frame/sha256.h"
-#include "coupling/frame/whole_file.h"
 
 #include <fstream>
 #include <iterator>
@@ -35,7 +35,7 @@ void write_checkpoint(const fs::path &file, const std::vector<KeyPart> &key, con
 {
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  coupling::WholeFile whole(file.string());
+  coupling::AtomicFile whole(file.string());
   whole.stream() << first_line << '\n';
   for (const KeyPart &part : key)
     whole.stream() << part.hash << ' ' << part.what << '\n';

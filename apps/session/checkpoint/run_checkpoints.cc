@@ -1,7 +1,7 @@
 #include "apps/session/checkpoint/run_checkpoints.h"
 
 #include "apps/session/checkpoint/checkpoint_file.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 namespace gestell::apps
 {

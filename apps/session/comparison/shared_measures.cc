@@ -142,11 +142,11 @@ struct Told
 
 Told told_by(const MachineAt &at)
 {
-  Told told;
-  add_linear(*at.machine, told.motions, told.of_elements);
-  add_measures(at, told.motions);
-  add_elements(*at.machine, told.of_elements);
-  return told;
+  Told reported;
+  add_linear(*at.machine, reported.motions, reported.of_elements);
+  add_measures(at, reported.motions);
+  add_elements(*at.machine, reported.of_elements);
+  return reported;
 }
 
 } // namespace

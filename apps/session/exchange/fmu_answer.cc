@@ -7,7 +7,7 @@
 #include "coupling/frame/frame_recipe.h"
 #include "coupling/frame/reduced_frame_file.h"
 #include "coupling/integration/method_options.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <algorithm>
 #include <cctype>
@@ -117,10 +117,10 @@ void take_frame(SceneNode &root, Session &session, FmuResources &resources, std:
   const FramePath path = frame_path(session.scene());
   if (path != FramePath::reduce && path != FramePath::from_file)
     return;
-  const fem::PassingFolder folder;
-  const fs::path           file  = folder.path() / "frame.h5";
-  const auto               frame = path == FramePath::reduce ? session.reduced_frame().frame
-                                                             : coupling::read_reduced_frame(session.scene().frame.reduced_file);
+  const fem::TemporaryDirectory folder;
+  const fs::path                file  = folder.path() / "frame.h5";
+  const auto                    frame = path == FramePath::reduce ? session.reduced_frame().frame
+                                                                  : coupling::read_reduced_frame(session.scene().frame.reduced_file);
   coupling::write_reduced_frame(file.string(), frame);
   files["frame.h5"] = bytes_of_file(file);
   SceneNode of_frame;
@@ -199,7 +199,7 @@ FmuAnswer fmu_of(const SceneNode &root, Session &session)
   resources.guid      = guid_of(files);
   files["fmu.toml"]   = resources.text();
 
-  const fem::PassingFolder folder;
+  const fem::TemporaryDirectory folder;
   for (const auto &[name, bytes] : files)
     write_bytes(folder.path() / name, bytes);
   try

@@ -47,15 +47,15 @@ void add_body_places(const BodyRequest &body, std::vector<InputPlace> &places)
 }
 
 /// Of the frame any, as far as it is written so: names of interfaces are checked where they are read.
-std::vector<InputPlace> force_places(const Scene &scene, const std::string &asked)
+std::vector<InputPlace> force_places(const Scene &scene, const std::string &requested)
 {
   std::vector<InputPlace> places;
   for (const BodyRequest &body : scene.bodies)
     add_body_places(body, places);
-  const std::size_t dot = asked.rfind('.');
-  if (asked.rfind("frame.", 0) == 0 && dot > 5)
-    if (const std::string keys = motion_keys_of(asked.substr(0, dot), asked.substr(dot + 1)); !keys.empty())
-      places.push_back({asked, keys});
+  const std::size_t dot = requested.rfind('.');
+  if (requested.rfind("frame.", 0) == 0 && dot > 5)
+    if (const std::string keys = motion_keys_of(requested.substr(0, dot), requested.substr(dot + 1)); !keys.empty())
+      places.push_back({requested, keys});
   return places;
 }
 
@@ -115,12 +115,12 @@ std::string element_of_input(std::string name)
   return "input " + name;
 }
 
-void add_input(const std::string &asked, const Scene &scene, SceneNode &root)
+void add_input(const std::string &requested, const Scene &scene, SceneNode &root)
 {
-  const std::size_t equals = asked.find('=');
-  const std::string where  = equals == std::string::npos ? asked : asked.substr(equals + 1),
-                    name   = asked.substr(0, equals);
-  const Place              place{"--inputs " + asked};
+  const std::size_t equals = requested.find('=');
+  const std::string where  = equals == std::string::npos ? requested : requested.substr(equals + 1),
+                    name   = requested.substr(0, equals);
+  const Place              place{"--inputs " + requested};
   std::vector<std::string> known;
   const std::string        input = "{ input = " + written_text(name) + " }";
   for (const InputCourse &course : courses(root))

@@ -29,7 +29,7 @@ void warn_of_idle_keys(const SensitivityResult &found, std::vector<std::string> 
 }
 
 /// Before the twins are run.
-void add_frequencies(SceneTwins &twins, const Result &result, SensitivityResult &found)
+void add_frequencies(PerturbedScenes &twins, const Result &result, SensitivityResult &found)
 {
   const auto at = [](const Scene &of, coupling::Machine &machine) {
     return coupling::LinearisedAt{&machine, modes_configuration(of, machine), &of.modes.open};
@@ -53,14 +53,14 @@ void add_frequencies(SceneTwins &twins, const Result &result, SensitivityResult 
 
 } // namespace
 
-SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, SceneTwins &twins,
+SensitivityResult sensitivity_answer(const Scene &scene, PreparedMachine &prepared, PerturbedScenes &twins,
                                      const std::vector<VariedKey> &keys, const std::vector<coupling::Signal> &signals,
                                      const coupling::Trajectory &trajectory, const std::atomic<bool> *stop,
                                      Result &result)
 {
   SensitivityResult found;
   for (const VariedKey &key : keys)
-    found.keys.push_back(key.told);
+    found.keys.push_back(key.reported);
   coupling::RunSensitivities run;
   SensitivityResult          frequencies;
   try

@@ -121,10 +121,10 @@ VariedKey varied(const std::string &key, const SceneNode &root, const Parameters
     refuse(key, node.place.text() +
                     " is 0, so that its size tells no step for a quotient; give it a small value, or leave it out");
   VariedKey found;
-  found.told.key   = key;
-  found.told.value = quantity.value;
+  found.reported.key   = key;
+  found.reported.value = quantity.value;
   if (quantity.checked && quantity.dimension != Dimension{})
-    found.told.unit = describe(quantity.dimension);
+    found.reported.unit = describe(quantity.dimension);
   found.text = node.text;
   if (node.type != SceneNode::Type::text && found.text.empty())
     append_exact(found.text, node.number);
@@ -178,13 +178,13 @@ std::string VariedKey::overridden(double by) const
   if (text.find_first_not_of("+-.0123456789eE") == std::string::npos)
   {
     std::string number;
-    append_exact(number, told.value * (1. + (by * told.value > 0. ? 1. : -1.) * share * std::abs(by)));
-    return told.key + '=' + number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
+    append_exact(number, reported.value * (1. + (by * reported.value > 0. ? 1. : -1.) * share * std::abs(by)));
+    return reported.key + '=' + number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
   }
   // A whole number of a file that stands for a real one is written as a text.
   std::string text_of_share;
   append_exact(text_of_share, share * std::abs(by));
-  return told.key + "=\"(" + text + ")*(1 " + (by * told.value > 0. ? "+ " : "- ") + text_of_share + ")\"";
+  return reported.key + "=\"(" + text + ")*(1 " + (by * reported.value > 0. ? "+ " : "- ") + text_of_share + ")\"";
 }
 
 std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &list, std::vector<std::string> *left_out)
@@ -205,7 +205,7 @@ std::vector<VariedKey> varied_keys(const SceneNode &root, const std::string &lis
   {
     if (key.empty())
       refuse("\"" + list + "\"", "needs keys with commas between them, such as parameters.c_P,parameters.s_cl, or all");
-    if (std::any_of(found.begin(), found.end(), [&](const VariedKey &other) { return other.told.key == key; }))
+    if (std::any_of(found.begin(), found.end(), [&](const VariedKey &other) { return other.reported.key == key; }))
       refuse(key, "is named twice");
     found.push_back(varied(key, root, parameters));
   }

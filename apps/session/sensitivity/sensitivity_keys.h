@@ -12,7 +12,7 @@ namespace gestell::apps
 /// An entry of a scene that can be given a value a little below and above its own.
 struct VariedKey
 {
-  SensitivityKey told;
+  SensitivityKey reported;
   std::string    text;      ///< in the file: "900 kN/mm"
   double         step = 0.; ///< of its value, > 0
 

@@ -72,11 +72,11 @@ struct Turning
 
 Turning turning(const coupling::RunResult &run, const Reference &reference)
 {
-  const std::vector<double> t = column(run, 0), told = column(run, reference.column);
-  std::vector<double>       angle = told;
+  const std::vector<double> t = column(run, 0), reported = column(run, reference.column);
+  std::vector<double>       angle = reported;
   if (!reference.is_angle) // trapezoids: as good as the rows are close
     for (std::size_t i = 0; i < t.size(); ++i)
-      angle[i] = i == 0 ? 0. : angle[i - 1] + 0.5 * (told[i] + told[i - 1]) * (t[i] - t[i - 1]);
+      angle[i] = i == 0 ? 0. : angle[i - 1] + 0.5 * (reported[i] + reported[i - 1]) * (t[i] - t[i - 1]);
   const double sense = angle.empty() || angle.back() >= angle.front() ? 1. : -1.;
   Turning      result;
   for (std::size_t i = 0; i < t.size(); ++i)

@@ -49,13 +49,13 @@ std::optional<PeakState> taken_peak(const std::vector<coupling::Signal> &signals
   run.states.extremes.pop_back();
   const coupling::KeptState largest = run.states.extremes.back();
   run.states.extremes.pop_back();
-  const coupling::SignalSummary &told = run.signals[static_cast<std::size_t>(signal)];
-  const bool                     up   = std::abs(told.max) >= std::abs(told.min);
-  const coupling::KeptState     &kept = up ? largest : smallest;
+  const coupling::SignalSummary &reported = run.signals[static_cast<std::size_t>(signal)];
+  const bool                     up       = std::abs(reported.max) >= std::abs(reported.min);
+  const coupling::KeptState     &kept     = up ? largest : smallest;
   if (kept.q.size() == 0)
     return {};
   add_picture(kept, run);
-  return PeakState{told.name, told.unit, up ? told.max : told.min, kept.t, kept.q};
+  return PeakState{reported.name, reported.unit, up ? reported.max : reported.min, kept.t, kept.q};
 }
 
 } // namespace gestell::apps

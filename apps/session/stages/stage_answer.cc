@@ -115,14 +115,14 @@ std::string add_stages(const Scene &scene, const RunResult &run, StageResult &re
 std::vector<LiftOff> lift_off_intervals(const RunResult &run, double begin, double end)
 {
   std::vector<LiftOff>     intervals;
-  std::vector<std::string> seen; // wheels with an event
+  std::vector<std::string> visited; // wheels with an event
   for (const Event &event : run.events)
   {
     if (event.kind != "lift_off" && event.kind != "touch_down")
       continue;
-    const bool first = std::find(seen.begin(), seen.end(), event.name) == seen.end();
+    const bool first = std::find(visited.begin(), visited.end(), event.name) == visited.end();
     if (first)
-      seen.push_back(event.name);
+      visited.push_back(event.name);
     if (event.kind == "lift_off")
       intervals.push_back({event.name, event.t, end});
     else if (first)

@@ -31,8 +31,8 @@ void insert_picture(const coupling::KeptState &state, coupling::RunResult &run)
 
 bool has_picture_near(const coupling::RunResult &run, double t, double reach)
 {
-  const auto behind = std::lower_bound(run.picture_times.begin(), run.picture_times.end(), t - reach);
-  return behind != run.picture_times.end() && *behind <= t + reach;
+  const auto after = std::lower_bound(run.picture_times.begin(), run.picture_times.end(), t - reach);
+  return after != run.picture_times.end() && *after <= t + reach;
 }
 
 double half_swing(const coupling::RunResult &run, const PeakState &peak)

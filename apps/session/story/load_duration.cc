@@ -69,7 +69,7 @@ double moved(const coupling::ElementPlacement &placement, const coupling::Mode &
   return u;
 }
 
-LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &placement, const ModesThere &there,
+LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &placement, const LocalModes &there,
                    std::size_t j)
 {
   const coupling::Mode &mode = there.modes[j];
@@ -81,7 +81,7 @@ LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &p
   return on;
 }
 
-void add_modes(const coupling::ElementPlacement &placement, const ModesThere &there, int most, LoadDuration &load)
+void add_modes(const coupling::ElementPlacement &placement, const LocalModes &there, int most, LoadDuration &load)
 {
   load.t_modes = there.t;
   load.place   = there.place;
@@ -134,10 +134,10 @@ Samples samples_of(const coupling::RunResult &run, std::size_t s)
   {
     for (; e < run.event_values.size() && run.event_values[e].t < until; ++e)
       if (const coupling::EventValues &at = run.event_values[e];
-          !at.before.empty() && !at.behind.empty() && !samples.t.empty() && at.t > samples.t.back())
+          !at.before.empty() && !at.after.empty() && !samples.t.empty() && at.t > samples.t.back())
       {
         samples.add(at.t, at.before[s]);
-        samples.add(at.t, at.behind[s]);
+        samples.add(at.t, at.after[s]);
       }
   };
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -2,7 +2,7 @@
 
 #include "apps/output/values/run_story.h"
 #include "apps/session/prepared_machine.h"
-#include "apps/session/story/modes_there.h"
+#include "apps/session/story/local_modes.h"
 
 #include <optional>
 #include <vector>

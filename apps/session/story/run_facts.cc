@@ -62,7 +62,7 @@ public:
     const coupling::EventValues &at     = run_.event_values[e];
     const double                 length = rows_.t(rows_.size() - 1) - rows_.t(0);
     const bool                   here   = std::abs(at.t - run_.events[e].t) <= one_instant * length;
-    return here && !at.before.empty() && !at.behind.empty() ? &at : nullptr;
+    return here && !at.before.empty() && !at.after.empty() ? &at : nullptr;
   }
 
   /// Integral of the force s from an event to the next one of its object; NaN: rows do not tell it.
@@ -72,7 +72,7 @@ public:
     const auto       *from = at(e), *to = at(next);
     if (!from || !to || !fine_between(rows_, from->t, to->t, coarsest))
       return std::nan("");
-    double     sum = 0., t = from->t, F = from->behind[s];
+    double     sum = 0., t = from->t, F = from->after[s];
     const auto add = [&](double t_next, double F_next)
     {
       sum += 0.5 * (F + F_next) * (t_next - t);
@@ -113,7 +113,7 @@ const std::vector<coupling::KeptState> *states_about(const std::vector<coupling:
 
 /// The mode that makes most of a swing, into `swing`.
 void add_mode(ExtremeSwing &swing, const coupling::Signal &signal, const coupling::Machine &machine, double change,
-              const std::vector<const coupling::KeptState *> &path, const ModesThere &there)
+              const std::vector<const coupling::KeptState *> &path, const LocalModes &there)
 {
   const Eigen::VectorXd shares = swing_changes(signal, machine, there.modes, path) / change;
   Eigen::Index          most   = 0;
@@ -145,7 +145,7 @@ std::vector<EventValue> event_log(const std::vector<coupling::Signal> &signals, 
         continue;
       const coupling::EventValues &at = *known.at(e);
       EventValue                   value{events[e].t, events[e].name, events[e].kind, signal.name,
-                       signal.unit, at.before[s],   at.behind[s]};
+                       signal.unit, at.before[s],   at.after[s]};
       (is_force(signal) ? value.impulse : value.rate) = is_force(signal) ? known.impulse(e, s) : at.rate[s];
       log.push_back(value);
     }
@@ -185,11 +185,11 @@ std::vector<ExtremeSwing> extreme_swings(const std::vector<coupling::Signal> &si
       const auto *states    = states_about(signals, run, s, largest);
       if (!states || result.coupled_modes.empty())
         continue;
-      const auto path = states_of_swing(*states, swing.beside, swing.turn, of_swing * swing.half);
+      const auto path = states_of_swing(*states, swing.nearby, swing.turn, of_swing * swing.half);
       if (path.empty() || path.back()->q.size() != machine.size())
         continue;
-      if (const ModesThere &there = modes.at(*path.back()); !there.modes.empty())
-        add_mode(found.back(), signals[s], machine, value(swing.turn) - value(swing.beside), path, there);
+      if (const LocalModes &there = modes.at(*path.back()); !there.modes.empty())
+        add_mode(found.back(), signals[s], machine, value(swing.turn) - value(swing.nearby), path, there);
     }
   }
   return found;

@@ -9,7 +9,7 @@ namespace gestell::apps
 struct Swing
 {
   double half = 0.;              ///< [s] half a period; 0: none
-  double turn = 0., beside = 0.; ///< [s] the turning points it lies between, `turn` the one at the instant
+  double turn = 0., nearby = 0.; ///< [s] the turning points it lies between, `turn` the one at the instant
 };
 
 /**

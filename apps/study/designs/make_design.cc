@@ -23,10 +23,10 @@ std::size_t place_among(const std::vector<std::string> &names, const std::string
 }
 
 /// Sizes are judged before a point is made.
-void require_few(const char *what, int asked)
+void require_few(const char *what, int requested)
 {
-  if (asked > most_runs)
-    throw std::invalid_argument("study: " + std::string(what) + " is " + std::to_string(asked) +
+  if (requested > most_runs)
+    throw std::invalid_argument("study: " + std::string(what) + " is " + std::to_string(requested) +
                                 "; a million runs are the most");
 }
 

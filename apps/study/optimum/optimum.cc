@@ -86,14 +86,14 @@ SearchTrack searched(RememberedModel &model, const OptimumTask &task, const Eige
 
 } // namespace
 
-Optimum find_optimum(const OutputModel &model, const OptimumTask &asked, const OptimumOptions &options)
+Optimum find_optimum(const OutputModel &model, const OptimumTask &requested, const OptimumOptions &options)
 {
   check_options(options);
   RememberedModel       remembered(model);
-  const Eigen::MatrixXd starts = starts_in(asked, options);
+  const Eigen::MatrixXd starts = starts_in(requested, options);
   const Eigen::VectorXd first  = remembered.at(starts.row(0).transpose(), derivatives_for(options.method)).values;
-  check_task(asked, static_cast<int>(first.size()));
-  const OptimumTask task = sized_task(asked, first);
+  check_task(requested, static_cast<int>(first.size()));
+  const OptimumTask task = sized_task(requested, first);
 
   std::vector<SearchTrack> searches(static_cast<std::size_t>(starts.rows()));
   side_by_side(options.starts, options.side_by_side,

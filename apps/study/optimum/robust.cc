@@ -92,15 +92,15 @@ Eigen::MatrixXd scattered_points(const Eigen::VectorXd &nominal, const std::vect
 RobustResult robust_figures(const Eigen::MatrixXd &values, const std::vector<StudyOutput> &outputs,
                             const std::vector<Limit> &limits, const Eigen::VectorXd &undisturbed)
 {
-  std::vector<Eigen::Index> told, finite;
+  std::vector<Eigen::Index> reported, finite;
   for (Eigen::Index i = 0; i < values.cols(); ++i)
     if (values.col(i).array().isFinite().any())
-      told.push_back(i);
+      reported.push_back(i);
   int kept = 0;
   for (Eigen::Index row = 0; row < values.rows(); ++row)
   {
     const Eigen::VectorXd one = values.row(row).transpose();
-    if (told.empty() || !one(told).allFinite())
+    if (reported.empty() || !one(reported).allFinite())
       continue;
     finite.push_back(row);
     kept += violation_of(limits, one) <= 0.;
@@ -114,7 +114,7 @@ RobustResult robust_figures(const Eigen::MatrixXd &values, const std::vector<Stu
   result.failed     = result.draws - static_cast<int>(finite.size());
   result.kept       = static_cast<double>(kept) / result.draws;
   result.kept_error = std::sqrt(result.kept * (1. - result.kept) / result.draws);
-  for (const Eigen::Index i : told)
+  for (const Eigen::Index i : reported)
   {
     result.figures.push_back(figures_of(outputs.at(i), values(finite, i)));
     if (undisturbed.size() > 0)

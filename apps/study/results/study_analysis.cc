@@ -167,47 +167,47 @@ OutputPoint StudyAnalysis::run_at(const Eigen::VectorXd &xi, Derivatives derivat
   point.derivatives.resize(point.values.size(), xi.size());
   for (Eigen::Index i = 0; i < xi.size(); ++i)
   {
-    Eigen::VectorXd beside = xi;
-    beside[i] += xi[i] > 0. ? -quotient_step : quotient_step;
-    point.derivatives.col(i) = (values_at(beside, nullptr) - point.values) / (beside[i] - xi[i]);
+    Eigen::VectorXd nearby = xi;
+    nearby[i] += xi[i] > 0. ? -quotient_step : quotient_step;
+    point.derivatives.col(i) = (values_at(nearby, nullptr) - point.values) / (nearby[i] - xi[i]);
   }
   return point;
 }
 
 StudyOptimum StudyAnalysis::optimum_of(const StudyAnswer &answer, const OutputModel &surfaces)
 {
-  const OptimiseRequest &asked   = *request_.optimise;
-  const bool             runs    = asked.on == AnalysisOn::runs;
-  OptimumOptions         options = asked.options;
-  options.side_by_side           = runs ? jobs_ : 1;
+  const OptimiseRequest &requested = *request_.optimise;
+  const bool             runs      = requested.on == AnalysisOn::runs;
+  OptimumOptions         options   = requested.options;
+  options.side_by_side             = runs ? jobs_ : 1;
   const OutputModel model =
       runs ? [this](const Eigen::VectorXd &xi, Derivatives derivatives) { return run_at(xi, derivatives); } : surfaces;
   StudyOptimum optimum;
   optimum.source = runs ? "runs" : "surface";
-  optimum.task   = asked.task;
-  optimum.found  = find_optimum(model, asked.task, options);
+  optimum.task   = requested.task;
+  optimum.found  = find_optimum(model, requested.task, options);
   go_on();
   optimum.nominal = middle_run(answer.table);
-  if (!runs && asked.verify)
+  if (!runs && requested.verify)
     if (const Eigen::VectorXd values = run_at(optimum.found.coded, Derivatives::none).values; values.allFinite())
     {
       optimum.verified = values;
       optimum.link     = link_of(number_);
     }
-  if (!optimum.nominal && asked.verify)
+  if (!optimum.nominal && requested.verify)
     optimum.nominal = run_at(Eigen::VectorXd::Zero(optimum.found.coded.size()), Derivatives::none).values;
   return optimum;
 }
 
 RobustResult StudyAnalysis::robust_at_optimum(const StudyFindings &findings, const OutputModel &surfaces)
 {
-  const Eigen::VectorXd &nominal = findings.optimum->found.coded;
-  const StudyTable      &table   = findings.table;
-  const RobustRequest   &asked   = *request_.optimise->robust;
-  const auto            &task    = request_.optimise->task;
-  if (asked.on == AnalysisOn::surface)
-    return robust_on(surfaces, nominal, variables_, table.outputs, asked.draws, asked.seed, task.limits);
-  const Eigen::MatrixXd points  = scattered_points(nominal, variables_, asked.draws, asked.seed);
+  const Eigen::VectorXd &nominal   = findings.optimum->found.coded;
+  const StudyTable      &table     = findings.table;
+  const RobustRequest   &requested = *request_.optimise->robust;
+  const auto            &task      = request_.optimise->task;
+  if (requested.on == AnalysisOn::surface)
+    return robust_on(surfaces, nominal, variables_, table.outputs, requested.draws, requested.seed, task.limits);
+  const Eigen::MatrixXd points  = scattered_points(nominal, variables_, requested.draws, requested.seed);
   constexpr double      not_run = std::numeric_limits<double>::quiet_NaN();
   Eigen::MatrixXd       values  = Eigen::MatrixXd::Constant(points.rows(), Eigen::Index(table.outputs.size()), not_run);
   side_by_side(int(points.rows()), jobs_,
@@ -219,7 +219,7 @@ RobustResult StudyAnalysis::robust_at_optimum(const StudyFindings &findings, con
                                                                         : run_at(nominal, Derivatives::none).values);
   result.source               = "runs";
   result.nominal              = nominal;
-  result.seed                 = asked.seed;
+  result.seed                 = requested.seed;
   return result;
 }
 
@@ -255,13 +255,13 @@ StudyFindings StudyAnalysis::of(const StudyAnswer &answer)
 /// The output that a search on surfaces asks for in vain, or "".
 std::string StudyAnalysis::lacking_surface(const std::vector<ResponseSurface> &surfaces) const
 {
-  const OptimiseRequest &asked = *request_.optimise;
-  if (asked.on == AnalysisOn::runs && asked.pareto == 0)
+  const OptimiseRequest &requested = *request_.optimise;
+  if (requested.on == AnalysisOn::runs && requested.pareto == 0)
     return "";
   std::vector<int> outputs;
-  for (const Goal &goal : asked.task.goals)
+  for (const Goal &goal : requested.task.goals)
     outputs.push_back(goal.output);
-  for (const Limit &limit : asked.task.limits)
+  for (const Limit &limit : requested.task.limits)
     outputs.push_back(limit.output);
   for (const int output : outputs)
     if (!surfaces[std::size_t(output)].is_fitted())

@@ -15,7 +15,7 @@ namespace
 struct Table
 {
   const char *name;
-  bool        told; ///< there is something to tell
+  bool        reported; ///< there is something to tell
   std::string text;
 };
 
@@ -49,13 +49,13 @@ void write_findings(const fs::path &folder, const StudyFile &study, const SceneV
   OwnFolder         own(folder);
   own.remove_all([](const std::string &name) { return has_form(name, "charts/*"); });
   for (const Table &table : tables)
-    if (!table.told)
+    if (!table.reported)
       own.remove(table.name);
   write_or_rescue(folder,
                   [&](Writing &writing)
                   {
                     for (const Table &table : tables)
-                      if (table.told)
+                      if (table.reported)
                         writing.write(table.name, table.text);
                     writing.write("report.html", report.html);
                     for (const auto &[name, svg] : report.pictures)

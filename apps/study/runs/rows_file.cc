@@ -1,8 +1,8 @@
 #include "apps/study/runs/rows_file.h"
 
 #include "apps/output/text/csv.h"
+#include "coupling/frame/atomic_file.h"
 #include "coupling/frame/number_in_file.h"
-#include "coupling/frame/whole_file.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>

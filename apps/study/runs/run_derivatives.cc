@@ -68,13 +68,13 @@ Eigen::MatrixXd output_derivatives(const OutputFormulas &outputs, const Result &
     by_key.push_back(entry_derivative(path, *result.sensitivities));
   const auto values_beside = [&](Eigen::Index variable, double step)
   {
-    Eigen::VectorXd beside = levels;
-    beside[variable] += step;
+    Eigen::VectorXd nearby = levels;
+    nearby[variable] += step;
     auto         moved = entries;
     const double in_si = step * factor_of(variables[std::size_t(variable)].variable);
     for (std::size_t e = 0; e < moved.size(); ++e)
       moved[e].value += by_key[e][variable] * in_si;
-    const auto      values = outputs.values_of(moved, variants.parameters_at(beside), beside);
+    const auto      values = outputs.values_of(moved, variants.parameters_at(nearby), nearby);
     Eigen::VectorXd column(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
       column[Eigen::Index(i)] = values[i].value;

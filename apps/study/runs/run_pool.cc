@@ -1,6 +1,6 @@
 #include "apps/study/runs/run_pool.h"
 
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -76,7 +76,7 @@ std::string on_one_line(std::string message)
   return message;
 }
 
-std::string told(const RunRow &row, const std::string &line)
+std::string reported(const RunRow &row, const std::string &line)
 {
   std::string units;
   for (const std::string &unit : row.units)
@@ -103,7 +103,7 @@ void work(int pipe, int worker, StudyRunner &runner, const RowsText &text, const
     const RunRow row       = runner.run(orders[at].number, orders[at].levels, &shared.stop);
     refuse_lacking(row, at, first);
     if (row.status != RunStatus::waiting)
-      write_all(pipe, told(row, text.line(row, orders[at].levels)));
+      write_all(pipe, reported(row, text.line(row, orders[at].levels)));
     shared.current[worker] = -1;
   }
 }

@@ -210,8 +210,8 @@ bool RunServer::read_whole(int pipe, void *bytes, std::size_t size)
   return true;
 }
 
-RunRow RunServer::asked(Worker &worker, int number, const Eigen::VectorXd &levels, Eigen::MatrixXd *derivatives,
-                        bool &lives)
+RunRow RunServer::requested(Worker &worker, int number, const Eigen::VectorXd &levels, Eigen::MatrixXd *derivatives,
+                            bool &lives)
 {
   RunReply    head;
   std::string line;
@@ -239,7 +239,7 @@ RunRow RunServer::run(int number, const Eigen::VectorXd &levels, Eigen::MatrixXd
     return runner_.run(number, levels, &stop_, derivatives);
   Worker      *worker = free_worker();
   bool         lives  = true;
-  const RunRow row    = asked(*worker, number, levels, derivatives, lives);
+  const RunRow row    = requested(*worker, number, levels, derivatives, lives);
   give_back(worker, lives);
   return row;
 }

@@ -33,7 +33,8 @@ private:
   void    begin_worker();
   Worker *free_worker();
   void    give_back(Worker *worker, bool lives);
-  RunRow  asked(Worker &worker, int number, const Eigen::VectorXd &levels, Eigen::MatrixXd *derivatives, bool &lives);
+  RunRow  requested(Worker &worker, int number, const Eigen::VectorXd &levels, Eigen::MatrixXd *derivatives,
+                    bool &lives);
   bool    read_whole(int pipe, void *bytes, std::size_t size);
 
   StudyRunner                         &runner_;

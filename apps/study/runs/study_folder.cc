@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr std::size_t most_told = 5;
+constexpr std::size_t most_listed = 5;
 
 /// Rows below the head.
 std::size_t n_lines(const fs::path &file)
@@ -113,10 +113,10 @@ void StudyFolder::refuse_changes() const
   if (changes.empty())
     return;
   std::string text;
-  for (std::size_t i = 0; i < std::min(most_told, changes.size()); ++i)
+  for (std::size_t i = 0; i < std::min(most_listed, changes.size()); ++i)
     text += "\n  " + changes[i];
-  if (changes.size() > most_told)
-    text += "\n  and " + std::to_string(changes.size() - most_told) + " further ones";
+  if (changes.size() > most_listed)
+    text += "\n  and " + std::to_string(changes.size() - most_listed) + " further ones";
   throw std::invalid_argument(folder_.string() + ": its rows were computed before the study was changed:" + text +
                               "\n  undo the change, or give another folder with -o");
 }

@@ -76,12 +76,12 @@ bool StudyRunner::measure(const Result &result, const Eigen::VectorXd &levels)
   bool settled = true;
   for (const RunParameter &measure : measures_)
   {
-    const double used = variants_.measured(measure, levels);
-    AnswerValue  told = answer_entry::value(key_segments(measure.entry, measure.place), result);
-    if (!std::isfinite(told.value))
-      told.value = 2. * used;
-    settled = settled && std::abs(told.value - used) <= settled_to * std::abs(told.value);
-    variants_.set_measured(measure, told.value, told.unit);
+    const double used     = variants_.measured(measure, levels);
+    AnswerValue  reported = answer_entry::value(key_segments(measure.entry, measure.place), result);
+    if (!std::isfinite(reported.value))
+      reported.value = 2. * used;
+    settled = settled && std::abs(reported.value - used) <= settled_to * std::abs(reported.value);
+    variants_.set_measured(measure, reported.value, reported.unit);
   }
   return settled;
 }

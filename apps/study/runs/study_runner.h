@@ -1,7 +1,7 @@
 #pragma once
 
-#include "apps/study/runs/frame_shelf.h"
 #include "apps/study/runs/output_formulas.h"
+#include "apps/study/runs/reduced_frame_store.h"
 #include "apps/study/runs/run_row.h"
 #include "apps/study/runs/scene_variants.h"
 
@@ -54,7 +54,7 @@ private:
 
   std::vector<VariableRequest> variables_;
   SceneVariants                variants_;
-  FrameShelf                   frames_;
+  ReducedFrameStore            frames_;
   /// None where the machine or an output has none: the search then takes differences of runs.
   Eigen::MatrixXd derivatives_or_none(const Result &result, const Eigen::VectorXd &levels) const;
 

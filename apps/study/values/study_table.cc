@@ -42,13 +42,13 @@ std::vector<int> StudyTable::runs_with(int output) const
 
 std::vector<int> StudyTable::usable_runs() const
 {
-  std::vector<Eigen::Index> told;
+  std::vector<Eigen::Index> reported;
   for (std::size_t output = 0; output < outputs.size(); ++output)
     if (!runs_with(int(output)).empty())
-      told.push_back(Eigen::Index(output));
+      reported.push_back(Eigen::Index(output));
   std::vector<int> rows;
   for (int run = 0; run < n_runs(); ++run)
-    if (runs[run].status == RunStatus::done && values(run, told).allFinite())
+    if (runs[run].status == RunStatus::done && values(run, reported).allFinite())
       rows.push_back(run);
   return rows;
 }

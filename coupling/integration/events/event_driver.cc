@@ -4,7 +4,7 @@
 #include "coupling/integration/system/resumable.h"
 #include "coupling/integration/system/state_archive.h"
 
-#include "coupling/integration/step/loads_to_come.h"
+#include "coupling/integration/step/load_breakpoints.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/error_control.h"
 
@@ -66,7 +66,7 @@ void EventDriver::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorX
   const bool   controls = control && control->controls_error();
   LoadedMotion loaded;
   if (controls)
-    loaded = loads_to_come(system_, before_, options_.end);
+    loaded = load_breakpoints(system_, before_, options_.end);
   system_.events().follow_history(options_.locate);
   integrator_.begin(t, q, v);
   if (controls)
@@ -175,9 +175,9 @@ void EventDriver::observe()
 
 void EventDriver::tell_events()
 {
-  for (; told_ < events_.size(); ++told_)
+  for (; reported_ < events_.size(); ++reported_)
     for (RunObserver *observer : observers_)
-      observer->event(events_[told_]);
+      observer->event(events_[reported_]);
 }
 
 double EventDriver::value_at(int guard, double t)
@@ -438,7 +438,7 @@ void EventDriver::exchange(StateArchive &archive)
   if (archive.reads())
     detection_.begin(integrator_.local());
   archive(events_, before_, between_, g_, probe_, window_begin_, length_, in_window_, chattering_, chattering_time_,
-          told_, anew_, watched_);
+          reported_, anew_, watched_);
 }
 
 } // namespace gestell::coupling

@@ -110,7 +110,7 @@ private:
   long                                      chattering_      = 0;
   double                                    chattering_time_ = 0.;
   const std::vector<RunObserver *>         &observers_;
-  std::size_t                               told_ = 0; ///< events
+  std::size_t                               reported_ = 0; ///< events
 };
 
 } // namespace gestell::coupling

@@ -12,7 +12,7 @@ bool is_finite(const LocalState &state)
   return std::isfinite(state.u.sum() + state.v.sum() + state.p.sum() + state.lambda.sum());
 }
 
-std::string no_number_words(const SecondOrderSystem &system, const LocalState &state)
+std::string non_finite_state_message(const SecondOrderSystem &system, const LocalState &state)
 {
   std::ostringstream message;
   message << "there is no finite number at t = " << state.t << " s for ";
@@ -35,7 +35,7 @@ void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
   integrator.advance();
   if (is_finite(integrator.local()))
     return;
-  const std::string words = no_number_words(system, integrator.local());
+  const std::string words = non_finite_state_message(system, integrator.local());
   integrator.cut(integrator.step_begin());
   throw ConvergenceFailure(words);
 }

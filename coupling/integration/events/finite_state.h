@@ -12,7 +12,7 @@ namespace gestell::coupling
 bool is_finite(const LocalState &state);
 
 /// Which of them is none, for messages.
-std::string no_number_words(const SecondOrderSystem &system, const LocalState &state);
+std::string non_finite_state_message(const SecondOrderSystem &system, const LocalState &state);
 
 /// A step of any method ends in a state, whatever looks on; else it is given up.
 /// @throws ConvergenceFailure

@@ -167,7 +167,7 @@ namespace
 {
 
 /// Stiff or damping within `beside` of u: a cubic spring is neither where it is relaxed.
-bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u, double beside)
+bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u, double nearby)
 {
   const auto      k = u.size();
   Eigen::MatrixXd K(k, k), D(k, k);
@@ -178,7 +178,7 @@ bool is_structure(const mechanism::Element &element, const Eigen::VectorXd &u, d
   };
   bool acts = acts_at(u);
   for (Eigen::Index i = 0; !acts && i < k; ++i) // each alone: two that move together may leave a distance as it is
-    acts = acts_at(u + beside * Eigen::VectorXd::Unit(k, i)) || acts_at(u - beside * Eigen::VectorXd::Unit(k, i));
+    acts = acts_at(u + nearby * Eigen::VectorXd::Unit(k, i)) || acts_at(u - nearby * Eigen::VectorXd::Unit(k, i));
   return acts;
 }
 

@@ -326,9 +326,9 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
 
 VectorXd PeriodicCollocation::carried_over(const std::vector<double> &mesh, const VectorXd &P) const
 {
-  VectorXd    other  = VectorXd::Zero(n_unknowns());
-  const Index behind = n_unknowns() - u_0_.size(); // free states and the period
-  other.tail(behind) = P.tail(behind);
+  VectorXd    other = VectorXd::Zero(n_unknowns());
+  const Index after = n_unknowns() - u_0_.size(); // free states and the period
+  other.tail(after) = P.tail(after);
   for (Index i = 0; i < n_intervals(); ++i)
     for (int j = 0; j < stages; ++j)
     {

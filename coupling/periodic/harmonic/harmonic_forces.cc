@@ -220,8 +220,8 @@ Eigen::MatrixXd HarmonicForces::sampled(const MatrixXcd &u, double omega)
 
 VectorXd HarmonicForces::changes(const MatrixXcd &u, const MatrixXcd &other, double omega)
 {
-  const Eigen::MatrixXd before = sampled(u, omega), behind = sampled(other, omega);
-  return (behind - before).cwiseAbs().colwise().maxCoeff().transpose();
+  const Eigen::MatrixXd before = sampled(u, omega), after = sampled(other, omega);
+  return (after - before).cwiseAbs().colwise().maxCoeff().transpose();
 }
 
 VectorXd HarmonicForces::ranges() const

@@ -21,8 +21,8 @@ double vertex(double x_2, double x_1, double x0, double x1, double x2)
 {
   constexpr double alike = 2.;
   const double     bend = x1 - 2. * x0 + x_1, left = x0 - 2. * x_1 + x_2, right = x2 - 2. * x1 + x0;
-  for (const double beside : {left, right})
-    if (!(beside * bend > 0.) || std::abs(beside) > alike * std::abs(bend) || std::abs(bend) > alike * std::abs(beside))
+  for (const double nearby : {left, right})
+    if (!(nearby * bend > 0.) || std::abs(nearby) > alike * std::abs(bend) || std::abs(bend) > alike * std::abs(nearby))
       return x0;
   if (std::abs(x1 - x_1) > std::abs(bend)) // an end of what turns, not its extreme
     return x0;

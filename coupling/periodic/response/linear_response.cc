@@ -1,8 +1,8 @@
 #include "coupling/periodic/response/linear_response.h"
 
 #include "coupling/integration/system/turning_forces.h"
-#include "coupling/periodic/response/growing_motions.h"
 #include "coupling/periodic/response/linearised_system.h"
+#include "coupling/periodic/response/unstable_modes.h"
 
 #include <Eigen/LU>
 
@@ -306,8 +306,8 @@ std::optional<std::vector<Complex>> LinearResponse::growing() const
   const MatrixXd W    = parts_->W;
   const auto     with = [&](const MatrixXd &base, const MatrixXd &elements)
   { return MatrixXd(base + W * elements * W.transpose()); };
-  return growing_motions(with(parts_->M, parts_->M_u), with(parts_->B, parts_->B_u), with(parts_->C, parts_->K_u),
-                         parts_->E * W.transpose());
+  return unstable_modes(with(parts_->M, parts_->M_u), with(parts_->B, parts_->B_u), with(parts_->C, parts_->K_u),
+                        parts_->E * W.transpose());
 }
 
 Vibration LinearResponse::at(double omega, const MatrixXd &forces) const

@@ -81,7 +81,7 @@ public:
   const std::string &not_condensed() const;
 
   /// Motions exp(s t) about the operating point that grow by themselves; nothing where that is not known, see
-  /// growing_motions().
+  /// unstable_modes().
   std::optional<std::vector<std::complex<double>>> growing() const;
 
 private:

@@ -257,8 +257,8 @@ bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, Ve
     {
       const VectorXd next = z - part * dz;
       equations.evaluate(next);
-      const double behind = length(problem, speed, matrix.solve(equations.residual()));
-      if (equations.closing() <= tolerance || behind <= (1. - shorter * part) * before)
+      const double after = length(problem, speed, matrix.solve(equations.residual()));
+      if (equations.closing() <= tolerance || after <= (1. - shorter * part) * before)
       {
         z = next;
         return true;

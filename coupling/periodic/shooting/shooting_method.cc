@@ -25,7 +25,7 @@ constexpr int    ritz_rounds   = 6;
 class ChordNewton
 {
 public:
-  ChordNewton(const PeriodicProblem &problem, const MethodOptions &integration, SlowMotions &slow, double omega)
+  ChordNewton(const PeriodicProblem &problem, const MethodOptions &integration, DominantSubspace &slow, double omega)
       : problem_(problem), slow_(slow), equations_(problem, integration, omega)
   {
   }
@@ -44,7 +44,7 @@ private:
   double step(VectorXd &z, bool formed_here);
 
   const PeriodicProblem &problem_;
-  SlowMotions           &slow_;
+  DominantSubspace      &slow_;
   ShootingEquations      equations_;
   LargestMultipliers    *multipliers_ = nullptr;
   int                    iterations_  = 0;
@@ -76,11 +76,11 @@ double ChordNewton::step(VectorXd &z, bool formed_here)
     try
     {
       evaluate(next);
-      const double behind = equations_.residual().norm();
-      if (behind < (1. - 0.1 * part) * before)
+      const double after = equations_.residual().norm();
+      if (after < (1. - 0.1 * part) * before)
       {
         z = next;
-        return behind / before;
+        return after / before;
       }
     }
     catch (const ConvergenceFailure &)
@@ -120,7 +120,7 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
 
 } // namespace
 
-PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, PeriodicGuess near,
+PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &slow, PeriodicGuess near,
                             const PeriodicOptions &options)
 {
   MethodOptions coarse = options.integration;
@@ -222,7 +222,7 @@ public:
                                       const PeriodicOptions &options) const override
   {
     // Of large frames segments would need the tangents of all motions.
-    if (SlowMotions motions(problem); options.segments == 0 && mostly_fast(motions, problem))
+    if (DominantSubspace motions(problem); options.segments == 0 && mostly_fast(motions, problem))
       return {shoot_slow(problem, motions, guess, options)};
     PeriodicGuess near = guess;
     {

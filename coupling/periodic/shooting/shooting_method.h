@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coupling/periodic/periodic_method.h"
-#include "coupling/periodic/shooting/slow_motions.h"
+#include "coupling/periodic/shooting/dominant_subspace.h"
 
 namespace gestell::coupling
 {
@@ -10,13 +10,13 @@ namespace gestell::coupling
 const PeriodicMethod &shooting_method();
 
 /**
- * Newton's method with SlowMotions, at first with coarse steps; its matrix is kept while the motion closes well.  Where
- * it does not, more motions are slow; where all are, this is shoot().  The largest multipliers are found by Rayleigh
- * and Ritz; a note gives their number, and their residual where it has not converged.
+ * Newton's method with DominantSubspace, at first with coarse steps; its matrix is kept while the motion closes well.
+ * Where it does not, more motions are slow; where all are, this is shoot().  The largest multipliers are found by
+ * Rayleigh and Ritz; a note gives their number, and their residual where it has not converged.
  *
  * @throws NoPeriodicMotion, ConvergenceFailure as shoot()
  */
-PeriodicSolution shoot_slow(const PeriodicProblem &problem, SlowMotions &slow, PeriodicGuess guess,
+PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &slow, PeriodicGuess guess,
                             const PeriodicOptions &options);
 
 } // namespace gestell::coupling

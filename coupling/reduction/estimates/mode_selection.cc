@@ -161,7 +161,7 @@ int with_mass(const fem::FrameMatrices &frame, const std::vector<int> &q1)
   return int((mass.array() > 0.).count());
 }
 
-MatrixXd beside(const MatrixXd &A, const MatrixXd &B)
+MatrixXd side_by_side(const MatrixXd &A, const MatrixXd &B)
 {
   MatrixXd both(A.rows(), A.cols() + B.cols());
   both << A, B;
@@ -237,7 +237,7 @@ ModeSelection enough(const Look &look, ReductionBasis &basis, const InterfaceSta
     found.shapes = inertia_shapes(statics.held, basis);
   const auto dampers = for_dampers(look, basis, found.shapes, statics, frame, options);
   if (dampers)
-    found.shapes = beside(found.shapes, dampers->W);
+    found.shapes = side_by_side(found.shapes, dampers->W);
   if (look.receptance)
     found.statement = receptance_statement(*look.receptance, basis, frame.interfaces, fewest, options.frequency,
                                            dampers ? &*dampers : nullptr);

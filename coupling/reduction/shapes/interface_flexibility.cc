@@ -48,9 +48,9 @@ MatrixXd inverse_beside(const MatrixXd &S, const MatrixXd &Z)
   if (Z.cols() > 0)
     Q = orthonormal_columns(d.cwiseInverse().asDiagonal() * Z, Z.cols());
   const MatrixXd             P = MatrixXd::Identity(S.rows(), S.rows()) - Q * Q.transpose();
-  const SymmetricEigenSolver beside(P * (d.asDiagonal() * S * d.asDiagonal()) * P + Q * Q.transpose());
-  const VectorXd inverse = beside.eigenvalues().unaryExpr([](double lambda) { return lambda > 0. ? 1. / lambda : 0.; });
-  const MatrixXd U       = d.asDiagonal() * P * beside.eigenvectors();
+  const SymmetricEigenSolver nearby(P * (d.asDiagonal() * S * d.asDiagonal()) * P + Q * Q.transpose());
+  const VectorXd inverse = nearby.eigenvalues().unaryExpr([](double lambda) { return lambda > 0. ? 1. / lambda : 0.; });
+  const MatrixXd U       = d.asDiagonal() * P * nearby.eigenvectors();
   return U * inverse.asDiagonal() * U.transpose();
 }
 

@@ -6,14 +6,14 @@
 #include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/element_law.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
-#include "coupling/simulation/checks/fast_forces.h"
+#include "coupling/simulation/checks/force_bandwidth_check.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
 #include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/instantaneous_modes.h"
 #include "coupling/simulation/checks/joint_force_guard.h"
-#include "coupling/simulation/checks/momentary_modes.h"
 #include "coupling/simulation/checks/step_collapse_guard.h"
+#include "coupling/simulation/checks/step_resolution_check.h"
 #include "coupling/simulation/checks/stiffness_check.h"
-#include "coupling/simulation/checks/unseen_forces.h"
 #include "mechanism/elements/journal_bearing.h"
 #include "mechanism/elements/point_contact.h"
 
@@ -165,9 +165,9 @@ std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Mot
   checks.push_back(std::make_unique<HydraulicLimits>(machine, integrator));
   if (!options.force_unstable)
     checks.push_back(std::make_unique<StiffnessCheck>(machine, integrator, initial, method));
-  checks.push_back(std::make_unique<FastForces>(machine, integrator));
+  checks.push_back(std::make_unique<ForceBandwidthCheck>(machine, integrator));
   checks.push_back(std::make_unique<JointForceGuard>(machine, integrator));
-  checks.push_back(std::make_unique<MomentaryModes>(machine, integrator, options.begin, options.end));
+  checks.push_back(std::make_unique<InstantaneousModes>(machine, integrator, options.begin, options.end));
   if (controlled(method))
     checks.push_back(std::make_unique<StepCollapseGuard>(integrator, options));
   checks.push_back(std::make_unique<EndCheck>(machine, motion, initial.v, options.begin, method));

@@ -306,14 +306,14 @@ private:
 
   void tell_what_is_left()
   {
-    constexpr std::size_t most_told = 8;
+    constexpr std::size_t most_listed = 8;
     std::string           names;
     std::size_t           n = 0;
     for (const std::string &name : left_)
-      if (++n <= most_told)
+      if (++n <= most_listed)
         names += (n > 1 ? ", " : "") + name;
-    if (n > most_told)
-      names += " and " + std::to_string(n - most_told) + " more";
+    if (n > most_listed)
+      names += " and " + std::to_string(n - most_listed) + " more";
     if (n > 0)
       mesh_.notes.push_back(names + (n > 1 ? " are" : " is") +
                             " not read: a mesh is taken from the file, material, supports and loads from the scene");

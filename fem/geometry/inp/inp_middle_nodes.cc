@@ -9,7 +9,7 @@ namespace gestell::fem
 {
 
 /// Square of the distance of a node from the middle between two others.
-double InpMiddleNodes::beside(std::size_t node, std::size_t a, std::size_t b) const
+double InpMiddleNodes::nearby(std::size_t node, std::size_t a, std::size_t b) const
 {
   const Vector3 r = position_(node) - 0.5 * (position_(a) + position_(b));
   return dot(r, r);
@@ -24,7 +24,7 @@ std::vector<std::size_t> InpMiddleNodes::edges_of(int gmsh_type, const std::vect
   for (std::size_t k = 0; k < edges.size(); ++k)
   {
     const auto distance = [&](std::size_t edge)
-    { return beside(nodes[n_corners + k], nodes[edges[edge][0]], nodes[edges[edge][1]]); };
+    { return nearby(nodes[n_corners + k], nodes[edges[edge][0]], nodes[edges[edge][1]]); };
     std::size_t nearest = k;
     for (std::size_t edge = 0; edge < edges.size(); ++edge)
       if (distance(edge) < 0.99 * distance(nearest)) // equal but for the digits of the file

@@ -30,7 +30,7 @@ public:
 
 private:
   std::vector<std::size_t> edges_of(int gmsh_type, const std::vector<std::size_t> &nodes) const;
-  double                   beside(std::size_t node, std::size_t a, std::size_t b) const;
+  double                   nearby(std::size_t node, std::size_t a, std::size_t b) const;
 
   std::function<Vector3(std::size_t)>     position_; ///< of the node of a number
   std::map<int, std::vector<std::size_t>> order_of_; ///< kind to the edges of its middle nodes

@@ -92,7 +92,7 @@ private:
   /// cells, which quadrilaterals alone ask for.
   std::set<std::pair<int, int>> sheets_beside_regions() const
   {
-    std::set<std::pair<int, int>> beside;
+    std::set<std::pair<int, int>> nearby;
     for (std::size_t brick = 0; brick < lattice_.size(); ++brick)
       if (const int r = lattice_.region[brick]; r >= 0)
       {
@@ -104,10 +104,10 @@ private:
             other[across] += step;
             if (lattice_.at(other) >= 0)
               if (const int sheet = sheets_.of_brick[along][lattice_.index(other)]; sheet >= 0)
-                beside.insert({along, sheet});
+                nearby.insert({along, sheet});
           }
       }
-    return beside;
+    return nearby;
   }
 
   /// Filled ones whose side lies on the face.
@@ -206,13 +206,13 @@ private:
       std::set<double> in_layer;
       for (int i = region.from[along]; i < region.to[along]; ++i)
       {
-        Index3 beside;
-        beside[d]      = k;
-        beside[along]  = i;
-        beside[across] = at_end ? region.to[across] : region.from[across] - 1;
-        if (lattice_.at(beside) < 0)
+        Index3 nearby;
+        nearby[d]      = k;
+        nearby[along]  = i;
+        nearby[across] = at_end ? region.to[across] : region.from[across] - 1;
+        if (lattice_.at(nearby) < 0)
           continue;
-        const int sheet = sheets_.of_brick[along][lattice_.index(beside)];
+        const int sheet = sheets_.of_brick[along][lattice_.index(nearby)];
         if (sheet < 0)
           throw NotSwept("holes across each other lie too close together");
         for (const double level : limits_[along][sheet])

@@ -81,9 +81,9 @@ bool is_plate(const BrickLattice &lattice, const Box &box)
     if (!within((d + 1) % 3, box.min[0], box.max[0]) || !within((d + 2) % 3, box.min[1], box.max[1]))
       continue;
     const bool inside = within(d, box.from, box.to);
-    const bool beside =
+    const bool nearby =
         std::abs(lattice.planes[d][i[d] + 1] - box.from) < same || std::abs(lattice.planes[d][i[d]] - box.to) < same;
-    if ((inside && lattice.solid[brick] < 0) || (beside && lattice.solid[brick] >= 0))
+    if ((inside && lattice.solid[brick] < 0) || (nearby && lattice.solid[brick] >= 0))
       return false;
   }
   for (int k = 0; k < 2; ++k)

@@ -99,10 +99,10 @@ TEST(BodyFromCad, RotorTakesTheInertiaAboutItsAxisAndWarnsOfUnbalance)
   EXPECT_NEAR(scene.bodies.at(0).mass, M, 1e-9 * M);
   EXPECT_TRUE(scene.warnings.empty());
 
-  const auto beside = Drawing(disc).scene("cad = \"part.geo\"\n" + rotor + "position = [\"30 mm\", \"7 m\", 0]\n");
-  EXPECT_NEAR(beside.bodies.at(0).inertia, 0.5 * M * 0.04 + M * 0.0009, 1e-9 * M) << "Steiner's theorem";
-  ASSERT_EQ(beside.warnings.size(), 1u);
-  EXPECT_THAT(beside.warnings[0], HasSubstr("body.b.cad: the centre of mass lies 30 mm beside the axis"));
+  const auto nearby = Drawing(disc).scene("cad = \"part.geo\"\n" + rotor + "position = [\"30 mm\", \"7 m\", 0]\n");
+  EXPECT_NEAR(nearby.bodies.at(0).inertia, 0.5 * M * 0.04 + M * 0.0009, 1e-9 * M) << "Steiner's theorem";
+  ASSERT_EQ(nearby.warnings.size(), 1u);
+  EXPECT_THAT(nearby.warnings[0], HasSubstr("body.b.cad: the centre of mass lies 30 mm beside the axis"));
 }
 
 TEST(BodyFromCad, SliderAndPointTakeTheMassOfAllSolids)

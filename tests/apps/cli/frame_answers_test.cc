@@ -185,9 +185,9 @@ TEST_F(FrameAnswers, CheckTellsOfFramesFromMatricesThatFall)
   {
     EXPECT_EQ(count(ask("check", chain("1e6", more)).text, nothing), 1) << more;
     EXPECT_EQ(count(ask("run", chain("1e6", more)).text, nothing), 1) << more;
-    const Answer stands = ask("check", chain("2e6", more)),
-                 hangs  = ask("check", chain("1e6", more + spring("z", "top", "[0, 0, 1]")));
-    EXPECT_TRUE(stands.exit_code == 0 && !stands.says(nothing)) << more << stands.text;
+    const Answer at_rest = ask("check", chain("2e6", more)),
+                 hangs   = ask("check", chain("1e6", more + spring("z", "top", "[0, 0, 1]")));
+    EXPECT_TRUE(at_rest.exit_code == 0 && !at_rest.says(nothing)) << more << at_rest.text;
     EXPECT_TRUE(hangs.exit_code == 0 && !hangs.says(nothing)) << more << hangs.text;
   }
 }

@@ -13,10 +13,10 @@ namespace gestell::tests
 TEST(FmuExport, TakesFilesThatKeysNameAndNoOthers)
 {
   const Folder folder("fmu_files");
-  const auto   beside = [&](const std::string &name, const std::string &text) { std::ofstream(folder / name) << text; };
-  beside("secret.txt", "not for others");
-  beside("m.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 3\n");
-  beside("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2e5\n");
+  const auto   nearby = [&](const std::string &name, const std::string &text) { std::ofstream(folder / name) << text; };
+  nearby("secret.txt", "not for others");
+  nearby("m.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 3\n");
+  nearby("c.mtx", "%%MatrixMarket matrix coordinate real symmetric\n1 1 1\n1 1 2e5\n");
   std::string text = "description = \"secret.txt\"\n" + oscillator("one", 2., 800., 0.) +
                      "[frame]\nmass = \"m.mtx\"\nstiffness = \"c.mtx\"\n"
                      "[frame.interface.end]\nrows = { ux = 1 }\n";

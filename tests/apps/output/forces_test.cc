@@ -91,8 +91,8 @@ double acceleration(const Result &result, std::size_t k, int i)
 {
   const auto  &t      = result.run->picture_times;
   const auto  &v      = result.run->picture_velocities;
-  const double before = t[k] - t[k - 1], behind = t[k + 1] - t[k];
-  return ((v[k][i] - v[k - 1][i]) / before * behind + (v[k + 1][i] - v[k][i]) / behind * before) / (before + behind);
+  const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
+  return ((v[k][i] - v[k - 1][i]) / before * after + (v[k + 1][i] - v[k][i]) / after * before) / (before + after);
 }
 
 /// Pictures between which quotients tell accelerations: no event among them, which makes them jump, and alike far
@@ -103,9 +103,9 @@ std::vector<std::size_t> smooth_pictures(const Result &result)
   std::vector<std::size_t> smooth;
   for (std::size_t k = 1; k + 1 < t.size(); ++k)
   {
-    const double before = t[k] - t[k - 1], behind = t[k + 1] - t[k];
+    const double before = t[k] - t[k - 1], after = t[k + 1] - t[k];
     const auto  &events = result.run->events;
-    if (before < 1.05 * behind && behind < 1.05 * before &&
+    if (before < 1.05 * after && after < 1.05 * before &&
         std::none_of(events.begin(), events.end(),
                      [&](const coupling::Event &event) { return event.t >= t[k - 1] && event.t <= t[k + 1]; }))
       smooth.push_back(k);

@@ -6,7 +6,7 @@
 #include "apps/output/text/csv.h"
 #include "apps/output/text/json.h"
 #include "apps/output/text/write_file.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 #include "fem/values/number_text.h"
 #include "tests/support/output_example.h"
 
@@ -246,7 +246,7 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
       std::signal(SIGXFSZ, SIG_IGN);
       const rlimit limit{most, most};
       setrlimit(RLIMIT_FSIZE, &limit);
-      bool told = false;
+      bool reported = false;
       try
       {
         prepare_folder(cut);
@@ -254,9 +254,9 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
       }
       catch (const coupling::WriteFailure &failure)
       {
-        told = std::string(failure.what()).find("what could be written is in " + cut.string()) != std::string::npos;
+        reported = std::string(failure.what()).find("what could be written is in " + cut.string()) != std::string::npos;
       }
-      _exit(told ? 0 : 1);
+      _exit(reported ? 0 : 1);
     }
     int status = 1;
     waitpid(child, &status, 0);
@@ -301,15 +301,15 @@ TEST(StoryTable, SaysWhatIsNotKnown)
   load.modes.push_back({-1, 10., 1., 0.1, 0.1, 1.});
   EXPECT_NE(story_text(story).find("–"), std::string::npos);
   Result result;
-  result.story = story;
-  Json told    = Json::parse(summary_json(result))["story"]["loads"][0];
-  EXPECT_TRUE(told["modes"][0]["energy"].is_null());
-  EXPECT_TRUE(told["modes"][0]["mode"].is_null());
+  result.story  = story;
+  Json reported = Json::parse(summary_json(result))["story"]["loads"][0];
+  EXPECT_TRUE(reported["modes"][0]["energy"].is_null());
+  EXPECT_TRUE(reported["modes"][0]["mode"].is_null());
   load.modes.clear();
   load.unknown = "the run kept no state near its fall";
   EXPECT_NE(story_text(story).find("no modes: the run kept no state"), std::string::npos);
   EXPECT_EQ(story_text(story).find("energy [J]"), std::string::npos); // no head of a table without rows
   result.story = story;
-  told         = Json::parse(summary_json(result))["story"]["loads"][0];
-  EXPECT_TRUE(told["t_modes"].is_null());
+  reported     = Json::parse(summary_json(result))["story"]["loads"][0];
+  EXPECT_TRUE(reported["t_modes"].is_null());
 }

@@ -3,7 +3,7 @@
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/folder/writing.h"
 #include "apps/output/result_folder.h"
-#include "coupling/frame/whole_file.h"
+#include "coupling/frame/atomic_file.h"
 #include "tests/support/output_example.h"
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"

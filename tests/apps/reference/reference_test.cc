@@ -55,21 +55,21 @@ position = [0, 0, 0]
 using Keys = std::set<std::string>;
 
 /// Keys that readers asked a table for, and the tables of its keys: "friction", "friction.static".
-void take_asked(const SceneNode &table, const std::vector<Key> &keys, const std::string &path, Keys &asked)
+void take_asked(const SceneNode &table, const std::vector<Key> &keys, const std::string &path, Keys &requested)
 {
-  for (const std::string &key : table.asked)
-    asked.insert(path + key);
+  for (const std::string &key : table.requested)
+    requested.insert(path + key);
   for (const Key &key : keys)
     if (const SceneNode *value = table.find(key.name); value && !key.keys.empty())
     {
-      take_asked(*value, key.keys, path + key.name + ".", asked);
+      take_asked(*value, key.keys, path + key.name + ".", requested);
       for (const SceneNode &element : value->elements)
-        take_asked(element, key.keys, path + key.name + ".", asked);
+        take_asked(element, key.keys, path + key.name + ".", requested);
     }
 }
 
 /// Keys that the reader of a type asks for in an example.
-void take_asked_for(const ElementType &type, const std::string &example, Keys &asked)
+void take_asked_for(const ElementType &type, const std::string &example, Keys &requested)
 {
   const SceneFolder folder;
   const SceneNode   root = read_scene_file(
@@ -81,7 +81,7 @@ void take_asked_for(const ElementType &type, const std::string &example, Keys &a
   scene.bodies = read_bodies(table, names, gestell::fem::Scripts::harmless);
   EXPECT_NO_THROW(read_elements(table, names, scene)) << type.name << "\n" << example;
   EXPECT_NO_THROW(table.table("element").finish()) << type.name << ": no example has a key without a reader";
-  take_asked(*root.find("element")->find("it"), type.keys, "", asked);
+  take_asked(*root.find("element")->find("it"), type.keys, "", requested);
 }
 
 Keys names_of(const std::vector<Key> &keys)
@@ -137,7 +137,7 @@ std::vector<const SceneNode *> tables_below(const SceneNode &root, const std::st
 }
 
 /// What readers asked all scenes for, by the path of the declared table: "joint.gear", "joint.gear ratio".
-struct Asked
+struct LookedUp
 {
   std::map<std::string, Keys> of_table, of_heading, inner;
 
@@ -147,11 +147,11 @@ struct Asked
       if (table.heading.empty() || table.heading.front() == '[')
         for (const SceneNode *node : tables_below(root, table.heading))
         {
-          of_heading[table.heading].insert(node->asked.begin(), node->asked.end());
+          of_heading[table.heading].insert(node->requested.begin(), node->requested.end());
           const SceneNode *type = node->find("type");
           if (!table.type.empty() && !(type && type->text == table.type))
             continue;
-          of_table[table.path].insert(node->asked.begin(), node->asked.end());
+          of_table[table.path].insert(node->requested.begin(), node->requested.end());
           Keys all;
           take_asked(*node, table.keys, "", all);
           for (const std::string &key : all)
@@ -168,7 +168,7 @@ const std::string cards = "GRID,1,,0.,0.,0.\n"
                           "DMIG,BAAX,0,6,2\nDMIG,BAAX,1,3,,1,3,0.1\n";
 
 /// Reads a scene beside files "frame.step" and "frame.pch"; what it says against it, and what was asked.
-std::string read(const std::string &text, Asked &asked)
+std::string read(const std::string &text, LookedUp &requested)
 {
   const SceneFolder folder;
   folder.write("frame.step", "no geometry");
@@ -176,7 +176,7 @@ std::string read(const std::string &text, Asked &asked)
   const std::string file  = folder.write("scene.toml", text);
   const SceneNode   root  = read_scene_file(file, {});
   const std::string error = gestell::tests::refusal([&] { read_scene(root, file, gestell::fem::Scripts::harmless); });
-  asked.take(root);
+  requested.take(root);
   return error;
 }
 
@@ -190,11 +190,11 @@ std::string body_from_cad(const std::string &type)
          "cad = \"frame.step\"\nmaterial = \"steel\"\nplacement = { axis = [0, 1, 0], angle = \"30 deg\" }\n";
 }
 
-const Asked &all_asked()
+const LookedUp &all_asked()
 {
-  static const Asked asked = []
+  static const LookedUp requested = []
   {
-    Asked everything;
+    LookedUp everything;
     EXPECT_EQ(read(content("tests/apps/reference/machine.toml"), everything), "");
     EXPECT_EQ(read(content("tests/apps/reference/frame_from_cad.toml"), everything), "");
     EXPECT_EQ(read(content("tests/apps/reference/frame_of_parts.toml"), everything), "");
@@ -203,7 +203,7 @@ const Asked &all_asked()
       EXPECT_NE(read(body_from_cad(type.name), everything), "") << type.name;
     return everything;
   }();
-  return asked;
+  return requested;
 }
 
 /// Those of `wanted` that `known` has not.
@@ -214,11 +214,11 @@ Keys missing(const Keys &wanted, const Keys &known)
   return found;
 }
 
-const Keys &at(const std::map<std::string, Keys> &asked, const std::string &path)
+const Keys &at(const std::map<std::string, Keys> &requested, const std::string &path)
 {
   static const Keys none;
-  const auto        found = asked.find(path);
-  return found == asked.end() ? none : found->second;
+  const auto        found = requested.find(path);
+  return found == requested.end() ? none : found->second;
 }
 
 bool is_element(const DeclaredTable &table)
@@ -233,18 +233,18 @@ TEST(Elements, AskForEveryKeyTheyDeclareAndForNoOther)
   Keys inner_declared, inner_asked; // of all types: keys of ramps and of friction are the same for many
   for (const ElementType &type : element_types())
   {
-    Keys asked;
+    Keys requested;
     for (const std::string &example : type.examples)
-      take_asked_for(type, example, asked);
-    for (auto key = asked.begin(); key != asked.end();)
+      take_asked_for(type, example, requested);
+    for (auto key = requested.begin(); key != requested.end();)
       if (key->find('.') != std::string::npos)
       {
         inner_asked.insert(*key);
-        key = asked.erase(key);
+        key = requested.erase(key);
       }
       else
         ++key;
-    EXPECT_EQ(asked, names_of(joined({common_element_keys(), type.keys}))) << type.name;
+    EXPECT_EQ(requested, names_of(joined({common_element_keys(), type.keys}))) << type.name;
     take_inner(type.keys, "", inner_declared);
   }
   EXPECT_EQ(inner_asked, inner_declared);
@@ -292,8 +292,8 @@ TEST(Tables, DeclareEveryKeyTheyAreAskedFor)
   for (const DeclaredTable &table : declared_tables())
     for (const Key &key : table.keys)
       declared[table.heading].insert(key.name);
-  for (const auto &[heading, asked] : all_asked().of_heading)
-    EXPECT_EQ(missing(asked, declared[heading]), Keys()) << heading;
+  for (const auto &[heading, requested] : all_asked().of_heading)
+    EXPECT_EQ(missing(requested, declared[heading]), Keys()) << heading;
 }
 
 TEST(Documents, AreWhatTheDeclarationsGive)

@@ -139,8 +139,8 @@ TEST(RunSettings, AStepOfHalfTheLoadsPeriodIsToldByCheck)
                              "harmonics = [{ amplitude = \"1 kN\", frequency = \"400 Hz\" }]\n[start]";
   std::string       text   = small_scene("[start]", shaker);
   EXPECT_EQ(complaint(text, {"run.step=\"1.2 ms\""}), "");
-  const std::string told = complaint(text, {"run.step=\"1.3 ms\""});
-  EXPECT_NE(told.find("400 Hz"), std::string::npos) << told;
+  const std::string reported = complaint(text, {"run.step=\"1.3 ms\""});
+  EXPECT_NE(reported.find("400 Hz"), std::string::npos) << reported;
 }
 
 coupling::MethodOptions overridden(const std::string &run, const std::vector<std::string> &overrides)

@@ -198,12 +198,12 @@ TEST(FollowerModes, AreThoseThatStabilityLooksAt)
       const coupling::StabilityGuard guard(spectrum, bdf);
       const std::vector<Mode>        modes = column.modes();
       ASSERT_EQ(guard.modes().size(), modes.size());
-      int told = 0;
+      int reported = 0;
       for (const Mode &mode : modes)
       {
         if (std::isnan(mode.damping_ratio)) // dampers mix a flutter and its partner so that neither is one of the two
           continue;
-        ++told;
+        ++reported;
         const bool found = std::any_of(guard.modes().begin(), guard.modes().end(),
                                        [&](const coupling::ModeAccuracy &looked)
                                        {
@@ -214,7 +214,7 @@ TEST(FollowerModes, AreThoseThatStabilityLooksAt)
                                        });
         EXPECT_TRUE(found) << mode.damped_frequency_hz << ' ' << mode.damping_ratio << " of " << kappa;
       }
-      EXPECT_GE(told, damping == 0. ? 2 : 1);
+      EXPECT_GE(reported, damping == 0. ? 2 : 1);
     }
 }
 

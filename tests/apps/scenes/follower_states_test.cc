@@ -159,9 +159,9 @@ TEST(FollowerStates, LimitTheStepByTheFrequenciesTheyHave)
     method.step = 1.01 * limit;
     const Guard beyond(-200., method);
     EXPECT_TRUE(beyond.refuses()) << name;
-    const double told = beyond.guard.largest_stable_step(); // three digits, rounded down
-    EXPECT_LE(told, limit) << name;
-    EXPECT_GT(told, 0.99 * limit) << name;
+    const double reported = beyond.guard.largest_stable_step(); // three digits, rounded down
+    EXPECT_LE(reported, limit) << name;
+    EXPECT_GT(reported, 0.99 * limit) << name;
   }
 }
 

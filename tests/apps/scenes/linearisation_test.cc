@@ -54,11 +54,11 @@ Matrix differences(const Machine &machine, const LocalState &at, Vector LocalSta
     const double h        = step * std::max(1., std::abs((at.*x)[j]));
     const auto   quotient = [&](double way)
     {
-      LocalState beside = at;
-      (beside.*x)[j] += way;
-      const Vector above = forces(machine, beside);
-      (beside.*x)[j] -= 2. * way;
-      return Vector((forces(machine, beside) - above) / (2. * way));
+      LocalState nearby = at;
+      (nearby.*x)[j] += way;
+      const Vector above = forces(machine, nearby);
+      (nearby.*x)[j] -= 2. * way;
+      return Vector((forces(machine, nearby) - above) / (2. * way));
     };
     D.col(j) = (4. * quotient(0.5 * h) - quotient(h)) / 3.;
   }

@@ -29,7 +29,7 @@ void expect_rest(const SceneRun &motion, const std::vector<double> &values, doub
       EXPECT_NEAR(motion.at(row, i + 1), values[i], tolerance) << motion.result.columns[i + 1] << " in row " << row;
 }
 
-bool told(const SceneRun &motion, const std::string &words)
+bool reported(const SceneRun &motion, const std::string &words)
 {
   for (const std::string &warning : coupling::texts_of(motion.result.findings))
     if (warning.find(words) != std::string::npos)
@@ -53,8 +53,8 @@ TEST(StaticStart, WarnsOfVelocitiesThatHaveNoPartInIt)
                start("rule = 'static'\nv = { s = " + v + " }") + start_settings +
                "signals = { x = 's.displacement' }\n");
   };
-  EXPECT_TRUE(told(moving("1"), "start.v has no part in rule = \"static\""));
-  EXPECT_FALSE(told(moving("0"), "start.v"));
+  EXPECT_TRUE(reported(moving("1"), "start.v has no part in rule = \"static\""));
+  EXPECT_FALSE(reported(moving("0"), "start.v"));
 }
 
 TEST(StaticStart, ClosesWhatWasOpen)
@@ -93,8 +93,8 @@ TEST(StaticStart, APendulumFallsToWhereItHangs)
   const double tolerance = 1e-9;
   expect_rest(run(pendulum("90 deg")), {0.}, tolerance);
   expect_rest(run(pendulum("-100 deg")), {0.}, tolerance);
-  const auto beside = run(pendulum("178 deg")); // Newton's method finds 180 degrees
-  expect_rest(beside, {0.}, tolerance);
+  const auto nearby = run(pendulum("178 deg")); // Newton's method finds 180 degrees
+  expect_rest(nearby, {0.}, tolerance);
 }
 
 TEST(StaticStart, OnItsHeadItStaysWithAWarningOfTheGrowth)
@@ -102,12 +102,12 @@ TEST(StaticStart, OnItsHeadItStaysWithAWarningOfTheGrowth)
   const auto   motion = run(pendulum("180 deg"));
   const double growth = std::sqrt(2. * g_earth / (0.5 + 2.));
   EXPECT_NEAR(motion.at(0, 1), M_PI, 1e-9);
-  EXPECT_TRUE(told(motion, "unstable equilibrium"));
-  EXPECT_TRUE(told(motion, "p."));
+  EXPECT_TRUE(reported(motion, "unstable equilibrium"));
+  EXPECT_TRUE(reported(motion, "p."));
   std::ostringstream rate;
   rate.precision(3);
   rate << "exp(" << growth << " t/s)";
-  EXPECT_TRUE(told(motion, rate.str()));
+  EXPECT_TRUE(reported(motion, rate.str()));
 }
 
 TEST(StaticStart, AChainDescribedHorizontallyHangs)
@@ -173,8 +173,8 @@ TEST(StaticStart, OfAMachineThatFloatsIsRelievedByItsInertia)
     EXPECT_NEAR(motion.at(row, 2) - motion.at(row, 1), ab, 1e-9);
     EXPECT_NEAR(motion.at(row, 3) - motion.at(row, 2), bc, 1e-9);
   }
-  EXPECT_TRUE(told(motion, "nothing holds the machine in 1 motion"));
-  EXPECT_TRUE(told(motion, "mean acceleration of [2, 0, 0] m/s^2"));
+  EXPECT_TRUE(reported(motion, "nothing holds the machine in 1 motion"));
+  EXPECT_TRUE(reported(motion, "mean acceleration of [2, 0, 0] m/s^2"));
 }
 
 TEST(StaticStart, OfAMachineThatFloatsIsRefusedWithoutRelief)

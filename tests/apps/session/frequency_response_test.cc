@@ -359,11 +359,11 @@ std::string spring_damper(const std::string &stiffness, const std::string &dampi
 /// The warnings that speak of stability.
 std::vector<std::string> told_of_stability(const std::string &text)
 {
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const std::string &warning : warnings_of_text(text, options_of({"slide"}, {"slide"})))
     if (warning.find("stable") != std::string::npos)
-      told.push_back(warning);
-  return told;
+      reported.push_back(warning);
+  return reported;
 }
 
 /// A force on the slide that is a formula of u and v.
@@ -383,19 +383,19 @@ TEST(FrequencyResponse, OfAStableMachineSaysNothingOfStability)
 TEST(FrequencyResponse, WarnsOfAVibrationThatGrows)
 {
   using ::testing::HasSubstr;
-  const auto told = told_of_stability(spring_damper("800", "0") + formula_force("3 N*s/m * v"));
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told[0], HasSubstr("is unstable: a vibration of 3.18"));
-  EXPECT_THAT(told[0], HasSubstr("Hz that grows with 0.75 1/s (damping ratio -0.0375)"));
-  EXPECT_THAT(told[0], HasSubstr("never reached in time"));
+  const auto reported = told_of_stability(spring_damper("800", "0") + formula_force("3 N*s/m * v"));
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_THAT(reported[0], HasSubstr("is unstable: a vibration of 3.18"));
+  EXPECT_THAT(reported[0], HasSubstr("Hz that grows with 0.75 1/s (damping ratio -0.0375)"));
+  EXPECT_THAT(reported[0], HasSubstr("never reached in time"));
 }
 
 // s^2 = 100
 TEST(FrequencyResponse, WarnsOfADepartureFromAnUnstablePosition)
 {
-  const auto told = told_of_stability(spring_damper("800", "0") + formula_force("1000 N/m * u"));
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told[0], ::testing::HasSubstr("a departure that grows with 10 1/s"));
+  const auto reported = told_of_stability(spring_damper("800", "0") + formula_force("1000 N/m * u"));
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_THAT(reported[0], ::testing::HasSubstr("a departure that grows with 10 1/s"));
 }
 
 // --- what cannot be answered is told

@@ -110,7 +110,7 @@ TEST_F(Window, ThatBeginsWithTheRunChangesNothing)
   }
 }
 
-TEST_F(Window, SpectraAreOfItsRows)
+TEST_F(Window, SpectraChoiceOfItsRows)
 {
   const Result part = run({"output.from=0.5 s"});
   ASSERT_TRUE(part.spectra.has_value());
@@ -229,7 +229,7 @@ TEST_F(Window, WhatMakesNoSenseIsRefused)
 TEST_F(Window, TheSummaryNamesIt)
 {
   const Result part = run({"output.from=0.7 s"});
-  EXPECT_EQ(part.asked.run->from, 0.7);
+  EXPECT_EQ(part.requested.run->from, 0.7);
 }
 
 TEST_F(Window, ComparedRunsOfDifferentWindowsAreWarnedOf)

@@ -146,7 +146,7 @@ void add_numbers(const apps::SceneNode &table, const std::string &path, std::vec
 
 std::vector<std::string> with(std::vector<std::string> overrides, const VariedKey &key, double share)
 {
-  overrides.push_back(key.overridden(share * std::abs(key.told.value) / key.step));
+  overrides.push_back(key.overridden(share * std::abs(key.reported.value) / key.step));
   return overrides;
 }
 
@@ -171,7 +171,7 @@ std::map<std::string, std::vector<VariedKey>> by_unit(const std::string &path, c
       VariedKey     key = apps::varied_keys(root, name).front();
       const Session varied(path, with(compared.overrides, key, 1e-3));
       if (varied.scene().run.options.end == own.scene().run.options.end && frame_of(varied.scene()) == frame)
-        found[key.told.unit].push_back(std::move(key));
+        found[key.reported.unit].push_back(std::move(key));
     }
     catch (const std::invalid_argument &) // no number, or an expression of others, or nothing depends on it
     {
@@ -208,7 +208,7 @@ std::vector<VariedKey> drawn_keys(const std::string &path, const ComparedScene &
 
 Values varied_run(const std::string &path, const std::vector<std::string> &overrides)
 {
-  const apps::Result result = Session(path, overrides).run({}, apps::SpectraAre::left_out);
+  const apps::Result result = Session(path, overrides).run({}, apps::SpectraChoice::skipped);
   return result.run->failure.empty() ? Told(result).values : Values();
 }
 
@@ -225,13 +225,13 @@ Difference difference_of(const std::string &output, const Runs &runs, double own
 
 /// Of an output: `given` is |x| dy/dx.
 void compare(const SensitivityOutput &output, const std::string &by, double given, const Difference &of,
-             const Told &told, Comparison &found)
+             const Told &reported, Comparison &found)
 {
-  const double scale = told.scale(output.output);
+  const double scale = reported.scale(output.output);
   if (!(scale > 0.))
     return;
   ++found.n;
-  const bool        crosses = told.crosses_events(output.output);
+  const bool        crosses = reported.crosses_events(output.output);
   const double      limit = crosses ? limit_events : limit_smooth, size = std::max(scale, std::abs(of.value));
   const bool        converged = of.off <= of_limit * limit * size;
   const std::string name      = output.output + " by " + by + (crosses ? ", behind events: " : ": ");
@@ -239,7 +239,7 @@ void compare(const SensitivityOutput &output, const std::string &by, double give
   {
     ++found.none;
     EXPECT_NE(output.note, "") << name;
-    if (converged && std::abs(of.value) > limit * size && !told.is_instant_of_zero(output.output))
+    if (converged && std::abs(of.value) > limit * size && !reported.is_instant_of_zero(output.output))
       found.missing.push_back(name + short_text(of.value / size) + " +- " + short_text(of.off / size) + "; " +
                               output.note);
     return;
@@ -276,7 +276,7 @@ Comparison compared_with_differences(const ComparedScene &compared)
   const auto        keys = drawn_keys(path, compared);
   std::string       list;
   for (const VariedKey &key : keys)
-    list += (list.empty() ? "" : ",") + key.told.key;
+    list += (list.empty() ? "" : ",") + key.reported.key;
   const apps::Result base = Session(path, compared.overrides).run(list);
   Comparison         found;
   EXPECT_TRUE(base.sensitivities) << base.run->failure;
@@ -289,7 +289,7 @@ Comparison compared_with_differences(const ComparedScene &compared)
             << " steps of derivatives\n";
   for (const std::string &warning : base.warnings)
     std::cout << "  warning: " << warning << '\n';
-  const Told told(base);
+  const Told reported(base);
   for (std::size_t k = 0; k < keys.size(); ++k)
   {
     Runs runs;
@@ -300,8 +300,8 @@ Comparison compared_with_differences(const ComparedScene &compared)
                       varied_run(path, with(compared.overrides, keys[k], share))});
     }
     for (const SensitivityOutput &output : all.outputs)
-      compare(output, keys[k].told.key, output.derivative[Eigen::Index(k)] * std::abs(keys[k].told.value),
-              difference_of(output.output, runs, told.values.at(output.output), compared.h), told, found);
+      compare(output, keys[k].reported.key, output.derivative[Eigen::Index(k)] * std::abs(keys[k].reported.value),
+              difference_of(output.output, runs, reported.values.at(output.output), compared.h), reported, found);
   }
   print(compared.scene, found);
   return found;

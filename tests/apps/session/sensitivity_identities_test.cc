@@ -61,8 +61,8 @@ TEST_P(Identities, OfLengthMassAndTimeHold)
       double &size = sizes[signal_of(output.output)];
       size         = std::max(size, std::abs(output.value));
     }
-  const double end  = result.run->rows[result.run->rows.size() - result.run->columns.size()];
-  int          told = 0;
+  const double end      = result.run->rows[result.run->rows.size() - result.run->columns.size()];
+  int          reported = 0;
   for (const SensitivityOutput &output : found.outputs)
   {
     const bool   frequency = signal_of(output.output) == "modes", instant = is_time(output.output);
@@ -76,17 +76,17 @@ TEST_P(Identities, OfLengthMassAndTimeHold)
         EXPECT_NE(output.note, "") << output.output;
         continue;
       }
-      ++told;
+      ++reported;
       EXPECT_NEAR(derivative, power[k] * output.value, (instant ? shipped.of_instants : shipped.error) * size)
           << output.output << " by " << test::scales[k] << ", of " << output.value << ' ' << output.unit;
     }
   }
-  EXPECT_GT(told, 0);
+  EXPECT_GT(reported, 0);
 }
 
 // Errors are those of runs with these tolerances, across events larger than without; forces of stiff contacts enlarge
-// them by the stiffness, and the instants of flat peaks are those of a small rate over a small curvature.  What is missing or
-// wrong in a derivative is a share of its output.
+// them by the stiffness, and the instants of flat peaks are those of a small rate over a small curvature.  What is
+// missing or wrong in a derivative is a share of its output.
 INSTANTIATE_TEST_SUITE_P(
     OfShippedScenes, Identities,
     ::testing::Values(

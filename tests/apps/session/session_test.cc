@@ -58,7 +58,7 @@ TEST(Session, GivesTheRunWithEverySignal)
   // Average acceleration makes periods longer by (omega h)^2 / 12, here a phase of 2e-6 after 0.3 s.
   const double omega = 20., h = 1e-4, t = 0.3, phase = omega * t * omega * omega * h * h / 12.;
   EXPECT_NEAR(result.run->signals[0].final, 1e-2 * std::cos(omega * t), 2. * 1e-2 * phase);
-  EXPECT_EQ(result.asked.set, std::vector<std::string>{"run.end=0.3"});
+  EXPECT_EQ(result.requested.set, std::vector<std::string>{"run.end=0.3"});
 }
 
 TEST(Session, TellsEveryPhaseToItsWatch)

@@ -20,7 +20,7 @@ namespace
 
 using apps::Session;
 
-apps::Result told(const std::string &file, const std::vector<std::string> &overrides = {})
+apps::Result reported(const std::string &file, const std::vector<std::string> &overrides = {})
 {
   Session session(file, overrides);
   session.keep_swings();
@@ -138,7 +138,7 @@ F = "stops.force"
 TEST(PlayEstimates, OfAnUndampedSliderAreNearItsPeriod)
 {
   const test::SceneFolder folder;
-  const apps::Result      result = told(folder.write("bead.toml", bead));
+  const apps::Result      result = reported(folder.write("bead.toml", bead));
   ASSERT_TRUE(result.story);
   ASSERT_GE(result.story->plays.size(), 3u);
   const double f_0 = 100. / (2. * M_PI), s = 1. / 3.;
@@ -157,7 +157,7 @@ TEST(PlayEstimates, OfAnUndampedSliderAreNearItsPeriod)
 // The cutting shock of the reference: the fall takes 6.2 ms, a quarter of the periods of f2 and f3 and half of f4's.
 TEST(Story, OfThePressTellsItsCuttingShock)
 {
-  const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  const apps::Result result = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   ASSERT_TRUE(result.story);
   ASSERT_EQ(result.story->loads.size(), 1u);
   const apps::LoadDuration &load = result.story->loads.front();
@@ -186,15 +186,15 @@ TEST(TurningPoints, TellBothEndsOfASwing)
   }
   const apps::Swing swing = apps::swing_at(t, y, 2.);
   EXPECT_NEAR(swing.turn, 2., 0.05);
-  EXPECT_NEAR(std::abs(swing.beside - swing.turn), 1., 0.01);
-  EXPECT_NEAR(swing.half, std::abs(swing.beside - swing.turn), 1e-12);
+  EXPECT_NEAR(std::abs(swing.nearby - swing.turn), 1., 0.01);
+  EXPECT_NEAR(swing.half, std::abs(swing.nearby - swing.turn), 1e-12);
 }
 
 // Behind the shock the rod swings through its play: a mode that makes most of the force's change and has its period
 // carries that.  Before it the rod is wound up by the tool: no mode has that period.
 TEST(Extremes, AreCarriedByTheModeThatMakesThem)
 {
-  const apps::Result       result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  const apps::Result       result = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   const apps::ExtremeSwing pull   = extreme_of(result, "F_P", false);
   EXPECT_EQ(pull.mode, 3);
   EXPECT_NEAR(pull.mode_hz, 84.65, 0.05); // docs/press.md
@@ -216,8 +216,8 @@ TEST(Story, IsOfTheMachineWhereItHappens)
   const std::vector<std::string> step{"run.step=\"20 us\""};
   std::vector<std::string>       centre = step;
   centre.push_back("modes.at={}");
-  const apps::Result at_fall = told(shipped("press_minimal.toml"), step),
-                     other   = told(shipped("press_minimal.toml"), centre);
+  const apps::Result at_fall = reported(shipped("press_minimal.toml"), step),
+                     other   = reported(shipped("press_minimal.toml"), centre);
   ASSERT_EQ(other.story->loads.size(), 1u);
   const auto &modes = at_fall.story->loads[0].modes, &same = other.story->loads[0].modes;
   ASSERT_EQ(same.size(), modes.size());
@@ -240,8 +240,8 @@ TEST(Story, IsOfTheMachineWhereItHappens)
 // Of two modes no number is given to those that were not asked for.
 TEST(Extremes, DoNotDependOnHowManyModesAreAskedFor)
 {
-  const apps::Result all = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""}),
-                     two = told(shipped("press_minimal.toml"), {"run.step=\"20 us\"", "modes.number=2"});
+  const apps::Result all = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""}),
+                     two = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\"", "modes.number=2"});
   EXPECT_EQ(extreme_of(two, "F_P", false).mode, -1);
   EXPECT_EQ(extreme_of(two, "F_P", false).share, extreme_of(all, "F_P", false).share);
   EXPECT_EQ(two.story->events.size(), all.story->events.size());
@@ -250,10 +250,10 @@ TEST(Extremes, DoNotDependOnHowManyModesAreAskedFor)
 // The torque of a motor comes from its speed, forces of ideal joints from the motion as a whole.
 TEST(Extremes, OfForcesThatPositionsDoNotTellHaveNoShares)
 {
-  const apps::Result press = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  const apps::Result press = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   EXPECT_NEAR(extreme_of(press, "M_mot", false).sum, 0., 1e-3);
   EXPECT_TRUE(std::isnan(extreme_of(press, "F_u", true).share)); // a law of the tool's way
-  const apps::Result joints = told(shipped("crank_press_joints.toml"));
+  const apps::Result joints = reported(shipped("crank_press_joints.toml"));
   ASSERT_TRUE(joints.story);
   for (const apps::ExtremeSwing &swing : joints.story->extremes)
     if (std::isfinite(swing.sum))
@@ -264,7 +264,7 @@ TEST(Extremes, OfForcesThatPositionsDoNotTellHaveNoShares)
 TEST(Pictures, AreDenseAroundTheMainPeak)
 {
   const std::vector<std::string> step{"run.step=\"20 us\""};
-  const apps::Result             dense = told(shipped("press_minimal.toml"), step),
+  const apps::Result             dense = reported(shipped("press_minimal.toml"), step),
                      plain             = Session(shipped("press_minimal.toml"), step).run();
   ASSERT_TRUE(dense.peak);
   ASSERT_GT(dense.peak->half_swing, 0.);
@@ -281,7 +281,7 @@ TEST(Pictures, AreDenseAroundTheMainPeak)
 // Where the rod is loaded from one side only it does not swing through its play, and is not told to.
 TEST(PlayEstimates, AreOfCyclesThatCrossThePlay)
 {
-  const apps::Result result = told(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
+  const apps::Result result = reported(shipped("press_minimal.toml"), {"run.step=\"20 us\""});
   ASSERT_FALSE(result.story->plays.empty());
   for (const apps::PlayEstimate &play : result.story->plays)
   {
@@ -298,8 +298,8 @@ TEST(EventLog, DoesNotDependOnTheDistanceOfRows)
   const std::vector<std::string> step{"run.step=\"20 us\""};
   std::vector<std::string>       coarse = step;
   coarse.push_back("output.step=\"2 ms\"");
-  const apps::Result close = told(shipped("press_minimal.toml"), step),
-                     far   = told(shipped("press_minimal.toml"), coarse);
+  const apps::Result close = reported(shipped("press_minimal.toml"), step),
+                     far   = reported(shipped("press_minimal.toml"), coarse);
   ASSERT_TRUE(close.story && far.story);
   ASSERT_EQ(far.story->events.size(), close.story->events.size());
   int known = 0, lost = 0;
@@ -307,7 +307,7 @@ TEST(EventLog, DoesNotDependOnTheDistanceOfRows)
   {
     const apps::EventValue &own = close.story->events[i], &his = far.story->events[i];
     EXPECT_EQ(his.before, own.before);
-    EXPECT_EQ(his.behind, own.behind);
+    EXPECT_EQ(his.after, own.after);
     known += std::isfinite(own.impulse) ? 1 : 0;
     lost += std::isfinite(own.impulse) && std::isnan(his.impulse) ? 1 : 0;
   }
@@ -320,7 +320,7 @@ TEST(EventLog, DoesNotDependOnTheDistanceOfRows)
 TEST(EventLog, OfABeadHasTheMomentumThatItsStopTurnsRound)
 {
   const test::SceneFolder folder;
-  const apps::Result      result = told(folder.write("bead.toml", bead));
+  const apps::Result      result = reported(folder.write("bead.toml", bead));
   int                     turned = 0;
   for (const apps::EventValue &value : result.story->events)
     if (value.signal == "x" && std::isfinite(value.rate))

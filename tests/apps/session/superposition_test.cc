@@ -214,7 +214,7 @@ TEST(ModalSuperposition, KeepsCentralDifferencesStable)
   const double      limit     = 2. / Chain().omega(9);
   const Answer      own(scene.path(reduction, load, "end = 0.1\n"));
   EXPECT_EQ(own.result.run->method, "central differences");
-  EXPECT_NEAR(own.result.asked.run->method.step, 0.25 * limit, 1e-9 * limit);
+  EXPECT_NEAR(own.result.requested.run->method.step, 0.25 * limit, 1e-9 * limit);
   const Answer exact(scene.path(reduction, load));
   EXPECT_NEAR(own[0].max, exact[0].max, 0.01 * exact[0].max);
   // A damper ends motions within 1/lambda; steps by themselves show it.
@@ -227,7 +227,7 @@ TEST(ModalSuperposition, KeepsCentralDifferencesStable)
   EXPECT_THAT(coarse.result.warnings, Contains(HasSubstr("dampers end motions within")));
   const Answer longer(scene.path(reduction, load, "method = 'central-difference'\nstep = '1 ms'\nend = 0.1\n"));
   EXPECT_TRUE(longer.result.run->failure.empty());
-  EXPECT_NEAR(longer.result.asked.run->method.step, 0.95 * limit, 1e-9 * limit);
+  EXPECT_NEAR(longer.result.requested.run->method.step, 0.95 * limit, 1e-9 * limit);
   EXPECT_THAT(longer.result.warnings, Contains(HasSubstr("stable up to 2 / omega_max")));
 }
 

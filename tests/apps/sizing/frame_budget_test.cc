@@ -93,13 +93,13 @@ TEST_F(FrameSize, IsTheSmallestOfAllKindsOfMeshForAtMostTenRuns)
   const auto        outputs = budget_outputs(scene, "x.max,modes.1,modes.2");
   SizeOptions       options;
   options.tolerance      = 0.01;
-  double told            = 0.;
-  options.on_forecast    = [&](const SizeForecast &forecast) { told = forecast.cpu_s; };
+  double reported        = 0.;
+  options.on_forecast    = [&](const SizeForecast &forecast) { reported = forecast.cpu_s; };
   const SizedModel model = size_search(scene, outputs, options);
   ASSERT_TRUE(model.result.met) << model.result.stopped;
   EXPECT_LE(model.result.runs(), 10.);
-  EXPECT_GT(told, 0.);
-  EXPECT_EQ(told, model.result.forecast.cpu_s);
+  EXPECT_GT(reported, 0.);
+  EXPECT_EQ(reported, model.result.forecast.cpu_s);
   const SizeRung &chosen = model.result.ladder.at(model.result.chosen);
   EXPECT_EQ(chosen.cells, "curved");
   const ModelAnswer truth =

@@ -322,13 +322,13 @@ TEST(Size, NamesWhatMayBeLeftOut)
   SizeOptions options;
   options.tolerance       = 0.02;
   const SizeResult result = size_search(scene.scene, of_scene(scene.scene, "x.max,x.min"), options).result;
-  std::string      told;
+  std::string      reported;
   for (const std::string &what : result.left_out)
-    told += what + '\n';
+    reported += what + '\n';
   for (const std::string what : {"element \"stop\"", "element \"thread\"", "elasticity of \"link\"",
                                  "play, stops or sticking of \"stop\": no event"})
-    EXPECT_THAT(told, testing::HasSubstr(what));
-  EXPECT_THAT(told, testing::Not(testing::HasSubstr("element \"link\"")));
+    EXPECT_THAT(reported, testing::HasSubstr(what));
+  EXPECT_THAT(reported, testing::Not(testing::HasSubstr("element \"link\"")));
 }
 
 /// Whatever the scene gives of its method: the scene that is written answers with the numbers that were judged, to the

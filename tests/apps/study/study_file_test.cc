@@ -72,11 +72,11 @@ TEST(StudyFile, LevelsHaveNoDigitsOfRounding)
 
 TEST(StudyFile, ValuesOfOutputsAreComparedWithTheirUnits)
 {
-  const std::vector<StudyOutput> told{{"F", "N"}, {"G", "kg"}};
+  const std::vector<StudyOutput> reported{{"F", "N"}, {"G", "kg"}};
   const auto                     with = [&](const std::string &analysis)
   {
     return [&, analysis]
-    { check_units(Written(everything + "[design]\ntype = 'list'\n" + analysis).analysis(9).claims, told); };
+    { check_units(Written(everything + "[design]\ntype = 'list'\n" + analysis).analysis(9).claims, reported); };
   };
   expect_refusal(with("[optimise.goals.F]\nscale = '600 kg'\n"),
                  "study.toml:14: optimise.goals.F.scale: is in kg, but output F is in N");

@@ -32,9 +32,9 @@ Matrix3d along(const Vector3d &way)
 TEST(FaceReach, IsTheDistanceFromThePlateAndTheSideAcrossIt)
 {
   const FaceBox   box    = box_of(plate());
-  const FaceReach beside = reach_of(box, {1.3, 1.2, 1.5}), above = reach_of(box, {0.5, 0.4, 2.9});
+  const FaceReach nearby = reach_of(box, {1.3, 1.2, 1.5}), above = reach_of(box, {0.5, 0.4, 2.9});
   EXPECT_EQ(reach_of(box, {1., 0., 1.5}).outside, 0.);
-  EXPECT_NEAR(beside.outside / beside.size, 0.5, 1e-14); // 0.3 and 0.4 of 1, or 0.4 of 0.8
+  EXPECT_NEAR(nearby.outside / nearby.size, 0.5, 1e-14); // 0.3 and 0.4 of 1, or 0.4 of 0.8
   EXPECT_NEAR(above.outside, 1.4, 1e-14);
   EXPECT_NEAR(above.size, 0.8, 1e-14);                 // the shorter side, as a force along it has this lever, too
   EXPECT_FALSE(reach_of(box, {0.5, 0.4, 1.89}).far()); // a bracket of half that side

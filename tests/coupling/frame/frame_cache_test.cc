@@ -126,14 +126,14 @@ TEST_F(FrameCache, ManyProcessesMayWriteTheSameFrame)
     children.push_back(fork());
     if (children.back() == 0)
     {
-      std::string note, told;
+      std::string note, reported;
       for (int round = 0; round < 20; ++round)
       {
-        told += coupling::keep_in_cache(some_frame(), fine);
+        reported += coupling::keep_in_cache(some_frame(), fine);
         if (!coupling::find_in_cache(content_key(fine.recipe), note))
           note += "not there";
       }
-      _exit(told.empty() && note.empty() ? 0 : 1);
+      _exit(reported.empty() && note.empty() ? 0 : 1);
     }
   }
   for (const pid_t child : children)

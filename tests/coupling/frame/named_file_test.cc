@@ -1,7 +1,7 @@
 // Names under which the file system finds something, finds nothing, or does not say.
 
 #include "fem/values/named_file.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 TEST(NamedFile, IsThereOrNotWhereTheFileSystemSaysSo)
 {
-  const fem::PassingFolder folder;
-  const fs::path           file = folder.path() / "file";
+  const fem::TemporaryDirectory folder;
+  const fs::path                file = folder.path() / "file";
   std::ofstream(file) << "text";
   fs::create_symlink("file", folder.path() / "link");
   fs::create_symlink("nothing", folder.path() / "dangling");
@@ -42,7 +42,7 @@ void expect_unreachable(const fs::path &name, const std::string &reason)
 
 TEST(NamedFile, IsToldWhereTheFileSystemDoesNotSay)
 {
-  const fem::PassingFolder folder;
+  const fem::TemporaryDirectory folder;
   fs::create_symlink("ring", folder.path() / "ring");
   expect_unreachable(folder.path() / std::string(300, 'x'), "File name too long");
   expect_unreachable(folder.path() / "ring", "Too many levels of symbolic links");

@@ -2,7 +2,7 @@
 
 #include "coupling/frame/matrix_market.h"
 #include "coupling/frame/number_in_file.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <gtest/gtest.h>
 
@@ -55,8 +55,8 @@ public:
   bool made() const { return made_; }
 
 private:
-  fem::PassingFolder folder_;
-  bool               made_;
+  fem::TemporaryDirectory folder_;
+  bool                    made_;
 };
 
 TEST(NumberInFile, HasAPointWhateverTheLocale)
@@ -66,9 +66,9 @@ TEST(NumberInFile, HasAPointWhateverTheLocale)
     GTEST_SKIP() << "localedef or its sources are not there";
   ASSERT_NE(std::strtod("0.25", nullptr), 0.25);
   EXPECT_EQ(split("0.25"), Split(0.25, ""));
-  const fem::PassingFolder folder;
-  const std::string        file = (folder.path() / "a.mtx").string();
-  const Eigen::MatrixXd    A    = Eigen::MatrixXd::Constant(1, 1, 1. / 3.);
+  const fem::TemporaryDirectory folder;
+  const std::string             file = (folder.path() / "a.mtx").string();
+  const Eigen::MatrixXd         A    = Eigen::MatrixXd::Constant(1, 1, 1. / 3.);
   coupling::write_matrix_market(file, A, "");
   EXPECT_EQ(Eigen::MatrixXd(coupling::read_matrix_market(file)), A);
 }

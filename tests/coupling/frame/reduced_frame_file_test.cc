@@ -61,7 +61,7 @@ TEST_F(ReducedFrameFile, ComesBackBitByBit)
   EXPECT_EQ(back.stress.point, frame.stress.point);
   EXPECT_EQ(back.stress.triangles, frame.stress.triangles);
   EXPECT_EQ(back.stress.rigid, frame.stress.rigid);
-  EXPECT_EQ(back.stress.beside, frame.stress.beside);
+  EXPECT_EQ(back.stress.nearby, frame.stress.nearby);
   EXPECT_EQ(back.stress.mean, frame.stress.mean);
   EXPECT_EQ(back.stress.deviation, frame.stress.deviation);
   EXPECT_EQ(back.n_full, frame.n_full);

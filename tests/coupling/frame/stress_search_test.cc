@@ -54,7 +54,7 @@ ReducedStress random_stress(int points, int n)
   for (int i = 0; i < points; ++i)
   {
     stress.point.push_back(i);
-    stress.beside.push_back(-1);
+    stress.nearby.push_back(-1);
     stress.mean.middleRows<6>(6 * i) *= 1.f + float(i % 97);
   }
   stress.deviation = Eigen::MatrixXf::Zero(6 * points, n + 3);
@@ -156,7 +156,7 @@ TEST(Disagreement, IsTheRootMeanSquareOverAPointAndItsNeighbours)
   // Points 0 1 2 in a triangle, point 3 apart: pull of 10 in 0; deviations of 1, 2, 3 and 100.
   ReducedStress stress;
   stress.point     = {0, 1, 2, 3};
-  stress.beside    = {-1, -1, -1, -1};
+  stress.nearby    = {-1, -1, -1, -1};
   stress.triangles = {{0, 1, 2}};
   stress.mean = stress.deviation = Eigen::MatrixXf::Zero(24, 4);
   stress.mean(0, 0)              = 10.f;

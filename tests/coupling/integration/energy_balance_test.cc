@@ -68,8 +68,8 @@ TEST(EnergyBalance, WorkWithinAStepFollowsThePowersAtItsEnds)
     middle.t -= 0.5e-3;
     bdf.interpolate(middle.t, middle.q, middle.v);
     bdf.interpolate(middle.t, middle.local);
-    const double within = energy.state(middle).dissipated, behind = energy.state(bdf.instant()).dissipated;
-    EXPECT_NEAR(within - before, 0.5 * (behind - before), 0.03 * (behind - before)) << k;
+    const double within = energy.state(middle).dissipated, after = energy.state(bdf.instant()).dissipated;
+    EXPECT_NEAR(within - before, 0.5 * (after - before), 0.03 * (after - before)) << k;
   }
 }
 

@@ -101,8 +101,8 @@ TEST(NoNumber, IsNamedWithItsPlace)
   state.t = 0.25;
   state.u.setZero(), state.v.setZero();
   state.p.setConstant(none);
-  EXPECT_NE(no_number_words(system, state).find("t = 0.25 s for the force on q1"), std::string::npos)
-      << no_number_words(system, state);
+  EXPECT_NE(non_finite_state_message(system, state).find("t = 0.25 s for the force on q1"), std::string::npos)
+      << non_finite_state_message(system, state);
 }
 
 } // namespace gestell::tests

@@ -168,9 +168,9 @@ TEST(Stability, OvershootOfBdfIsThatOfTheIntegratorItself)
           x = std::max(x, std::abs(integrator->instant().q[0]));
           v = std::max(v, std::abs(integrator->instant().v[0]) / omega);
         }
-        const Overshoot told = overshoot(method, {0., omega}, start);
-        EXPECT_NEAR(told.displacement, x, 1e-10 * x) << "BDF " << order << " at " << omega;
-        EXPECT_NEAR(told.velocity, v, 1e-10 * v) << "BDF " << order << " at " << omega;
+        const Overshoot reported = overshoot(method, {0., omega}, start);
+        EXPECT_NEAR(reported.displacement, x, 1e-10 * x) << "BDF " << order << " at " << omega;
+        EXPECT_NEAR(reported.velocity, v, 1e-10 * v) << "BDF " << order << " at " << omega;
       }
 }
 

@@ -35,14 +35,14 @@ TEST(StepMap, HasTheRootsOfTheAmplificationMatrix)
     if (!options)
       continue;
     const double          zeta = row.number("zeta"), omega_h = row.number("omega_h");
-    const Eigen::MatrixXd taken = step_map(row["method"], zeta, omega_h),
-                          told  = method_of(*options).amplification_matrix(*options, {zeta, omega_h});
-    const auto determinant      = [](const Eigen::MatrixXd &A, Complex z)
+    const Eigen::MatrixXd taken    = step_map(row["method"], zeta, omega_h),
+                          reported = method_of(*options).amplification_matrix(*options, {zeta, omega_h});
+    const auto determinant         = [](const Eigen::MatrixXd &A, Complex z)
     { return (Eigen::MatrixXcd::Identity(A.rows(), A.rows()) - z * A).determinant(); };
     const double scale = 1. / std::max(1., row.number("spectral_radius"));
     for (const Complex direction : {Complex(1., 0.), Complex(-1., 0.), Complex(0., 1.), Complex(0.6, 0.8)})
     {
-      const Complex z = 0.7 * scale * direction, expected = determinant(told, z);
+      const Complex z = 0.7 * scale * direction, expected = determinant(reported, z);
       EXPECT_LT(std::abs(determinant(taken, z) - expected), 1e-9 * std::abs(expected))
           << row["method"] << " zeta " << zeta << " omega h " << omega_h << " z " << z;
     }

@@ -21,7 +21,7 @@ TEST(Load, AsItIsToldIsThatWhichActs)
   const int    y = model.add_slider("b", {0., 1., 0.}, 5., "ground");
   model.add_load("shaker", {{x, 1.}, {y, -2.}}, 7., {{60., 100., 0.4}, {13., -20., -2.1}}, "N");
   const Machine   machine(std::move(model));
-  const Signal    told = machine.signal("F", "shaker.force");
+  const Signal    reported = machine.signal("F", "shaker.force");
   Eigen::VectorXd f(2), zero = Eigen::VectorXd::Zero(2);
   LocalState      local;
   local.resize(machine);
@@ -30,7 +30,7 @@ TEST(Load, AsItIsToldIsThatWhichActs)
     local.t        = t;
     const double F = 7. + 100. * std::sin(60. * t + 0.4) - 20. * std::sin(13. * t - 2.1);
     machine.linear().excitation().at(t, f);
-    EXPECT_NEAR(machine.evaluate(told, zero, zero, local), F, 1e-11) << t;
+    EXPECT_NEAR(machine.evaluate(reported, zero, zero, local), F, 1e-11) << t;
     EXPECT_NEAR(f[x], F, 1e-11) << t;
     EXPECT_NEAR(f[y], -2. * F, 1e-11) << t;
   }
@@ -59,14 +59,14 @@ TEST(FrameForce, HasTheWeightAndTheConstantOfItsRow)
   model.set_frame(frame);
   model.set_gravity({2., 1., -9.81});
   const Machine   machine(std::move(model));
-  const Signal    told = machine.signal("F", "frame.support.foot.z");
+  const Signal    reported = machine.signal("F", "frame.support.foot.z");
   Eigen::VectorXd q = Eigen::VectorXd::Constant(1, 4. * -9.81 / 500.), zero = Eigen::VectorXd::Zero(1), v = zero;
   LocalState      local;
   local.resize(machine);
-  const double beside = 2. * 1. - 3. * 1. + 0.5 * 9.81; // what the row tells of an acceleration field
-  EXPECT_NEAR(machine.evaluate(told, q, v, local), 4. * 9.81 + beside + 20., 1e-12);
+  const double nearby = 2. * 1. - 3. * 1. + 0.5 * 9.81; // what the row tells of an acceleration field
+  EXPECT_NEAR(machine.evaluate(reported, q, v, local), 4. * 9.81 + nearby + 20., 1e-12);
   v[0] = 0.7;
-  EXPECT_NEAR(machine.evaluate(told, zero, v, local), -1.4 + beside + 20., 1e-12);
+  EXPECT_NEAR(machine.evaluate(reported, zero, v, local), -1.4 + nearby + 20., 1e-12);
 }
 
 } // namespace

@@ -62,12 +62,12 @@ TEST(HarmonicBalance, MeetsTheTableOfPlayAsWellAsItTells)
     const auto     found = harmonic_balance_method().solve(problem, {q, v, 0.}, {});
     ASSERT_EQ(found.size(), 1u);
     HarmonicBalance balance(problem, found[0].series->harmonics());
-    const VectorXd  z    = balance.pack(*found[0].series);
-    const double    told = balance.left_out(z).motion * balance.scales(z)[0];
+    const VectorXd  z        = balance.pack(*found[0].series);
+    const double    reported = balance.left_out(z).motion * balance.scales(z)[0];
     // the motion answers to what is left out of its forces with 1/(1 - mu) at most, mu up to 0.85 here
-    EXPECT_LT(std::abs(found[0].q[0] - q[0]), 10. * told + 1e-10) << row["case"] << row["solution"];
+    EXPECT_LT(std::abs(found[0].q[0] - q[0]), 10. * reported + 1e-10) << row["case"] << row["solution"];
     EXPECT_LT(std::abs(found[0].q[0] - q[0]), 1e-6) << row["case"] << row["solution"];
-    EXPECT_THAT(found[0].notes.at(0), testing::HasSubstr(told > 1e-9 ? "as kinks of a law do" : "of the motion"));
+    EXPECT_THAT(found[0].notes.at(0), testing::HasSubstr(reported > 1e-9 ? "as kinks of a law do" : "of the motion"));
     ++rows;
   }
   EXPECT_EQ(rows, 6);

@@ -181,14 +181,14 @@ TEST(LinearResponse, RefusesTheFrequencyOfAnUndampedMode)
   expect_refusal([&] { response_of(machine).at(0., Matrix::Identity(1, 1)); }, "must be above zero");
 }
 
-TEST(GrowingMotions, OfAMachineWithPositiveMatricesAreNone)
+TEST(UnstableModes, OfAMachineWithPositiveMatricesAreNone)
 {
   for (const unsigned seed : {1u, 2u, 3u})
     EXPECT_THAT(*response_of(random_machine(seed)).growing(), testing::IsEmpty());
 }
 
 // Gyroscopic forces do no work; a free motion rests.
-TEST(GrowingMotions, AreNoneOfAGyroscopicMachineWithAFreeMotion)
+TEST(UnstableModes, AreNoneOfAGyroscopicMachineWithAFreeMotion)
 {
   LinearMachine machine(3, 0);
   machine.M.setIdentity();
@@ -199,7 +199,7 @@ TEST(GrowingMotions, AreNoneOfAGyroscopicMachineWithAFreeMotion)
 }
 
 // s^2 + 1e4 + i k = 0 in q0 + i q1
-TEST(GrowingMotions, OfACirculatoryForceHaveTheRateOfTheClosedSolution)
+TEST(UnstableModes, OfACirculatoryForceHaveTheRateOfTheClosedSolution)
 {
   LinearMachine machine(2, 0);
   machine.M.setIdentity();
@@ -213,7 +213,7 @@ TEST(GrowingMotions, OfACirculatoryForceHaveTheRateOfTheClosedSolution)
 }
 
 // Upside down pendulums, the first beside a body of high frequency, the second held by a joint.
-TEST(GrowingMotions, AreThoseThatJointsLeaveFree)
+TEST(UnstableModes, AreThoseThatJointsLeaveFree)
 {
   LinearMachine machine(3, 3);
   machine.M.setIdentity();
@@ -229,7 +229,7 @@ TEST(GrowingMotions, AreThoseThatJointsLeaveFree)
 }
 
 // T x' + x = -g q' feeds back: s^2 + 100 - k x = 0 with x = -g s q/(1 + T s).
-TEST(GrowingMotions, AreFoundBesideCoordinatesWithoutMass)
+TEST(UnstableModes, AreFoundBesideCoordinatesWithoutMass)
 {
   LinearMachine machine(2, 0);
   const double  T = 0.01, g = 2.;
@@ -272,8 +272,8 @@ TEST(ResponsePeaks, OfAnOscillatorAreThoseOfItsClosedSolution)
     std::vector<double> f, a;
     for (double x = 5.; x < 500.; x *= 1.02)
       f.push_back(x);
-    for (const double beside : {-4., -1., 0., 1., 4.})
-      f.push_back(f_0 * (1. + beside * D));
+    for (const double nearby : {-4., -1., 0., 1., 4.})
+      f.push_back(f_0 * (1. + nearby * D));
     std::sort(f.begin(), f.end());
     for (const double x : f)
       a.push_back(amplitude(x));

@@ -150,10 +150,10 @@ TEST(FreeFrame, OfGreatSlendernessHasItsRigidMotionsApartFromTheModesWithTheInte
   {
     const double omega  = 2. * M_PI * reduced.frequencies_hz[j];
     const double growth = full.below_if_free(0.9 * omega).growth;
-    const double beside = std::max(1e-5, growth * std::numeric_limits<double>::epsilon() * largest / (omega * omega));
-    EXPECT_LT(beside, 0.05); // neighbours are 1.6 and more apart, but those of a square section
-    EXPECT_EQ(full.below_if_free((1. - beside) * omega).negative, j);
-    EXPECT_EQ(full.below_if_free((1. + beside) * omega).negative, j + 1);
+    const double nearby = std::max(1e-5, growth * std::numeric_limits<double>::epsilon() * largest / (omega * omega));
+    EXPECT_LT(nearby, 0.05); // neighbours are 1.6 and more apart, but those of a square section
+    EXPECT_EQ(full.below_if_free((1. - nearby) * omega).negative, j);
+    EXPECT_EQ(full.below_if_free((1. + nearby) * omega).negative, j + 1);
   }
 }
 

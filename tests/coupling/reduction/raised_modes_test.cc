@@ -52,7 +52,7 @@ struct Told
   Eigen::VectorXd frequency_hz, raised_hz, by_degree;
 };
 
-Told told(const fem::Mesh &mesh, int n_modes)
+Told reported(const fem::Mesh &mesh, int n_modes)
 {
   fem::FrameSpecification specification = free_steel();
   specification.supports                = {clamped("foot", {"x0"})};
@@ -103,7 +103,7 @@ std::vector<double> beam(double thickness)
 /// By the same frame in many hexahedra of degree three.
 std::vector<double> truth_of(const fem::Mesh &fine)
 {
-  const Told own = told(fine, 2);
+  const Told own = reported(fine, 2);
   return {own.raised_hz[0], own.raised_hz[1]};
 }
 
@@ -139,7 +139,7 @@ TEST(RaisedDegree, TellsNoLessThanHalfOfTheErrorOfAFrequencyAndNoMoreThanTwoAndA
   constexpr double known = 0.003;
   for (const auto &[name, mesh, truth] : frames())
   {
-    const Told own = told(mesh, int(truth.size()));
+    const Told own = reported(mesh, int(truth.size()));
     for (std::size_t j = 0; j < truth.size(); ++j)
     {
       const double error = own.frequency_hz[j] / truth[j] - 1.;

@@ -139,9 +139,9 @@ TEST_P(ReceptanceNumber, KeepsTheReceptanceWithinTheToleranceWithHardlyMoreThanT
   ASSERT_FALSE(model.statements.empty());
   EXPECT_NE(model.statements[0].find("keep the receptance of the interface up to"), std::string::npos)
       << model.statements[0];
-  const double told = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
-  EXPECT_LE(found, 1.01 * told) << model.statements[0];
-  EXPECT_LE(told, 1.01 * found + 0.2 * tolerance); // twice the doubt of the full frame's receptance that is allowed
+  const double reported = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
+  EXPECT_LE(found, 1.01 * reported) << model.statements[0];
+  EXPECT_LE(reported, 1.01 * found + 0.2 * tolerance); // twice the doubt of the full frame's receptance that is allowed
   EXPECT_NE(model.statements[0].find("the rule of 3.5 times the highest frequency would take"), std::string::npos);
 }
 INSTANTIATE_TEST_SUITE_P(SupportedAndFree, ReceptanceNumber,
@@ -199,7 +199,7 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
   const auto   model = reduce_frame(frame, options);
   const double found = error_of(model.M, model.B, model.C);
   ASSERT_FALSE(model.statements.empty());
-  const double told = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
+  const double reported = std::stod(model.statements[0].substr(model.statements[0].find("within ") + 7)) / 100.;
   frame.B.setZero();
   const auto     without = reduce_with_basis(frame, options);
   const MatrixXd B       = without.basis.T.transpose() * (frame_of(lattice).B * without.basis.T);
@@ -208,8 +208,8 @@ TEST_P(DampersInside, AreMetByTheirStaticShapesHoweverStrong)
     EXPECT_GT(error_of(without.frame.M, B, without.frame.C), 5. * tolerance) << "dampers are not felt";
   }
   EXPECT_LE(found, tolerance) << model.statements[0];
-  EXPECT_LE(found, 1.05 * told) << model.statements[0]; // the grids differ, and 9.4e-6 is told as 0.00094 %
-  EXPECT_LE(told, tolerance);
+  EXPECT_LE(found, 1.05 * reported) << model.statements[0]; // the grids differ, and 9.4e-6 is told as 0.00094 %
+  EXPECT_LE(reported, tolerance);
 }
 INSTANTIATE_TEST_SUITE_P(WeakAndStrong, DampersInside,
                          ::testing::Combine(::testing::Values(0.2, 2., 20., 200.), ::testing::Values(0.01, 1e-3)));
@@ -246,9 +246,9 @@ TEST_P(FewCoordinates, AreMetBeyondTheirHighestMode)
   {
     ASSERT_EQ(model.notes.size(), 1u);
     EXPECT_NE(model.notes[0].find("dampers act where the frame has no mass"), std::string::npos) << model.notes[0];
-    const double told = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
-    EXPECT_LE(found, 1.05 * told) << model.notes[0]; // the grids differ
-    EXPECT_LE(told, 2. * found) << "dampers within the inside are left out of the estimate, and would lower it";
+    const double reported = std::stod(model.notes[0].substr(model.notes[0].find("within ") + 7)) / 100.;
+    EXPECT_LE(found, 1.05 * reported) << model.notes[0]; // the grids differ
+    EXPECT_LE(reported, 2. * found) << "dampers within the inside are left out of the estimate, and would lower it";
     return;
   }
   ASSERT_FALSE(model.statements.empty());
@@ -268,12 +268,12 @@ TEST(ReceptanceEstimate, IsTheTrueErrorOfAGivenNumberOfModes)
     const auto     model = reduce_frame(c.frame, options);
     const VectorXd scale = model.M.diagonal().head(model.n_interface).cwiseSqrt();
     ASSERT_FALSE(model.statements.empty());
-    const auto       at   = model.statements[0].find("within ");
-    const double     told = std::stod(model.statements[0].substr(at + 7)) / 100.;
+    const auto       at       = model.statements[0].find("within ");
+    const double     reported = std::stod(model.statements[0].substr(at + 7)) / 100.;
     std::vector<int> first(model.n_interface);
     std::iota(first.begin(), first.end(), 0);
     const double found = error(by_modes(model.C, model.M, first, c.omegas, Damping::loss_factor), exact, scale);
-    EXPECT_NEAR(told, found, 0.1 * found) << m; // the grids of frequencies differ
+    EXPECT_NEAR(reported, found, 0.1 * found) << m; // the grids of frequencies differ
 
     double worst = 0.; // of the interfaces by themselves, six coordinates each
     for (const int at : {0, 6})
@@ -302,8 +302,8 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
   ASSERT_EQ(model.notes.size(), 1u);
   EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
       << model.notes[0];
-  const double told = std::stod(model.notes[0].substr(model.notes[0].find("has ") + 4));
-  EXPECT_NEAR(told, model.omega0[1] / (2. * M_PI), 1e-2 * told) << "rounded";
+  const double reported = std::stod(model.notes[0].substr(model.notes[0].find("has ") + 4));
+  EXPECT_NEAR(reported, model.omega0[1] / (2. * M_PI), 1e-2 * reported) << "rounded";
   EXPECT_NE(model.notes[0].find("ask for more modes"), std::string::npos);
 
   EXPECT_NE(reduce_frame(c.frame,

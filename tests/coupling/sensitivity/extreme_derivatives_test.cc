@@ -36,7 +36,7 @@ protected:
     run.signals = {{"y", "N", smallest, 0.2, largest, 0.6, 0.}};
     return ExtremeDerivatives(run, twins_, near, length);
   }
-  Told told(double y, double dy) const { return {VectorXd::Constant(1, y), MatrixXd::Constant(1, 1, dy)}; }
+  Told reported(double y, double dy) const { return {VectorXd::Constant(1, y), MatrixXd::Constant(1, 1, dy)}; }
   /// @param off  error of the second derivative
   Turn turn(double dy, double rate, double second, double d_rate, double off = 0., Kink kink = Kink::none) const
   {
@@ -52,14 +52,14 @@ TEST_F(Extremes, AreOfTheSideOfAJumpWhoseValueTheyHave)
   // accelerations err by a millionth.
   auto           extremes = of(-3., 9.);
   const VectorXd flat     = VectorXd::Zero(1);
-  extremes.at_event(0.2, told(5., 70.), flat, RowVectorXd::Constant(1, 0.5));
-  extremes.at_event(0.2, told(-3. + 3e-6, 11.), flat, RowVectorXd::Constant(1, 0.5));
+  extremes.at_event(0.2, reported(5., 70.), flat, RowVectorXd::Constant(1, 0.5));
+  extremes.at_event(0.2, reported(-3. + 3e-6, 11.), flat, RowVectorXd::Constant(1, 0.5));
   EXPECT_EQ(extremes.take()[0].derivative[0], 11.);
 
   // The same from the other side: what lies behind does not take the place of what fits.
   auto others = of(-3., 9.);
-  others.at_event(0.2, told(-3. - 3e-6, 70.), flat, RowVectorXd::Constant(1, 0.5));
-  others.at_event(0.2, told(5., 11.), flat, RowVectorXd::Constant(1, 0.5));
+  others.at_event(0.2, reported(-3. - 3e-6, 70.), flat, RowVectorXd::Constant(1, 0.5));
+  others.at_event(0.2, reported(5., 11.), flat, RowVectorXd::Constant(1, 0.5));
   EXPECT_EQ(others.take()[0].derivative[0], 70.);
 }
 
@@ -79,7 +79,7 @@ TEST_F(Extremes, AtAnEventThatAreZeroButForItsLocationHaveNone)
   // A force of 19.6 kN is told as -2.5e-5 N where its contact ends.
   const VectorXd slope    = VectorXd::Constant(1, 6e7);
   auto           extremes = of(-2.5e-5, 19613.);
-  extremes.at_event(0.2, told(-2.5e-5, -2e7), slope, RowVectorXd::Constant(1, 0.5));
+  extremes.at_event(0.2, reported(-2.5e-5, -2e7), slope, RowVectorXd::Constant(1, 0.5));
   const auto outputs = extremes.take();
   EXPECT_TRUE(std::isnan(outputs[0].derivative[0]));
   EXPECT_TRUE(std::isnan(outputs[1].derivative[0]));
@@ -97,7 +97,7 @@ TEST_F(Extremes, AtAnEventThatAreZeroButForItsLocationHaveNone)
 TEST_F(Extremes, ThatALawMakesExactlyZeroHaveOne)
 {
   auto extremes = of(0., 9.);
-  extremes.at_event(0.2, told(0., 0.), VectorXd::Zero(1), RowVectorXd::Zero(1));
+  extremes.at_event(0.2, reported(0., 0.), VectorXd::Zero(1), RowVectorXd::Zero(1));
   EXPECT_EQ(extremes.take()[0].derivative[0], 0.);
 }
 

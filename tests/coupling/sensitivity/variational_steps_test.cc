@@ -113,11 +113,11 @@ TEST(VariationalSteps, TellErrorsThatOscillateWithWhatTheyAreOf)
 {
   // Half of these are positive, half negative, and their sum over whole periods vanishes; what they make of the motion
   // grows in proportion to the periods.
-  const auto [told, error]            = of_oscillation(16);
+  const auto [reported, error]        = of_oscillation(16);
   const auto [told_longer, its_error] = of_oscillation(32);
-  EXPECT_GT(told, error);
+  EXPECT_GT(reported, error);
   EXPECT_GT(told_longer, its_error);
-  EXPECT_NEAR(told_longer / told, 2., 0.2);
+  EXPECT_NEAR(told_longer / reported, 2., 0.2);
 }
 
 TEST(VariationalSteps, DivideALastStepThatIsAHairLongerThanTheirOwn)

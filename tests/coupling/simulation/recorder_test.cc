@@ -131,7 +131,7 @@ TEST(Recorder, KeepsValuesAndRatesAtAnEventHoweverFarApartRowsAre)
   const EventValues &at = result.event_values[0];
   EXPECT_EQ(at.t, event);
   EXPECT_NEAR(at.before[0], std::sin(omega * event), 1e-14);
-  EXPECT_EQ(at.before, at.behind); // nothing jumps
+  EXPECT_EQ(at.before, at.after); // nothing jumps
   // A parabola over two steps errs by a third of the third derivative times h^2 in its rate, and no more than that.
   EXPECT_NEAR(at.rate[0], omega * std::cos(omega * event), std::pow(omega, 3) * step * step / 3.);
 }

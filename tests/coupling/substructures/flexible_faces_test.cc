@@ -171,9 +171,9 @@ TEST(FlexibleFaces, AreRefusedWhereTheyCannotMoveAlike)
   wide.tolerance        = 1.;
   EXPECT_NE(refusal_of_faces(tilted, wide).find("parallel planes"), std::string::npos);
 
-  auto beside = halves(3);
-  beside[1].placement.at += 2. * part_width * Eigen::Vector3d::UnitY();
-  EXPECT_NE(refusal_of_faces(beside, wide).find("lie beside each other"), std::string::npos);
+  auto nearby = halves(3);
+  nearby[1].placement.at += 2. * part_width * Eigen::Vector3d::UnitY();
+  EXPECT_NE(refusal_of_faces(nearby, wide).find("lie beside each other"), std::string::npos);
 
   auto unjoined = halves(3);
   make_flexible(unjoined[0], "rear", 3);

@@ -47,7 +47,7 @@ struct Mixture
 std::vector<Mixture> mixtures()
 {
   using Kind        = std::optional<CellKind>;
-  const auto beside = [](int i, int, int) { return Kind(i < 2 ? CellKind::hexahedron : CellKind::prism); };
+  const auto nearby = [](int i, int, int) { return Kind(i < 2 ? CellKind::hexahedron : CellKind::prism); };
   const auto upon   = [](int, int, int k) { return Kind(k < 2 ? CellKind::prism : CellKind::tetrahedron); };
   const auto all    = [](int i, int, int k) {
     return k < 2 ? Kind(i < 2 ? CellKind::hexahedron : CellKind::prism) : i < 2 ? Kind() : Kind(CellKind::tetrahedron);
@@ -56,7 +56,7 @@ std::vector<Mixture> mixtures()
   return {{"tetrahedra", box_mesh({3, 3, 3}, size(), 0.25), box},
           {"hexahedra", brick_mesh({3, 3, 3}, size(), 0.25), box},
           {"prisms", prism_mesh({3, 3, 3}, size(), 0.2), box},
-          {"prisms beside hexahedra", filled_mesh({4, 3, 3}, size(), beside, 0.2), box},
+          {"prisms beside hexahedra", filled_mesh({4, 3, 3}, size(), nearby, 0.2), box},
           {"tetrahedra upon prisms", filled_mesh({3, 3, 4}, size(), upon, 0.2), box},
           {"all three", filled_mesh({4, 3, 4}, size(), all), 0.75 * box}};
 }

@@ -118,9 +118,9 @@ protected:
   /// What is said of it; nothing was run.
   std::string told_of(const std::string &cad) const
   {
-    const std::string told = refusal(specification(cad, 1.));
+    const std::string reported = refusal(specification(cad, 1.));
     EXPECT_FALSE(std::filesystem::exists(did_)) << cad;
-    return told;
+    return reported;
   }
 
   const std::string did_ = folder() + "/did";

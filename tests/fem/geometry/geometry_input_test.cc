@@ -98,11 +98,11 @@ TEST(StepFile, InAnotherUnitIsRecognisedByItsSize)
 
 TEST(StepFile, ThatLiesFarFromTheOriginIsRefused)
 {
-  const auto told = [](double x) {
+  const auto reported = [](double x) {
     return refusal(specification(draw("far.step", [x] { gmsh::model::occ::addBox(x, 0., 0., 1e3, 1e3, 1e3); }), 0.5));
   };
-  EXPECT_EQ(told(1e7), ""); // 10 km
-  EXPECT_THAT(told(1e12), HasSubstr("is 1.7321 m across and lies 1e+09 m from the origin"));
+  EXPECT_EQ(reported(1e7), ""); // 10 km
+  EXPECT_THAT(reported(1e12), HasSubstr("is 1.7321 m across and lies 1e+09 m from the origin"));
 }
 
 TEST(StepFile, OfASizeFewFramesHaveIsTakenWithANote)

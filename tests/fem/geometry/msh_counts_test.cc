@@ -82,7 +82,7 @@ std::string count_refusal(const std::string &text)
   return defect_of_counts(write_text("told.msh", text));
 }
 
-std::size_t behind(const std::string &text, const std::string &section)
+std::size_t after(const std::string &text, const std::string &section)
 {
   return text.find("\n" + section + "\n") + section.size() + 2;
 }
@@ -95,7 +95,7 @@ TEST(MshCounts, OfSoundMeshesPassAndAreReadToTheirEnd)
   {
     const std::string text = read_text(mesh_file("sound.msh", kind));
     EXPECT_EQ(count_refusal(text), "") << kind;
-    const std::size_t   at       = behind(text, "$Elements") + 8;
+    const std::size_t   at       = after(text, "$Elements") + 8;
     const std::uint64_t elements = number_in(text, at);
     EXPECT_THAT(count_refusal(with_number(text, at, elements - 1)),
                 HasSubstr("at byte " + std::to_string(at) + " it announces " + std::to_string(elements - 1) +
@@ -120,29 +120,29 @@ TEST(MshCounts, AreNotLookedForInComments)
   const std::size_t entities = text.find("$Entities\n");
   EXPECT_EQ(count_refusal(said + text), "");
   EXPECT_EQ(count_refusal(text.substr(0, entities) + said + text.substr(entities)), "");
-  const std::size_t nodes = behind(said + text, "$EndEntities") + std::strlen("$Nodes\n");
+  const std::size_t nodes = after(said + text, "$EndEntities") + std::strlen("$Nodes\n");
   EXPECT_THAT(count_refusal(with_number(said + text, nodes, ~std::uint64_t(0))), HasSubstr("blocks of nodes"));
 }
 
 struct Announced
 {
   std::string   section;
-  std::size_t   behind; ///< the name of the section and its end of line [bytes]
+  std::size_t   after; ///< the name of the section and its end of line [bytes]
   std::string   things;
   std::uint64_t bytes; ///< of one, at least
 };
 
 void expect_refused(const std::string &text, const Announced &one)
 {
-  const std::size_t at = behind(text, one.section) + one.behind;
-  ASSERT_LT(number_in(text, at), 10000u) << one.section << one.behind;
+  const std::size_t at = after(text, one.section) + one.after;
+  ASSERT_LT(number_in(text, at), 10000u) << one.section << one.after;
   const std::uint64_t left = text.size() - at - 8;
   for (const std::uint64_t number : {left / one.bytes + 1, ~std::uint64_t(0)})
     EXPECT_THAT(count_refusal(with_number(text, at, number)),
                 HasSubstr("at byte " + std::to_string(at) + " it announces " + std::to_string(number) + " " +
                           one.things + ", of at least " + std::to_string(one.bytes) + " bytes each, but only " +
                           std::to_string(left) + " bytes follow"))
-        << one.section << one.behind;
+        << one.section << one.after;
 }
 
 TEST(MshCounts, OfMoreThanTheFileHoldsAreRefusedWithTheByte)
@@ -167,7 +167,7 @@ TEST(MshCounts, OfMoreThanTheFileHoldsAreRefusedWithTheByte)
 TEST(MshCounts, OfFewerThanTheBlocksHoldAreRefused)
 {
   const std::string   text  = read_text(mesh_file("sound.msh", {}));
-  const std::size_t   at    = behind(text, "$Nodes") + 8;
+  const std::size_t   at    = after(text, "$Nodes") + 8;
   const std::uint64_t nodes = number_in(text, at);
   EXPECT_THAT(
       count_refusal(with_number(text, at, nodes - 1)),
@@ -179,7 +179,7 @@ TEST(MshCounts, OfFewerThanTheBlocksHoldAreRefused)
 TEST(MshCounts, InTheOrderOfAnotherProcessorAreReadSo)
 {
   std::string       text = read_text(mesh_file("sound.msh", {}));
-  const std::size_t one  = behind(text, "4.1 1 8");
+  const std::size_t one  = after(text, "4.1 1 8");
   text[one]              = '\3';
   EXPECT_THAT(count_refusal(text), HasSubstr("points"));
 
@@ -208,8 +208,8 @@ TEST(MshCounts, OfFilesCutAnywhereAreJudgedOrLeftToGmsh)
   const std::string text = read_text(mesh_file("sound.msh", {1, true, true, 2}));
   for (std::size_t length = 0; length < text.size(); length += 1 + text.size() / 500)
   {
-    const std::string told = count_refusal(text.substr(0, length));
-    EXPECT_TRUE(told.empty() || told.find("is damaged: at byte ") == 0) << told;
+    const std::string reported = count_refusal(text.substr(0, length));
+    EXPECT_TRUE(reported.empty() || reported.find("is damaged: at byte ") == 0) << reported;
   }
 }
 

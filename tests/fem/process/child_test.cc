@@ -296,7 +296,7 @@ TEST(InChild, ProgressIsToldAgainWhileNothingHappensSoThatItMayInterrupt)
 }
 
 /// A process that waits for a child, which writes its number and its folder into a file.
-pid_t waiting_process(const files::path &told)
+pid_t waiting_process(const files::path &reported)
 {
   const pid_t process = fork();
   if (process != 0)
@@ -304,9 +304,9 @@ pid_t waiting_process(const files::path &told)
   in_child<std::string>(task, {},
                         [&](const ChildProgress &)
                         {
-                          std::ofstream(told.string() + ".new")
+                          std::ofstream(reported.string() + ".new")
                               << getpid() << ' ' << files::temp_directory_path().string();
-                          files::rename(told.string() + ".new", told);
+                          files::rename(reported.string() + ".new", reported);
                           pause();
                           return dead();
                         });
@@ -321,14 +321,14 @@ struct Waiting
 
 Waiting wait_for_child()
 {
-  const files::path told = files::path(::testing::TempDir()) / ("gestell_child_" + std::to_string(getpid()));
-  Waiting           waiting{waiting_process(told), 0, {}};
-  for (int i = 0; i < 60000 && !files::exists(told); ++i)
+  const files::path reported = files::path(::testing::TempDir()) / ("gestell_child_" + std::to_string(getpid()));
+  Waiting           waiting{waiting_process(reported), 0, {}};
+  for (int i = 0; i < 60000 && !files::exists(reported); ++i)
     usleep(1000);
   std::string folder;
-  std::ifstream(told) >> waiting.child >> folder;
+  std::ifstream(reported) >> waiting.child >> folder;
   waiting.folder = folder;
-  files::remove(told);
+  files::remove(reported);
   return waiting;
 }
 

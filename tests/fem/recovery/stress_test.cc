@@ -204,7 +204,7 @@ TEST(SkinStress, KnowsWhereSurfacesAreHeldRigid)
   {
     const double x        = place(frame, i)[0];
     const int    expected = x < 1.01 * brick ? 0 : x > length - 1.01 * brick ? 1 : -1;
-    EXPECT_EQ(frame.stress.beside[i], expected) << "at x = " << x;
+    EXPECT_EQ(frame.stress.nearby[i], expected) << "at x = " << x;
   }
 }
 

@@ -1,7 +1,7 @@
 #include "tests/fuzz/mesh/mesh_fuzz.h"
 
 #include "fem/process/child_messages.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 #include "tests/fuzz/mesh/mesh_mutation.h"
 #include "tests/fuzz/watched_process.h"
 
@@ -186,10 +186,10 @@ private:
     std::ofstream(folder / "words.txt", std::ios::app) << number << ": " << words << '\n';
   }
 
-  const MeshTarget        &target_;
-  const FuzzOptions       &options_;
-  const fem::PassingFolder folder_, alone_;
-  Tally                    tally_;
+  const MeshTarget             &target_;
+  const FuzzOptions            &options_;
+  const fem::TemporaryDirectory folder_, alone_;
+  Tally                         tally_;
 };
 
 } // namespace
@@ -210,8 +210,8 @@ Tally fuzz(const MeshTarget &target, std::uint64_t from, std::uint64_t to, const
 
 Judgement judge_alone(const std::string &path, std::uint64_t number, int seconds)
 {
-  const fem::PassingFolder folder;
-  Judge                    judge(
+  const fem::TemporaryDirectory folder;
+  Judge                         judge(
       [&](MessageWriter &out)
       {
         ::unsetenv("GESTELL_ONE_PROCESS");

@@ -1,6 +1,6 @@
 // Meshes and geometry at random: whatever stands in a file, it is taken with a sound mesh or refused by a message.
 
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 #include "tests/fuzz/mesh/mesh_fuzz.h"
 
 #include <gtest/gtest.h>
@@ -25,10 +25,10 @@ TEST_P(Meshes, OfSeedsAreSound)
 {
   const MeshTarget &target = mesh_target(GetParam());
   EXPECT_FALSE(target.seeds.empty());
-  const fem::PassingFolder own; // others do the same at the same time
-  const files::path        folder  = own.path();
-  std::size_t              n_sound = 0; // a script may draw what one number asks of it and no other
-  std::string              last;
+  const fem::TemporaryDirectory own; // others do the same at the same time
+  const files::path             folder  = own.path();
+  std::size_t                   n_sound = 0; // a script may draw what one number asks of it and no other
+  std::string                   last;
   for (const std::string &seed : target.seeds)
   {
     int n_taken = 0; // of one body or of two, as the number asks

@@ -6,7 +6,7 @@
 #include "fem/mesh/measure_body.h"
 #include "fem/mesh/mesher.h"
 #include "fem/values/mesh_phase.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <gmsh.h>
 
@@ -34,9 +34,9 @@ using namespace gestell::fem;
 /// What `act` leaves in gmsh as a file of this extension.
 std::string written(const std::string &extension, const std::function<void()> &act)
 {
-  const PassingFolder folder;
-  const GmshSession   session;
-  const std::string   file = (folder.path() / ("seed" + extension)).string();
+  const TemporaryDirectory folder;
+  const GmshSession        session;
+  const std::string        file = (folder.path() / ("seed" + extension)).string();
   gmsh::option::setString("Geometry.OCCTargetUnit", "");
   act();
   Interface_Static::SetCVal("xstep.cascade.unit", "MM"); // reading left metres behind

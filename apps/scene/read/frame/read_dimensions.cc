@@ -1,11 +1,11 @@
 #include "apps/scene/read/frame/read_dimensions.h"
 
+#include "coupling/frame/atomic_file.h"
 #include "coupling/frame/cache_folder.h"
 #include "coupling/frame/sha256.h"
-#include "coupling/frame/whole_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
-#include "fem/values/passing_folder.h"
+#include "fem/values/temporary_directory.h"
 
 #include <cctype>
 #include <cstdlib>
@@ -95,7 +95,7 @@ bool holds(const fs::path &file, const std::string &text)
 /// Of this process, and gone with it: where there is no cache of the user's own, or none to write into.
 const fs::path &own_folder()
 {
-  static const fem::PassingFolder folder;
+  static const fem::TemporaryDirectory folder;
   return folder.path();
 }
 
@@ -108,7 +108,7 @@ std::string kept(const std::string &script, const std::string &stem)
   const auto        written = [&](const fs::path &file)
   {
     fs::create_directories(file.parent_path());
-    coupling::WholeFile out(file.string());
+    coupling::AtomicFile out(file.string());
     out.stream() << script;
     out.finish();
     return file.string();

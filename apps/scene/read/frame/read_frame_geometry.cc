@@ -64,13 +64,13 @@ std::vector<std::string> read_surface_names(const SceneTable &table, const fem::
   std::vector<std::string> declared;
   for (const auto &entry : frame.surfaces)
     declared.push_back(entry.first);
-  std::set<std::string> seen;
+  std::set<std::string> visited;
   for (const auto &name : names)
   {
     if (!frame.surfaces.count(name))
       throw table.error(key, "there is no [" + owner_of(table) + ".surface." + written_key(name) + "]" +
                                  suggestion(name, declared));
-    if (!seen.insert(name).second)
+    if (!visited.insert(name).second)
       throw table.error(key, "names '" + name + "' twice");
   }
   return names;

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "coupling/integration/events/run_observer.h"
+#include "coupling/integration/system/time_integrator.h"
+#include "coupling/machine/machine.h"
+#include "coupling/simulation/checks/oscillator_bank.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::coupling
+{
+
+/**
+ * What the frequencies of a reduced frame, which are too high, make of the forces of a run.
+ *
+ * Modes phi_k of the frame as it is supported follow the forces f(t) on it as oscillators y_k. Those of the reduced
+ * frame have the frequencies omega_k, those of the full one about omega'_k, refined_hz(). As statics of both are
+ * the same, the deflection along a direction w is wrong by about
+ *
+ *     e(t) = sum_k (w.phi_k) / omega_k^2  (y_k[omega_k] - y_k[omega'_k]),     y_k'' + 2 zeta_k omega y_k' + omega^2 y_k
+ *                                                                               = omega^2 phi_k.f(t).
+ *
+ * f are the forces of elements, joints, loads and base springs, with steps shorter than that their means over 1/32 of a
+ * period of the range's limit (loads of the middle, springs as the mean of both ends): 16 samples in a period at 2 f.
+ * Masses that ride on the frame are not in its modes.
+ *
+ * Source: docs/theory/reduction.md (16f).
+ */
+class ForceBandwidthCheck : public RunObserver
+{
+public:
+  ForceBandwidthCheck(const Machine &machine, const TimeIntegrator &integrator);
+
+  void begin() override; ///< what acts from the start on is taken as at rest
+  void step() override;
+  void event(const Event &) override;
+  void finish(RunOutcome &outcome) override; ///< one for all that leave more than a twentieth of a deflection in doubt
+  void exchange(StateArchive &archive) override;
+
+private:
+  static constexpr int n_ranges = 4; ///< f, 2 f, 4 f, 8 f: what a larger range would leave
+
+  /// Where something acts on the frame: a measure of an element, or base springs between a coordinate and bodies.
+  struct Place
+  {
+    std::string     name;
+    Eigen::VectorXd direction; ///< w [n_f]
+    int             measure;   ///< -1: the force is spring.q + damper.v
+    Eigen::VectorXd spring{}, damper{};
+    double          above = 0.; ///< share of the flexibility along w that modes above f carry
+  };
+
+  void take_forces(const Machine &machine, const Eigen::MatrixXd &W, const Eigen::MatrixXd &springs,
+                   const Eigen::MatrixXd &dampers);
+  void take_modes(const ReducedFrame &frame);
+
+  /// phi_k.f for the model's oscillators and again for the refined ones.
+  /// @param p  forces of the measures
+  /// @param t  of the loads; before now, base springs have the mean of their forces at the last look and now
+  const Eigen::ArrayXd  &inputs(const Eigen::VectorXd &p, double t);
+  const Eigen::VectorXd &measured() const { return integrator_.local().p; }
+  double                 force_on(const Place &place) const;
+  void                   look();
+  double                 doubt(std::size_t place, int range) const;
+
+  const TimeIntegrator &integrator_;
+  const Excitation     *excitation_ = nullptr; ///< where it changes
+  double                limit_      = 0.;      ///< f [Hz]
+  double                pace_       = 0.;      ///< [s] between two looks, where steps are shorter
+  double                t_ = 0., t_step_ = 0.; ///< of the last look; of the last step
+  Eigen::VectorXd       impulse_, p_;          ///< of the measures' forces since the last look; at the last step
+  std::vector<Place>    places_;
+  Eigen::MatrixXd       shapes_;                     ///< (w_i.phi_k) / omega_k^2 [places x modes]
+  Eigen::MatrixXd       by_measures_, by_loads_;     ///< phi_k.f per p [modes x n_u], per f_t [modes x n]
+  Eigen::MatrixXd       by_motion_, by_rates_;       ///< of base springs, dampers, per q, v of sprung_
+  std::vector<int>      sprung_;                     ///< coordinates that these move by
+  Eigen::Index          first_[n_ranges] = {};       ///< mode that is not exact with the range
+  OscillatorBank        bank_;                       ///< of the model, then the refined ones
+  Eigen::VectorXd       sprung_before_, sprung_now_; ///< phi_k.f of base springs at the last look, and now
+  Eigen::VectorXd       force_, load_, at_rest_;     ///< phi_k.f; f_t; deflections at the begin
+  Eigen::VectorXd       sum_, difference_;
+  Eigen::ArrayXd        input_;
+  Eigen::ArrayXd        deflection_, least_, most_; ///< largest change of deflections; forces along them
+  Eigen::ArrayXXd       error_;                     ///< largest e(t) [places x n_ranges]
+};
+
+} // namespace gestell::coupling
