@@ -13,7 +13,8 @@ namespace gestell::apps
 
 void FmuComponent::log(fmi2Status status, const std::string &category, const std::string &message) const
 {
-  const bool wanted = status >= fmi2Error || (logging && (categories.empty() || categories.count(category) > 0));
+  const bool wanted = status == fmi2Warning || status >= fmi2Error ||
+                      (logging && (categories.empty() || categories.count(category) > 0));
   if (wanted && callbacks.logger)
     callbacks.logger(callbacks.componentEnvironment, name.c_str(), status, category.c_str(), "%s", message.c_str());
 }

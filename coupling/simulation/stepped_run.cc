@@ -71,6 +71,7 @@ SteppedRun::SteppedRun(Machine &machine, const InitialState &initial, const RunO
   motion_.watch(*this);
   for (const auto &check : checks_)
     motion_.watch(*check);
+  checks_new_ = checks_now();
 }
 
 /// Its end is not known.
@@ -142,8 +143,17 @@ std::string SteppedRun::checks_at(double t)
   const std::string now = checks_now();
   restore_checks(checks_begin_);
   steps_.show_until(t);
-  for (const auto &check : checks_)
-    check->step();
+  try
+  {
+    for (const auto &check : checks_)
+      check->step();
+  }
+  catch (const ConvergenceFailure &)
+  {
+    steps_.show_whole_step();
+    restore_checks(now);
+    throw;
+  }
   steps_.show_whole_step();
   std::string there = checks_now();
   restore_checks(now);
@@ -168,6 +178,8 @@ void SteppedRun::look_behind_step(double t, Eigen::VectorXd on_step)
 /// The last step reaches to t as well.  Behind an event its dense output is gone, and it is made anew.
 bool SteppedRun::stays_in_step(double t)
 {
+  if (ahead_ && !ended_.empty() && now_ >= end_)
+    return true;
   if (!ahead_ || !(steps_.time() > t + slack_))
     return false;
   if (!(steps_.step_begin() < steps_.time()))
@@ -210,21 +222,35 @@ void SteppedRun::go_on_to(double t)
   verify();
 }
 
-void SteppedRun::verify() const
+/// What was stepped beyond time() counts for nothing.
+void SteppedRun::verify()
 {
+  const std::string now = ahead_ ? checks_now() : "";
+  if (ahead_)
+    restore_checks(there_.checks);
   for (const auto &check : checks_)
     check->verify();
+  if (ahead_)
+    restore_checks(now);
 }
 
 std::string SteppedRun::finish(const std::string &failure)
 {
   const FlushDenormals while_they_tell;
   if (ahead_)
+  {
     restore_checks(there_.checks);
+    machine_.events().restore_history(there_.history);
+    if (steps_.step_begin() < now_ && now_ < steps_.time())
+      steps_.show_until(now_);
+  }
   outcome_.failure = failure;
   for (const auto &check : checks_)
     check->finish(outcome_);
   machine_.events().follow_history(options_.events); // which checks may have ended
+  const auto fatal = [](const Finding &finding) { return finding.severity == Severity::error; };
+  outcome_.findings.erase(std::remove_if(outcome_.findings.begin(), outcome_.findings.end(), fatal),
+                          outcome_.findings.end()); // the failure tells them
   return failure.empty() ? outcome_.failure : "";
 }
 
@@ -300,6 +326,8 @@ void SteppedRun::restore(const SteppedState &state)
   events_.erase(std::remove_if(events_.begin(), events_.end(), [&](const Event &e) { return e.t > at.t; }),
                 events_.end());
   steps_.begin_with(at.history, options_.events);
+  if (at.checks.empty())
+    restore_checks(checks_new_);
   begin(at.t, at.q, at.v);
   if (!at.checks.empty())
     restore_checks(at.checks);

@@ -59,7 +59,7 @@ public:
 
   /// @throws ConvergenceFailure if what was made so far is no motion.  go_on_to() asks by itself where the run of the
   /// scene would end, and when the steps have become twice as many.
-  void verify() const;
+  void verify();
   /// Lets the checks tell what they found up to time(); the run goes on from a state only.
   /// @param failure  that ended it; empty: none
   /// @return         why it is no motion, if that shows now only
@@ -110,6 +110,7 @@ private:
   double                       end_ = 0.; ///< [s] where it ended
 
   std::vector<std::unique_ptr<RunObserver>> checks_;
+  std::string                               checks_new_;   ///< at the start
   std::string                               checks_begin_; ///< what they knew before the step that went beyond now_
   double                                    still_;        ///< sliding speed of the start, see EventOptions
   long                                      next_look_;    ///< number of steps at which the motion is verified

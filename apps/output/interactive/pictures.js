@@ -145,7 +145,14 @@
       const show = view.shows.find((one) => one.id === figure.dataset.show);
       if (show) pictures.push(new Picture(view, figure, show));
     }
-    const draw = (picture) => picture.drawn || picture.draw();
+    // Where the browser gives no second drawing area the caption stays, and the view above shows the same.
+    const draw = (picture) => {
+      try {
+        if (!picture.drawn) picture.draw();
+      } catch (_) {
+        picture.figure.classList.remove("drawn");
+      }
+    };
     const watch = new IntersectionObserver((entries) => entries.filter((entry) => entry.isIntersecting).forEach((entry) =>
       draw(pictures.find((picture) => picture.figure === entry.target))), { rootMargin: "300px" });
     for (const picture of pictures) watch.observe(picture.figure);

@@ -40,14 +40,22 @@ std::vector<coupling::Finding> all_findings(const Result &result)
       findings.push_back(finding);
   };
   if (result.run && !result.run->failure.empty())
-    add({Severity::error, "stopped-early", "", "The computation stopped early: " + result.run->failure});
+  {
+    coupling::Finding stop{Severity::error, "stopped-early", "", result.run->failure};
+    for (const coupling::Finding &finding : result.run->findings)
+      if (finding.text == stop.text)
+        stop = finding;
+    stop.text = "The computation stopped early: " + stop.text;
+    add(stop);
+  }
   if (result.run && result.run->interrupted)
     add({Severity::warning, "interrupted", "", "The computation was interrupted; the results end where it stopped."});
   for (const std::string &warning : result.warnings)
     add({Severity::warning, "", "", warning});
   if (result.run)
     for (const coupling::Finding &finding : result.run->findings)
-      add(finding);
+      if (finding.text != result.run->failure)
+        add(finding);
   return findings;
 }
 

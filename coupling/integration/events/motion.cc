@@ -40,7 +40,7 @@ void Motion::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
 
 void Motion::exchange(StateArchive &archive)
 {
-  archive(*driver_);
+  archive(*driver_, chattering_, chattering_time_);
   for (RunObserver *observer : observers_)
     archive(*observer);
 }

@@ -54,7 +54,9 @@ EnergyCheck::EnergyCheck(const Machine &machine, const TimeIntegrator &integrato
 void EnergyCheck::begin()
 {
   energy_.begin(integrator_.instant());
-  guard_ = EnergyGuard(energy_.at_begin());
+  guard_    = EnergyGuard(energy_.at_begin());
+  rounding_ = {};
+  summary_  = {};
 }
 
 void EnergyCheck::step()
@@ -94,7 +96,10 @@ void EnergyCheck::finish(RunOutcome &outcome)
     return;
   const std::string words = this->words(verdict);
   if (outcome.failure.empty() && verdict == EnergyGuard::Verdict::no_motion && !forced_)
+  {
     outcome.failure = words;
+    outcome.findings.push_back({Severity::error, "energy-balance", "", words});
+  }
   else if (outcome.failure != words) // which verify() may have ended the run with
     outcome.warn("energy-balance", "", words);
 }

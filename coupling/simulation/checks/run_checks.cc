@@ -18,6 +18,7 @@
 #include "mechanism/elements/point_contact.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace gestell::coupling
@@ -56,25 +57,64 @@ class WorkCheck : public RunObserver
 public:
   WorkCheck(const Motion &motion, const RunOptions &options) : motion_(motion), options_(options) {}
 
+  void begin() override
+  {
+    ++starts_;
+    before_ = counts();
+  }
+  void step() override { count(); }
   void finish(RunOutcome &outcome) override
   {
-    const IntegrationWork &work = motion_.integrator().work();
-    if (work.rejected > 0 && !controlled(options_.method))
+    count();
+    const Counts &total = total_;
+    if (total[rejected] > 0. && !controlled(options_.method))
       outcome.warn("divided-steps", "run.step",
-                   "Newton failed in " + std::to_string(work.rejected) + " steps; they were divided");
-    const long   chatter = motion_.chattering_steps();
-    const double share   = motion_.chattering_time() / (std::max(options_.end, motion_.time()) - options_.begin);
+                   "Newton failed in " + std::to_string(long(total[rejected])) + " steps; they were divided");
+    const double share = total[chatter_time] / (std::max(options_.end, motion_.time()) - options_.begin);
     // Controlled steps that go over events still keep their tolerance.
-    if (chatter == 0 ||
-        (controlled(options_.method) ? chatter < often_skipped * double(work.steps) : share < seldom_skipped))
+    if (total[chatter] == 0. ||
+        (controlled(options_.method) ? total[chatter] < often_skipped * total[steps] : share < seldom_skipped))
       return;
     std::ostringstream text;
-    text << "chatter: " << chatter << " steps, " << 100. * share
+    text << "chatter: " << long(total[chatter]) << " steps, " << 100. * share
          << " % of the run, had more events than are located; they were gone over";
     outcome.warn("chatter", "run.events", text.str());
   }
+  /// The counters of the integrator go on where its motion began anew: what they counted of the one left is forgotten.
+  void exchange(StateArchive &archive) override
+  {
+    long starts = starts_;
+    archive(total_, before_, starts);
+    if (archive.reads() && starts != starts_)
+      before_ = counts();
+  }
 
 private:
+  enum Counter
+  {
+    rejected,
+    steps,
+    chatter,
+    chatter_time,
+    n_counters
+  };
+  using Counts = std::array<double, n_counters>;
+
+  Counts counts() const
+  {
+    const IntegrationWork &work = motion_.integrator().work();
+    return {double(work.rejected), double(work.steps), double(motion_.chattering_steps()), motion_.chattering_time()};
+  }
+  void count()
+  {
+    const Counts now = counts();
+    for (int i = 0; i < n_counters; ++i)
+      total_[i] += now[i] - before_[i];
+    before_ = now;
+  }
+
+  long             starts_ = 0; ///< of the motion
+  Counts           total_{}, before_{};
   const Motion    &motion_;
   const RunOptions options_;
 };

@@ -19,15 +19,21 @@ class StepCollapseGuard : public RunObserver
 {
 public:
   StepCollapseGuard(const TimeIntegrator &integrator, const RunOptions &options)
-      : integrator_(integrator), end_(options.end), from_(options.begin)
+      : integrator_(integrator), begin_(options.begin), end_(options.end), from_(options.begin)
   {
   }
 
+  void begin() override
+  {
+    from_  = integrator_.time();
+    steps_ = 0;
+  }
   void step() override
   {
     if (++steps_ % window != 0)
       return;
-    const double t = integrator_.time(), steps = window * (end_ - t) / std::max(t - from_, 1e-300);
+    const double t = integrator_.time(), rest = t < end_ ? end_ - t : end_ - begin_; // others may go on behind it
+    const double steps = window * rest / std::max(t - from_, 1e-300);
     if (steps > most_steps)
     {
       std::ostringstream text;
@@ -45,7 +51,7 @@ private:
   static constexpr long window = 1L << 15;
 
   const TimeIntegrator &integrator_;
-  double                end_, from_;
+  double                begin_, end_, from_;
   long                  steps_ = 0;
 };
 

@@ -49,7 +49,6 @@ Checked checked_fmu(const Fmu &fmu, double H, int steps)
   {
     EXPECT_EQ(status, fmi2Error);
     found.failure = instance.last_message();
-    EXPECT_EQ(instance.step(steps * H, H), fmi2Error) << "it has failed";
   }
   else
   {
