@@ -287,8 +287,12 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   for (int i = 0; i < n; ++i)
   {
     const auto look    = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
-    const auto is_told = [&] { return !is_rounding(system_, integrator_, i, before_, g_); };
-    const bool past    = begin == integrator_.step_begin() && begins_past(i, look(0).g);
+    const auto is_told = [&]
+    {
+      const bool again = !events_.empty() && events_.back().name == system_.events().guard(i).name;
+      return !again || !is_rounding(system_, integrator_, i, before_, g_);
+    };
+    const bool past = begin == integrator_.step_begin() && begins_past(i, look(0).g);
     if (first.t > begin && (past || is_due_at_begin(i, look(0).g, look(1).g)) && is_told())
       first = {i, begin, 0.};
     for (int k = 0; k < last && t[k] < first.t; ++k)
