@@ -106,17 +106,17 @@ namespace
 {
 
 /// Peak and folds of a branch over the frequency of the drive, by pseudo-arclength with dr/dT of the class.
-struct Branch
+struct FollowedBranch
 {
   double              peak = 0., peak_omega = 0.;
   std::vector<double> folds; ///< omega
 };
 
-Branch follow(HarmonicBalance &balance, double omega_begin, double omega_end, double step)
+FollowedBranch follow(HarmonicBalance &balance, double omega_begin, double omega_end, double step)
 {
-  Branch   branch;
-  VectorXd r, z;
-  MatrixXd J;
+  FollowedBranch branch;
+  VectorXd       r, z;
+  MatrixXd       J;
   balance.set_period(2. * M_PI / omega_begin);
   z = balance.linear_start();
   for (int k = 0; k < 20; ++k)
@@ -172,7 +172,7 @@ TEST(HarmonicBalance, HasPeakAndFoldsOfThePublishedDuffingOscillator)
   const PeriodicProblem problem = problem_of_period(system, 2. * M_PI);
   HarmonicBalance       balance(problem, 7);
 
-  const Branch branch = follow(balance, 0.8, 1.4, 0.02);
+  const FollowedBranch branch = follow(balance, 0.8, 1.4, 0.02);
 
   EXPECT_NEAR(branch.peak, 2.8302, 0.6e-4);
   EXPECT_NEAR(branch.peak_omega, 1.2687, 0.6e-4);
