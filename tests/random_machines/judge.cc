@@ -97,9 +97,9 @@ bool has_cause(const RandomMachine &machine, const std::string &warning, const T
 /// A piston at the end of its stroke: its law ends there, which the run tells.
 bool leaves_its_law(const Told &reported)
 {
-  return std::any_of(reported.run.warnings.begin(), reported.run.warnings.end(),
-                     [](const std::string &warning)
-                     { return warning.find("the end of its stroke") != std::string::npos; });
+  return std::any_of(reported.run.findings.begin(), reported.run.findings.end(),
+                     [](const coupling::Finding &finding)
+                     { return finding.text.find("the end of its stroke") != std::string::npos; });
 }
 
 /// Of order 2 for a way of omega h in a step: (omega h)^3/4.5 <= tolerance omega h.  1e-7, or more where that would
