@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(PlayBehindGears, FoundMachines, ::testing::Values(9452)
 /// Forces of joints inside the first step behind an event.
 INSTANTIATE_TEST_SUITE_P(BehindEvents, FoundMachines, ::testing::Values(12080));
 /// At rest the sign of a rate is rounding.
-INSTANTIATE_TEST_SUITE_P(AtRest, FoundMachines, ::testing::Values(8375, 12225));
+INSTANTIATE_TEST_SUITE_P(AtRest, FoundMachines, ::testing::Values(815, 1809, 8375, 12225));
 /// A mode that hardly turns in a step and grows by rounding.
 INSTANTIATE_TEST_SUITE_P(Guard, FoundMachines, ::testing::Values(7021));
 /// Weight moves it further than its scale says; extremes between fixed steps; a play that the start

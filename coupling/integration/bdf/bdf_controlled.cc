@@ -1,4 +1,5 @@
 #include "coupling/integration/bdf/bdf_controlled.h"
+#include "coupling/integration/system/fastest_load.h"
 
 #include "coupling/integration/system/acceleration_forces.h"
 #include "coupling/integration/system/hermite.h"
@@ -71,6 +72,8 @@ BdfControlled::BdfControlled(const SecondOrderSystem &system, const Options &opt
        {&f_t_, &f_, &h_q_, &h_v_, &x_, &product_, &now_.q, &now_.v, &q_inside_, &v_inside_, &a_inside_, &no_v_})
     x->setZero(n_);
   no_rate_.setZero(n_u_);
+  lambda_size_.setZero(n_c_);
+  fastest_load_ = fastest_load(system.linear().excitation());
   dp_du_.setZero(n_u_, n_u_);
   pivots_.setZero(n_u_, n_u_);
   dp_dv_.setZero(n_u_, n_u_);
@@ -320,7 +323,7 @@ void BdfControlled::interpolate(double t, LocalState &state) const
   differences_.at(s, degree, 2 * n_ + 2 * n_u_, state.a);
   differences_.at(s, degree, 2 * n_ + 3 * n_u_, state.p);
   differences_.at(s, degree, 2 * n_ + 4 * n_u_, state.lambda);
-  if (started_ && n_c_ > 0 && consistent_ && system_.joints().wants_multipliers())
+  if (solves_inside_ && consistent_ && system_.joints().wants_multipliers())
     return solve_inside(t, state);
   if (!finds_held())
     return;
@@ -330,18 +333,26 @@ void BdfControlled::interpolate(double t, LocalState &state) const
   consistent_->hold(q_inside_, v_inside_, state, work_);
 }
 
-/// Three instants of a start give the forces of joints a parabola, its motion a quintic: they follow from the motion.
+/// Three instants of a start give the forces of joints a parabola, its motion a quintic; behind it loads may change
+/// faster than the motion, which alone controls the step.  They follow from the motion.
 void BdfControlled::solve_inside(double t, LocalState &state) const
 {
   IntegrationWork work; // of looking, not of the step
-  interpolate_part(t, 0, n_, q_inside_, v_inside_);
+  const double    s = (t - t_end_) / step_of(rung_);
+  if (started_)
+    interpolate_part(t, 0, n_, q_inside_, v_inside_);
+  else
+  {
+    differences_.at(s, order_ + 1, 0, q_inside_);
+    differences_.at(s, order_ + 1, n_, v_inside_);
+  }
   inside_ = state;
   try
   {
     consistent_->solve(q_inside_, v_inside_, a_inside_, inside_, work);
     state = inside_;
   }
-  catch (const ConvergenceFailure &) // the parabola stays
+  catch (const ConvergenceFailure &) // the polynomial stays
   {
   }
 }

@@ -171,7 +171,10 @@ private:
   Eigen::VectorXd                  f_t_, f_, h_q_, h_v_, x_, product_;
   mutable Eigen::VectorXd          q_inside_, v_inside_, a_inside_;
   mutable LocalState               inside_;
-  Eigen::VectorXd                  no_v_, no_rate_; ///< zeros, for errors of positions alone [n], [n_u]
+  Eigen::VectorXd                  lambda_size_;           ///< [n_c] largest so far
+  double                           fastest_load_  = 0.;    ///< [rad/s]
+  bool                             solves_inside_ = false; ///< multipliers change more in a step than polynomials tell
+  Eigen::VectorXd                  no_v_, no_rate_;        ///< zeros, for errors of positions alone [n], [n_u]
 };
 
 } // namespace gestell::coupling

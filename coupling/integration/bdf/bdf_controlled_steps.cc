@@ -16,7 +16,8 @@ constexpr int    deepest_fall   = 6;   ///< rungs at once, in a start
 constexpr double safety         = 0.3; ///< of the tolerance, that an error expected may reach
 constexpr double resolved       = 0.5; ///< omega h of a start's shortest Euler step
 constexpr int    steps_barred   = 40;
-constexpr double worth_an_order = 1.3; ///< factor of the step expected, for which the order is raised
+constexpr double unforeseen     = 1e-4; ///< of a multiplier's largest: inside the step polynomials miss a tenth of it
+constexpr double worth_an_order = 1.3;  ///< factor of the step expected, for which the order is raised
 
 } // namespace
 
@@ -110,6 +111,10 @@ void BdfControlled::multistep()
     find_implied(z_, t_end_);
     difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
   }
+  // A load that turns by pi in a step shows at its ends nothing of what it is inside.
+  lambda_size_   = lambda_size_.cwiseMax(z_.tail(n_c_).cwiseAbs());
+  solves_inside_ = fastest_load_ * step_of(rung_) > 1. ||
+                   (difference_.tail(n_c_).cwiseAbs().array() > unforeseen * lambda_size_.array()).any();
   differences_.push(order_, difference_);
   ++since_change_;
   barred_  = std::max(0, barred_ - 1);
@@ -349,15 +354,16 @@ void BdfControlled::start()
   else
     chain_[0].tail(2 * n_u_ + n_c_) = 2. * middle_[2].tail(2 * n_u_ + n_c_) - z_.tail(2 * n_u_ + n_c_);
   differences_.start(chain_[0], middle_[2], z_);
-  anchor_       = t_end_;
-  steps_        = 2;
-  t_begin_      = t_end_;
-  t_end_        = anchor_ + 2. * step_of(rung_);
-  wanted_rung_  = rung_;
-  wanted_order_ = order_;
-  since_change_ = 1;
-  fresh_        = false;
-  started_      = true;
+  anchor_        = t_end_;
+  steps_         = 2;
+  t_begin_       = t_end_;
+  t_end_         = anchor_ + 2. * step_of(rung_);
+  wanted_rung_   = rung_;
+  wanted_order_  = order_;
+  since_change_  = 1;
+  fresh_         = false;
+  started_       = true;
+  solves_inside_ = n_c_ > 0;
 }
 
 void BdfControlled::fail(double h, const Trial &trial) const
