@@ -333,8 +333,8 @@ void BdfControlled::interpolate(double t, LocalState &state) const
   consistent_->hold(q_inside_, v_inside_, state, work_);
 }
 
-/// Three instants of a start give the forces of joints a parabola, its motion a quintic; behind it loads may change
-/// faster than the motion, which alone controls the step.  They follow from the motion.
+/// Three instants of a start give the forces of joints a parabola, its motion a quintic; afterwards loads may change
+/// faster than the motion, which alone controls the step.  So the forces are computed from the motion.
 void BdfControlled::solve_inside(double t, LocalState &state) const
 {
   IntegrationWork work; // of looking, not of the step

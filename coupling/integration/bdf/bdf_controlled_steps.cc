@@ -111,7 +111,7 @@ void BdfControlled::multistep()
     find_implied(z_, t_end_);
     difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
   }
-  // A load that turns by pi in a step shows at its ends nothing of what it is inside.
+  // From pi per step on, the values of a harmonic load at the ends of steps do not determine it inside.
   lambda_size_   = lambda_size_.cwiseMax(z_.tail(n_c_).cwiseAbs());
   solves_inside_ = fastest_load_ * step_of(rung_) > 1. ||
                    (difference_.tail(n_c_).cwiseAbs().array() > unforeseen * lambda_size_.array()).any();

@@ -287,13 +287,13 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   for (int i = 0; i < n; ++i)
   {
     const auto look    = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
-    const auto is_told = [&]
+    const auto is_event = [&]
     {
       const bool again = !events_.empty() && events_.back().name == system_.events().guard(i).name;
       return !again || !is_rounding(system_, integrator_, i, before_, g_);
     };
     const bool past = begin == integrator_.step_begin() && begins_past(i, look(0).g);
-    if (first.t > begin && (past || is_due_at_begin(i, look(0).g, look(1).g)) && is_told())
+    if (first.t > begin && (past || is_due_at_begin(i, look(0).g, look(1).g)) && is_event())
       first = {i, begin, 0.};
     for (int k = 0; k < last && t[k] < first.t; ++k)
     {
@@ -305,7 +305,7 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
       Crossing crossing;
       crossing.slope = (high.g - low.g) / (high.t - low.t);
       locate(i, low.t, low.g, high.t, high.g, crossing);
-      if (crossing.t < first.t && is_told())
+      if (crossing.t < first.t && is_event())
         first = crossing;
       break;
     }
