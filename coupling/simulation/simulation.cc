@@ -2,28 +2,115 @@
 
 #include "coupling/integration/integration_methods.h"
 #include "coupling/integration/system/state_archive.h"
-#include "coupling/simulation/checkpoint_pace.h"
+#include "coupling/machine/machine.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
 #include "coupling/simulation/checks/run_checks.h"
 #include "coupling/simulation/checks/step_collapse_guard.h"
 #include "coupling/simulation/checks/step_resolution_check.h"
 #include "coupling/simulation/flush_denormals.h"
-#include "coupling/simulation/kept_size.h"
 #include "coupling/simulation/recorder.h"
 #include "coupling/simulation/resumable_run.h"
 #include "coupling/simulation/run_method.h"
+#include "coupling/simulation/run_result.h"
 #include "coupling/simulation/watched_values.h"
 #include "fem/values/available_memory.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace gestell::coupling
 {
 
 namespace
 {
+
+/// What a run keeps in memory [bytes].
+struct KeptBytes
+{
+  double history, pictures, states;
+};
+
+constexpr double most_bytes = 1e9; ///< what a laptop has to spare
+
+template <typename... Parts>
+[[noreturn]] void too_large(const Parts &...parts)
+{
+  std::ostringstream message;
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+
+KeptBytes kept_bytes(const Machine &machine, const RunOptions &options, std::size_t n_signals)
+{
+  const double length = options.end - options.begin, columns = 1. + double(n_signals) + (options.energy ? 3. : 0.),
+               picture_rate = options.picture_step > 0. ? 1. / options.picture_step : 0.,
+               state_rate   = options.states.step > 0. ? 1. / options.states.step : 0.;
+  return {8. * columns * (length / output_step(options) + 1.), 32. * machine.size() * (length * picture_rate + 1.),
+          8. * machine.size() * (length * state_rate + 1.)};
+}
+
+/// A run keeps its history, pictures and states in memory.
+/// @throws std::invalid_argument if they are larger than 1 GB, or the pictures more than 20 000, and
+/// options.allow_large
+///         does not ask for it
+void require_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
+{
+  constexpr double most_pictures = 2e4;
+  const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
+  if (!options.allow_large && count > most_pictures)
+    too_large("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
+              options.picture_step, " s, or say output.allow_large = true if that is what you want");
+  const auto [history, pictures, states] = kept_bytes(machine, options, n_signals);
+  if (!options.allow_large && states > most_bytes)
+    too_large("the run would keep ", states / 1e9,
+              " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",
+              options.states.step, " s, or say output.allow_large = true");
+  if (options.allow_large || history + pictures <= most_bytes)
+    return;
+  too_large("the run would keep ", history / 1e9, " GB of history and ", pictures / 1e9,
+            " GB of states for pictures; give output.step", history > pictures ? "" : " or output.picture_step",
+            " a larger value than ", history > pictures ? output_step(options) : options.picture_step,
+            " s, or say output.allow_large = true if that is what you want");
+}
+
+/// Asks now and then for the state of a run, so that it could go on from there.
+class CheckpointPace
+{
+public:
+  CheckpointPace(const RunCheckpoints *checkpoints, std::function<std::string()> state)
+      : checkpoints_(checkpoints), state_(std::move(state))
+  {
+  }
+
+  bool is_due() const { return checkpoints_ && checkpoints_->every > 0. && Clock::now() >= due_; }
+
+  /// The next one is due so late that keeping them takes half a per cent of the time.
+  void keep()
+  {
+    if (!checkpoints_)
+      return;
+    const Clock::time_point from = Clock::now();
+    checkpoints_->keep(state_());
+    const std::chrono::duration<double> cost = Clock::now() - from;
+    due_ = Clock::now() + length(std::max(checkpoints_->every, cost.count() / share_of_checkpoints));
+  }
+
+private:
+  using Clock                                  = std::chrono::steady_clock;
+  static constexpr double share_of_checkpoints = 0.005;
+
+  static Clock::duration length(double seconds)
+  {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+
+  const RunCheckpoints        *checkpoints_;
+  std::function<std::string()> state_;
+  Clock::time_point            due_ = Clock::now() + length(checkpoints_ ? std::min(checkpoints_->every, 1e6) : 0.);
+};
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts &...parts)

@@ -1,25 +1,99 @@
 #include "coupling/substructures/joined_parts.h"
 
 #include "coupling/algebra/dense_modes.h"
+#include "coupling/frame/reduced_frame.h"
 #include "coupling/substructures/joint_forces.h"
-#include "coupling/substructures/left_out_modes.h"
+#include "coupling/substructures/part_union.h"
 #include "coupling/substructures/require_joints.h"
 #include "coupling/substructures/welded_coordinates.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 namespace gestell::coupling
 {
 
 namespace
 {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What static shapes of the basis leave of F.
+MatrixXd beside_shapes(const ReducedFrame &part)
+{
+  const Index    n_1 = part.n_interface, k = part.omega0.size() - part.n_fixed_modes;
+  const MatrixXd M_1X = part.M.block(0, part.M.rows() - k, n_1, k);
+  return part.left_out - M_1X * part.omega0.tail(k).cwiseAbs2().cwiseInverse().asDiagonal() * M_1X.transpose();
+}
+
+/// The lowest frequency that is left out [rad/s]: that of the next mode by the static shapes in their place, which come
+/// near to it from above, or else the highest one kept.
+double lowest_left_out(const ReducedFrame &part)
+{
+  const VectorXd &omega = part.omega0;
+  const Index     m     = std::min<Index>(part.n_fixed_modes, omega.size());
+  if (omega.size() > m)
+    return omega.tail(omega.size() - m).minCoeff();
+  return m > 0 ? omega[m - 1] : 0.;
+}
+
+bool keeps_all(const ReducedFrame &part)
+{
+  return part.M.rows() >= part.n_full;
+}
+
+/**
+ * How much too high the frequencies of the joined frame are because parts keep some of their fixed-interface modes
+ * only.  To first order, a mode phi (phi^T M phi = 1) of frequency omega moves the interfaces of part i by q_1, and its
+ * modes left out, of frequencies omega_j >= omega_c and coupling masses m_j, lower it by
+ *
+ *     d(omega)/omega = 1/2 sum omega^2 (m_j^T q_1)^2 / (omega_j^2 - omega^2) <= 1/2 omega^2 q_1^T F q_1 / (1 - r^2),
+ *     F = sum m_j m_j^T / omega_j^2,   r = omega / omega_c.
+ *
+ * Static shapes X of the inertia in their place take F away and leave r^4 of it.  omega_c is taken as the highest
+ * frequency kept, or as the lowest of the static shapes, which comes near to that of the next mode from above.  Beyond
+ * it, or of parts that do not tell F, nothing is known: NaN.
+ *
+ * @param omega, V  modes of the joined frame [p], [n_j x p].
+ * @return          [p], >= 0.
+ *
+ * Source: docs/theory/substructures.md (6), (7).
+ */
+VectorXd errors_by_modes_left_out(const std::vector<ReducedFrame> &parts, const PartUnion &all, const MatrixXd &G,
+                                  const VectorXd &omega, const MatrixXd &V)
+{
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  VectorXd         errors  = VectorXd::Zero(omega.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const ReducedFrame &part = parts[i];
+    if (keeps_all(part))
+      continue;
+    if (part.left_out.size() == 0)
+      return VectorXd::Constant(omega.size(), unknown);
+    const double   out = lowest_left_out(part);
+    const MatrixXd q_1 = G.middleRows(all.first[i], part.n_interface) * V, rest = beside_shapes(part);
+    for (Index j = 0; j < omega.size(); ++j)
+    {
+      const double   r_2  = std::pow(omega[j] / out, 2);
+      const MatrixXd F    = rest + r_2 * r_2 * (part.left_out - rest);
+      const double   less = 0.5 * omega[j] * omega[j] * q_1.col(j).dot(F * q_1.col(j)) / (1. - r_2);
+      errors[j] += r_2 < 1. ? std::max(0., less) : unknown;
+    }
+  }
+  return errors;
+}
 
 using Eigen::Index;
 using Eigen::MatrixXd;

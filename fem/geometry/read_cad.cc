@@ -1,26 +1,141 @@
 #include "fem/geometry/read_cad.h"
 
-#include "fem/geometry/brep_file.h"
 #include "fem/geometry/cad_file.h"
+#include "fem/geometry/cad_model.h"
 #include "fem/geometry/defeature.h"
 #include "fem/geometry/gmsh_faces.h"
-#include "fem/geometry/load_inp.h"
+#include "fem/geometry/inp/inp_file.h"
 #include "fem/geometry/script_sandbox.h"
 #include "fem/geometry/shells.h"
 #include "fem/geometry/solid_union.h"
 #include "fem/geometry/step_attributes.h"
+#include "fem/values/cad_source.h"
 #include "fem/values/vector3.h"
 
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Shape.hxx>
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace gestell::fem
 {
 
 namespace
 {
+
+/// gmsh's types of the same cells without and with middle nodes, and the nodes of the second.
+struct Degrees
+{
+  int         linear, quadratic;
+  std::size_t n_corners, n_nodes;
+};
+constexpr Degrees both[] = {{4, 11, 4, 10}, {5, 17, 8, 20}, {6, 18, 6, 15}};
+
+/// gmsh finds but one of both degrees of a kind of cells in a volume: there the corners of the quadratic ones are
+/// taken.
+void make_degrees_equal(InpMesh &mesh)
+{
+  std::set<std::pair<std::string, int>> there;
+  for (const auto &elements : mesh.elements)
+    there.emplace(elements.solid, elements.gmsh_type);
+  for (auto &elements : mesh.elements)
+    for (const auto &[linear, quadratic, n_corners, n_nodes] : both)
+    {
+      if (elements.gmsh_type != quadratic || there.count({elements.solid, linear}) == 0)
+        continue;
+      elements.gmsh_type = linear;
+      std::vector<std::size_t> corners;
+      for (std::size_t i = 0; i < elements.nodes.size(); i += n_nodes)
+        corners.insert(corners.end(), &elements.nodes[i], &elements.nodes[i] + n_corners);
+      elements.nodes = std::move(corners);
+      mesh.notes.push_back("the solid \"" + elements.solid +
+                           "\" has cells with and without middle nodes: all are taken with straight edges");
+      break;
+    }
+}
+
+/// Loads the mesh of an .inp file into gmsh, a volume for every solid.
+/// @throws std::invalid_argument as read_inp()
+MeshGroups load_inp(CadModel &model, const CadSource &source)
+{
+  InpMesh mesh = read_inp(source);
+  make_degrees_equal(mesh);
+  model.notes = mesh.notes;
+  if (mesh.elements.empty())
+    return {};
+  std::map<std::string, int> volume;
+  for (const auto &elements : mesh.elements)
+  {
+    const auto [entry, is_new] = volume.try_emplace(elements.solid, static_cast<int>(volume.size()) + 1);
+    if (!is_new)
+      continue;
+    gmsh::model::addDiscreteEntity(3, entry->second);
+    gmsh::model::setEntityName(3, entry->second, elements.solid);
+    if (entry->second == 1)
+      gmsh::model::mesh::addNodes(3, 1, mesh.numbers, mesh.coordinates);
+  }
+  for (const auto &elements : mesh.elements)
+    gmsh::model::mesh::addElementsByType(volume.at(elements.solid), elements.gmsh_type, elements.numbers,
+                                         elements.nodes);
+  return {mesh.node_sets, mesh.faces};
+}
+
+/// " at line 37", or nothing if reading went to the end.
+std::string place_of(std::ifstream &in)
+{
+  in.exceptions(std::ios::goodbit);
+  const bool at_end = in.eof();
+  in.clear();
+  const std::streamoff bytes = in.tellg();
+  if (at_end || bytes < 0)
+    return "";
+  in.seekg(0);
+  std::string text(static_cast<std::size_t>(bytes), '\0');
+  in.read(text.data(), bytes);
+  return " at line " + std::to_string(1 + std::count(text.begin(), text.end(), '\n'));
+}
+
+/**
+ * Reads a BREP file by OpenCASCADE from a stream that throws at the first word that is missing or no number: without,
+ * it goes on behind the end of the file for hours, or for ever, where a count is wrong or an entry lost.
+ *
+ * May die of a damaged file as OpenCASCADE does: to be called where gmsh reads.
+ *
+ * @throws std::invalid_argument if the file ends before its entries do, or, with the line, holds a word in place of a
+ *         number; Standard_Failure by OpenCASCADE
+ */
+void check_brep_file(const CadSource &source)
+{
+  std::ifstream in(source.path, std::ios::binary);
+  if (!in)
+    throw std::invalid_argument(source.place + ": " + source.path + " cannot be read; check its permissions.");
+  in.exceptions(std::ios::failbit | std::ios::badbit);
+  try
+  {
+    TopoDS_Shape       shape;
+    const BRep_Builder builder;
+    BRepTools::Read(shape, in, builder);
+  }
+  catch (const std::ios::failure &)
+  {
+    const std::string place = place_of(in);
+    throw std::invalid_argument(source.place + ": " + source.path + " is damaged" +
+                                (place.empty() ? ": it ends before its shapes do, as if a count were too large or an "
+                                                 "entry were lost"
+                                               : place + ": what stands there is not what is needed (a number)") +
+                                "; copy or export it again.");
+  }
+}
 
 constexpr double smallest_diagonal = 1e-3; // [m]
 constexpr double largest_diagonal  = 200.; // [m]

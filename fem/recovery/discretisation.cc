@@ -1,22 +1,24 @@
 #include "fem/recovery/discretisation.h"
 
-#include "fem/assembly/assembled_matrices.h"
+#include "fem/assembly/affine_constraints.h"
 #include "fem/assembly/attached_masses.h"
 #include "fem/assembly/cell_materials.h"
 #include "fem/assembly/cut_force.h"
 #include "fem/assembly/elasticity.h"
 #include "fem/assembly/interfaces.h"
 #include "fem/assembly/mass_integrals.h"
+#include "fem/assembly/quadratic_mesh.h"
 #include "fem/assembly/rigid_motions.h"
 #include "fem/assembly/sparse_sum.h"
 #include "fem/assembly/supports.h"
-#include "fem/recovery/skin.h"
 #include "fem/recovery/skin_stress.h"
+#include "fem/values/frame_matrices.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace gestell::fem
@@ -24,6 +26,67 @@ namespace gestell::fem
 
 namespace
 {
+
+/// What the cells of a frame add up to.
+struct AssembledMatrices
+{
+  SparseMatrix    C, M;              ///< [n x n] in the coordinates of the frame
+  double          rigid_energy = 0.; ///< FrameFacts::rigid_energy
+  Eigen::VectorXd nodal_mass;        ///< [n_nodes] kg
+  MassProperties  whole;
+};
+
+AssembledMatrices sum_cells(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine)
+{
+  const Eigen::Vector3d middle = middle_of_nodes(mesh);
+  AssembledMatrices     sums;
+  // Each full matrix goes as soon as it is projected: two of them at once would set the peak of the memory.
+  {
+    std::vector<int> nodes(mesh.n_nodes());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    const BlockMatrix C = assemble_stiffness(mesh, materials);
+    sums.rigid_energy   = rigid_energies(mesh, C, middle, nodes).share();
+    sums.C              = affine.project(C);
+  }
+  const BlockMatrix M      = assemble_mass(mesh, materials);
+  const NodalMasses masses = nodal_masses(mesh, M, middle);
+  sums.M                   = affine.project(M);
+  sums.whole               = mass_integrals(mesh, masses, middle);
+  sums.nodal_mass          = masses.mass;
+  return sums;
+}
+
+/// Skin of the frame with its corners as points; tied corners move through their interfaces, held ones rest.
+Picture skin_picture(const QuadraticMesh &mesh, const AffineConstraints &affine)
+{
+  Picture          picture;
+  std::vector<int> point_of(mesh.n_nodes(), -1), nodes;
+  for (const auto &face : mesh.skin)
+  {
+    std::array<int, 3> triangle{};
+    for (int k = 0; k < 3; ++k)
+    {
+      int &point = point_of[face[k]];
+      if (point < 0)
+      {
+        point = static_cast<int>(nodes.size());
+        nodes.push_back(face[k]);
+        picture.points.push_back(mesh.points[face[k]]);
+      }
+      triangle[k] = point;
+    }
+    picture.triangles.push_back(triangle);
+  }
+
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t point = 0; point < nodes.size(); ++point)
+    for (int d = 0; d < 3; ++d)
+      for (const auto &[coordinate, weight] : affine.row(3 * nodes[point] + d))
+        entries.emplace_back(3 * point + d, coordinate, weight);
+  picture.displacement.resize(3 * nodes.size(), affine.n_coordinates());
+  picture.displacement.setFromTriplets(entries.begin(), entries.end());
+  return picture;
+}
 
 constexpr double node_tolerance = 1e-4; // of the diagonal, as of selectors
 

@@ -1,7 +1,6 @@
 #include "coupling/integration/stability/stability.h"
 
 #include "coupling/integration/integration_methods.h"
-#include "coupling/integration/system/golden_section.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,26 @@ namespace gestell::coupling
 
 namespace
 {
+
+/// Golden section for the largest f in [a, b], to 1e-9 of its width: 1e-18 of the height of a peak.
+double highest(const std::function<long double(double)> &f, double a, double b)
+{
+  const double golden = 0.6180339887498949;
+  double       x = b - golden * (b - a), y = a + golden * (b - a);
+  long double  fx = f(x), fy = f(y);
+  for (int i = 0; i < 45; ++i)
+    if (fx > fy)
+    {
+      b = y, y = x, fy = fx;
+      fx = f(x = b - golden * (b - a));
+    }
+    else
+    {
+      a = x, x = y, fx = fy;
+      fy = f(y = a + golden * (b - a));
+    }
+  return 0.5 * (a + b);
+}
 
 constexpr long double pi          = 3.141592653589793238462643383279502884L;
 constexpr double      least_omega = 1e-6, largest_omega = 1e7; // omega h between which intervals are looked for
