@@ -117,7 +117,7 @@ def hits(top, why="[error]"):
 def long_sentences(top):
     for page in [top / "README.md", *sorted((top / "docs/tutorials").glob("*.md"))]:
         for line, text in paragraphs(page.read_text(encoding="utf-8")):
-            for sentence in re.split(r"(?<=[.!?])\s+(?=[A-Z`*\"])", text):
+            for sentence in re.split(r"(?<=[.!?])\)?\s+(?=[(A-Z`*\"])", text):
                 count = len(re.findall(r"\S*\w\S*", sentence))
                 if count > SENTENCE:
                     yield f"{page.relative_to(top)}:{line}: {count} words: {sentence}"
