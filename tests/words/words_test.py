@@ -82,7 +82,7 @@ def test_names(source):
 
 def texts(top):
     """(path, places of words.tsv that apply, line, text) of all that is read."""
-    pages = [top / "README.md", *(top / "docs").rglob("*.md")]
+    pages = [top / "README.md", top / "CHANGELOG.md", *(top / "docs").rglob("*.md")]
     kinds = [(page, {"all", "docs"}, paragraphs) for page in pages]
     for folder in PROGRAM:
         kinds += [(path, {"all", "message"}, strings) for end in ("cc", "h") for path in (top / folder).rglob(f"*.{end}")]
