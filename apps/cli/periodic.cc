@@ -9,12 +9,14 @@
 #include "apps/output/tables/section_table.h"
 #include "apps/output/tables/summary_json.h"
 #include "apps/session/session.h"
+#include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/verified_orbit.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 namespace gestell::apps
@@ -65,7 +67,7 @@ void print_solutions(const PeriodicResult &result)
               << short_text(s.residual, 2);
     if (!std::isnan(s.share))
       std::cout << ", from " << short_text(100. * s.share, 3) << " % of the starts";
-    if (s.method != result.method && result.method != "minimise" && !s.method.empty())
+    if (s.method != result.method && !coupling::periodic_method(result.method).finds_all() && !s.method.empty())
       std::cout << ", found by " << s.method;
     std::cout << '\n';
     if (result.parameter.empty())
@@ -94,6 +96,45 @@ void print_solutions(const PeriodicResult &result)
     std::cout << '\n';
   }
 }
+
+std::string names_of_methods()
+{
+  std::string names;
+  for (const coupling::PeriodicMethod *method : coupling::periodic_methods())
+    names += (names.empty() ? "" : ", ") + method->name();
+  return names;
+}
+
+/// The request as it is typed; options of single methods have no value where they are not given.
+struct TypedRequest
+{
+  static constexpr int not_given = std::numeric_limits<int>::min();
+
+  PeriodicRequest               request;
+  std::map<std::string, int>    counts;
+  std::map<std::string, double> numbers;
+
+  PeriodicRequest whole() const
+  {
+    PeriodicRequest all = request;
+    for (const auto &[name, count] : counts)
+      if (count != not_given)
+        all.own[name] = count;
+    for (const auto &[name, number] : numbers)
+      if (!std::isnan(number))
+        all.own[name] = number;
+    return all;
+  }
+
+  CommandOption option(const coupling::PeriodicOption &of)
+  {
+    const std::string   name = "--" + of.name;
+    const CommandOption typed =
+        of.whole ? CommandOption{name, &(counts[of.name] = not_given), of.meaning}
+                 : CommandOption{name, &(numbers[of.name] = std::numeric_limits<double>::quiet_NaN()), of.meaning};
+    return (of.least > 0. || !of.whole ? typed.above_zero() : typed).at_most(of.most);
+  }
+};
 
 int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
 {
@@ -127,54 +168,47 @@ int find_periodic(const CommonOptions &options, const PeriodicRequest &request)
 
 Command periodic_command()
 {
-  const auto own = std::make_shared<PeriodicRequest>();
-  return {
+  const auto typed = std::make_shared<TypedRequest>();
+  const auto own   = &typed->request;
+  Command    command{
       "periodic",
       "periodic motions and whether they last",
       {"gestell periodic apps/scenes/press.toml",
-       "gestell periodic apps/scenes/press.toml --along parameters.s_cl --from \"0.1 mm\" --to \"0.6 mm\""},
+          "gestell periodic apps/scenes/press.toml --along parameters.s_cl --from \"0.1 mm\" --to \"0.6 mm\""},
       CommandInput::scene,
-      {{"--method", &own->method,
-        "shooting, harmonic-balance, collocation, minimise, settling or averaging (default: chosen by the scene, and "
-        "said "
-        "why)"},
-       {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
-       CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
-           .above_zero()
-           .at_most(1000),
-       {"--along", &own->along, "follow the motions along an entry of the scene, such as parameters.speed"},
-       CommandOption{"--from", &own->from, "its first value, such as \"800 1/min\""}.with("--along"),
-       CommandOption{"--to", &own->to, "its last value"}.with("--along"),
-       CommandOption{"--points", &own->points, "about so many from end to end (default 100)"}
-           .above_zero()
-           .at_most(1e6)
-           .with("--along"),
-       CommandOption{"--harmonics", &own->harmonics, "of harmonic balance (default: until what is left out is small)"}
-           .above_zero()
-           .at_most(1e4),
-       CommandOption{"--lead-in", &own->lead_in, "periods integrated before Newton's method begins (default 10)"},
-       CommandOption{"--closing", &own->tolerance,
+      {{"--method", &own->method, names_of_methods() + " (default: chosen by the scene; the reason is printed)"},
+          {"--period", &own->period, "of the excitation, such as \"0.2 s\" (default: from loads and what turns)"},
+          CommandOption{"--ratio", &own->ratio, "periods of the excitation after which the motion repeats (default 1)"}
+              .above_zero()
+              .at_most(1000),
+          {"--along", &own->along, "follow the motions along an entry of the scene, such as parameters.speed"},
+          CommandOption{"--from", &own->from, "its first value, such as \"800 1/min\""}.with("--along"),
+          CommandOption{"--to", &own->to, "its last value"}.with("--along"),
+          CommandOption{"--points", &own->points, "about so many from end to end (default 100)"}
+              .above_zero()
+              .at_most(1e6)
+              .with("--along"),
+          CommandOption{"--closing", &own->tolerance,
                      "how well a motion must close, relative to its speed (default 1e-10)"}
-           .above_zero(),
-       CommandOption{"--starts", &own->starts, "of minimise (default 64)"}.above_zero().at_most(1e6),
-       CommandOption{"--damping", &own->damping,
-                     "of settling: share of critical by which the lowest mode is damped more at first"}
-           .above_zero(),
-       CommandOption{"--check", &own->check,
+              .above_zero(),
+          CommandOption{"--check", &own->check,
                      "compute each motion by a second method too, and report how far the two differ"},
-       {"--basins", &own->basins,
-        "to which motion starts settle that differ in two coordinates or rates, such as \"slide, slide'\" or \"slide "
-        "from -1 to 1, slide' from -2 to 2\" (default ends: twice the largest excursions of the motions found)"},
-       CommandOption{"--basin-points", &own->basin_points, "starts along a side (default 60)"}
-           .above_zero()
-           .at_most(2000)
-           .with("--basins"),
-       CommandOption{"--section", &own->section,
+          {"--basins", &own->basins,
+           "to which motion starts settle that differ in two coordinates or rates, such as \"slide, slide'\" or \"slide "
+              "from -1 to 1, slide' from -2 to 2\" (default ends: twice the largest excursions of the motions found)"},
+          CommandOption{"--basin-points", &own->basin_points, "starts along a side (default 60)"}
+              .above_zero()
+              .at_most(2000)
+              .with("--basins"),
+          CommandOption{"--section", &own->section,
                      "follow the motion for so many periods, 64 or more, and tell what it does in the long run "
-                     "(default: 256 where no motion is found, of minimise none that lasts)"}
-           .above_zero()
-           .at_most(1e6)},
-      [own](const CommonOptions &options) { return find_periodic(options, *own); }};
+                        "(default: 256 where no motion is found, of minimise none that lasts)"}
+              .above_zero()
+              .at_most(1e6)},
+      [typed](const CommonOptions &options) { return find_periodic(options, typed->whole()); }};
+  for (const coupling::PeriodicOption &option : coupling::options_of_periodic_methods())
+    command.options.push_back(typed->option(option));
+  return command;
 }
 
 } // namespace gestell::apps

@@ -37,19 +37,20 @@ std::shared_ptr<PythonResult> modes_along(const PythonScene &scene, const std::s
 }
 
 std::shared_ptr<PythonResult> periodic(const PythonScene &scene, const std::string &method, const std::string &period,
-                                       int ratio, int harmonics, const std::string &along, const std::string &from,
-                                       const std::string &to, int points, const std::string &check, py::object progress)
+                                       int ratio, std::map<std::string, double> own, const std::string &along,
+                                       const std::string &from, const std::string &to, int points,
+                                       const std::string &check, py::object progress)
 {
   apps::PeriodicRequest request;
-  request.method    = method;
-  request.period    = period;
-  request.ratio     = ratio;
-  request.harmonics = harmonics;
-  request.along     = along;
-  request.from      = from;
-  request.to        = to;
-  request.points    = points;
-  request.check     = check;
+  request.method = method;
+  request.period = period;
+  request.ratio  = ratio;
+  request.own    = std::move(own);
+  request.along  = along;
+  request.from   = from;
+  request.to     = to;
+  request.points = points;
+  request.check  = check;
   return scene.periodic(request, std::move(progress));
 }
 

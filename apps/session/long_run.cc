@@ -6,6 +6,7 @@
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/recurrence.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/verified_orbit.h"
 
 #include <algorithm>
@@ -126,11 +127,11 @@ std::vector<PeriodicSolution> repeated(const PeriodicProblem &problem, const Rec
   PeriodicProblem longer = problem;
   longer.period *= double(motion.repeats) / problem.ratio;
   longer.turn *= double(motion.repeats) / problem.ratio;
-  longer.ratio     = motion.repeats;
-  options.lead_in  = 0;
-  const Index n    = motion.section.rows() / 2;
-  const auto  last = motion.section.col(motion.section.cols() - 1);
-  return coupling::periodic_method("shooting").solve(longer, {last.head(n), last.tail(n), 0.}, options);
+  longer.ratio           = motion.repeats;
+  options.own["lead-in"] = 0;
+  const Index n          = motion.section.rows() / 2;
+  const auto  last       = motion.section.col(motion.section.cols() - 1);
+  return coupling::shooting_method().solve(longer, {last.head(n), last.tail(n), 0.}, options);
 }
 
 bool lasts(const std::vector<PeriodicSolution> &solutions)
@@ -145,12 +146,6 @@ bool all_unstable(const std::vector<PeriodicSolution> &solutions)
                      [](const auto &solution) { return solution.stability_is_known() && !solution.stable(); });
 }
 
-/// Methods that follow the motion itself, so that their failing says something of it.
-bool is_followed(const std::string &method)
-{
-  return method == "shooting" || method == "settling" || method == "minimise" || method == "collocation";
-}
-
 bool is_wanted(const PeriodicProblem &problem, const PeriodicRequest &request,
                const std::vector<PeriodicSolution> &solutions, const PeriodicResult &found)
 {
@@ -158,8 +153,9 @@ bool is_wanted(const PeriodicProblem &problem, const PeriodicRequest &request,
     return false;
   if (request.section > 0)
     return true;
-  const bool nothing = !found.failure.empty() && is_followed(found.method);
-  return nothing || (found.method == "minimise" && !lasts(solutions));
+  const coupling::PeriodicMethod &method  = coupling::periodic_method(found.method);
+  const bool                      nothing = !found.failure.empty() && method.integrates();
+  return nothing || (method.finds_all() && !lasts(solutions));
 }
 
 /// What is recognised is an answer, with the motion itself where it repeats.
@@ -224,8 +220,8 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   LongRun run;
   try
   {
-    const int periods = request.section > 0 ? request.section : usual_periods;
-    run.motion        = recurrence_of(problem, start, options, periods);
+    const int periods   = request.section > 0 ? request.section : usual_periods;
+    run.motion          = recurrence_of(problem, start, options, periods);
     const bool may_beat = run.motion.kind == "drifting"; // more slowly than this section shows
     if ((!run.motion.is_recognised() || may_beat) && request.section == 0)
       run.motion = recurrence_of(problem, start, options, once_more * periods);

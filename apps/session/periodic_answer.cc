@@ -3,11 +3,13 @@
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/harmonic/fourier_transform.h"
 #include "coupling/periodic/harmonic/signal_harmonics.h"
+#include "coupling/periodic/minimising.h"
 #include "coupling/periodic/period_flow.h"
 #include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/settling.h"
+#include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/trace_orbit.h"
-#include "fem/values/available_memory.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +20,12 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int    few_coordinates     = 3;     ///< up to which all solutions are looked for unasked
-constexpr int    harmonics_told      = 10;    ///< of the drive
-constexpr double neutral             = 1e-9;  ///< distance of a multiplier from 1 that is none
-constexpr double steady              = 1e-9;  ///< amplitude that is what steps leave, of the mean: that is the size
-constexpr double fine_steps          = 1e-11; ///< tolerance of the steps that trace a motion
-constexpr double samples_of_harmonic = 16.;   ///< of all measures, at most
-constexpr int    least_samples       = 4096;  ///< of a period, for extremes
+constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
+constexpr int    harmonics_told  = 10;    ///< of the drive
+constexpr double neutral         = 1e-9;  ///< distance of a multiplier from 1 that is none
+constexpr double steady          = 1e-9;  ///< amplitude that is what steps leave, of the mean: that is the size
+constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
+constexpr int    least_samples   = 4096;  ///< of a period, for extremes
 
 using coupling::PeriodicSolution;
 
@@ -102,73 +103,52 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
       throw std::invalid_argument("--method " + name + ": " + why);
     return {&method, "asked for"};
   }
-  const std::string why = coupling::periodic_method("shooting").refuses(problem);
+  const std::string why = coupling::shooting_method().refuses(problem);
   if (!why.empty())
-    return {&coupling::periodic_method("settling"), why};
+    return {&coupling::settling_method(), why};
   if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
-    return {&coupling::periodic_method("minimise"), "few coordinates: all solutions are looked for"};
-  return {&coupling::periodic_method("shooting"), "it takes few periods, and tells the stability"};
+    return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
+  return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
 }
 
-void check_options(const PeriodicRequest &request, const std::string &method)
+void check_options(const PeriodicRequest &request, const coupling::PeriodicMethod &method)
 {
-  if (request.lead_in < 0 && request.lead_in != PeriodicRequest::as_usual)
-    throw std::invalid_argument("--lead-in is " + std::to_string(request.lead_in) +
-                                "; it is a number of periods: 0 or more");
-  if (request.check == method)
-    throw std::invalid_argument("--check " + method + ": the motion is found by " + method +
+  if (const std::string none = method.follows_none(); !request.along.empty() && !none.empty())
+    throw std::invalid_argument("--along: " + none);
+  if (request.check == method.name())
+    throw std::invalid_argument("--check " + method.name() + ": the motion is found by " + method.name() +
                                 " already, and would be compared with itself; name another method");
-  if (!request.along.empty() && method == "averaging")
-    throw std::invalid_argument("--along: averaging follows no branch; take --method harmonic-balance --harmonics 1, "
-                                "which has its equations without the limit of small changes");
-  struct Taken
+  const auto takes = [](const coupling::PeriodicMethod &by, const std::string &name)
   {
-    const char              *option;
-    bool                     given;
-    std::vector<std::string> by;
+    const auto own = by.options();
+    return std::any_of(own.begin(), own.end(), [&](const auto &option) { return option.name == name; });
   };
-  const Taken all[] = {{"--harmonics", request.harmonics > 0, {"harmonic-balance"}},
-                       {"--starts", request.starts > 0, {"minimise"}},
-                       {"--damping", request.damping > 0., {"settling"}},
-                       {"--lead-in",
-                        request.lead_in != PeriodicRequest::as_usual,
-                        {"shooting", "harmonic-balance", "collocation", "minimise"}}};
-  for (const Taken &taken : all)
+  const coupling::PeriodicMethod *check = request.check.empty() ? nullptr : &coupling::periodic_method(request.check);
+  for (const auto &[name, value] : request.own)
   {
-    const auto is_by = [&](const std::string &name)
-    { return std::find(taken.by.begin(), taken.by.end(), name) != taken.by.end(); };
-    const bool checks = is_by(request.check) && taken.option != std::string("--lead-in"); // it begins at the motion
-    if (taken.given && !is_by(method) && !checks)
-      throw std::invalid_argument(std::string(taken.option) + " does nothing here, as the motion is found by " +
-                                  method + "; add --method " + taken.by.front() + ", or leave it out");
+    const auto all    = coupling::options_of_periodic_methods();
+    const auto option = std::find_if(all.begin(), all.end(), [&](const auto &known) { return known.name == name; });
+    if (option == all.end())
+      throw std::invalid_argument("periodic: there is no option \"" + name + '"');
+    if (!(value >= option->least && value <= option->most) || (option->whole && value != std::floor(value)))
+      throw std::invalid_argument("--" + name + " is " + short_text(value, 12) + "; it must be " +
+                                  (option->whole ? "a whole number" : "a number") + " from " +
+                                  short_text(option->least, 12) + " to " + short_text(option->most, 12));
+    if (takes(method, name) || (check && !option->of_lead && takes(*check, name)))
+      continue;
+    const auto &methods = coupling::periodic_methods();
+    const auto  serves =
+        std::find_if(methods.begin(), methods.end(), [&](const auto *other) { return takes(*other, name); });
+    throw std::invalid_argument("--" + name + " does nothing here, as the motion is found by " + method.name() +
+                                "; add --method " + (*serves)->name() + ", or leave it out");
   }
 }
-
-namespace
-{
-
-/// Newton's matrix and its factor, [n x n] of n = n_u (2 H + 1) unknowns: the harmonics of all measures.
-void require_memory_of_harmonics(const coupling::Machine &machine, int harmonics)
-{
-  const double n = double(machine.forces().directions().cols()) * (2. * harmonics + 1.);
-  if (harmonics > 0)
-    fem::require_available("--harmonics " + std::to_string(harmonics) + ": the equations of all measures",
-                           2. * 8. * n * n + 8. * samples_of_harmonic * n, "Ask for fewer harmonics, or leave it out.");
-}
-
-} // namespace
 
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,
                                            const coupling::Machine &machine)
 {
   coupling::PeriodicOptions options;
-  require_memory_of_harmonics(machine, request.harmonics);
-  options.harmonics = request.harmonics;
-  if (request.starts > 0)
-    options.starts = request.starts;
-  options.extra_damping = request.damping;
-  if (request.lead_in != PeriodicRequest::as_usual)
-    options.lead_in = request.lead_in;
+  options.own = request.own;
   if (request.tolerance > 0.)
     options.tolerance = request.tolerance;
   options.integration = periodic_integration(scene, machine);
@@ -190,7 +170,7 @@ PeriodicSolution of_own_period(const coupling::PeriodicMethod &method, const cou
   shorter.turn                      = part * solution.turn;
   shorter.ratio                     = k;
   coupling::PeriodicOptions near    = options;
-  near.lead_in                      = 0;
+  near.own["lead-in"]               = 0;
   return method.solve(shorter, {solution.q, solution.v, shorter.period}, near).front();
 }
 

@@ -26,7 +26,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 
 /// That every option is taken by the method, or by the one it is checked by.
 /// @throws std::invalid_argument
-void check_options(const PeriodicRequest &request, const std::string &method);
+void check_options(const PeriodicRequest &request, const coupling::PeriodicMethod &method);
 
 /// What methods obey; a machine that exact propagation cannot carry is integrated as [run] says.
 coupling::PeriodicOptions periodic_options(const Scene &scene, const PeriodicRequest &request,

@@ -2,7 +2,7 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "apps/session/periodic_answer.h"
-#include "coupling/periodic/collocation/collocation_branch.h"
+#include "coupling/periodic/periodic_methods.h"
 #include "coupling/periodic/verified_orbit.h"
 
 #include <algorithm>
@@ -25,13 +25,9 @@ constexpr double      same                 = 1e-5; ///< distance of two motions,
 using coupling::PeriodicSolution;
 
 std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &family, const PeriodicSolution &first,
-                                                         const coupling::PeriodicOptions &options, int doubling)
+                                                         const coupling::PeriodicOptions &options, int repeats)
 {
-  if (first.series)
-    return coupling::balance_branch(family.problems(), options);
-  if (first.method == "collocation")
-    return coupling::collocation_branch(family.problems(), options, doubling);
-  return coupling::shooting_branch(family.problems(), options, 2. * M_PI / first.period, doubling);
+  return coupling::periodic_method(first.method).branch(family.problems(), first, options, repeats);
 }
 
 /// The branches that leave at a special motion, of `repeats` periods; at a doubling after twice as many.
@@ -184,7 +180,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
       try
       {
         const int  repeats   = std::max(1, first.ratio / family.ratio());
-        const auto equations = equations_for(family, first, options, first.series ? 1 : repeats);
+        const auto equations = equations_for(family, first, options, repeats);
         const auto branch    = follow_branch(*equations, first, along, on_point);
         keep(branch);
         if (!first.series)

@@ -98,7 +98,7 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
     try
     {
       coupling::PeriodicOptions again = options;
-      again.lead_in                   = 0;
+      again.own["lead-in"]            = 0;
       const coupling::PeriodicGuess near{entry.solution.q, entry.solution.v, entry.solution.period};
       coupling::PeriodicProblem     problem = repeating.problem;
       if (!problem.period_is_unknown()) // it may repeat after several periods only
@@ -351,7 +351,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
   check_long_run(request);
   check_basins(machine, repeating.problem, request);
   const ChosenMethod chosen = chosen_method(repeating, request.method);
-  check_options(request, chosen.method->name());
+  check_options(request, *chosen.method);
   if (!request.check.empty())
     chosen_method(repeating, request.check);
   const auto     options = periodic_options(scene_, request, machine);

@@ -10,6 +10,7 @@
 #include "coupling/integration/stability/overshoot.h"
 #include "coupling/integration/stability/stability.h"
 #include "coupling/integration/system/convergence_failure.h"
+#include "coupling/periodic/periodic_methods.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -207,15 +208,20 @@ Result responses(Session &session, CaseRequest &requested)
 Result periodic(Session &session, CaseRequest &requested)
 {
   PeriodicRequest request;
-  request.method    = requested.text("method");
-  request.period    = requested.text("period");
-  request.ratio     = requested.number("ratio", request.ratio);
-  request.harmonics = requested.number("harmonics", request.harmonics);
-  request.lead_in   = requested.number("lead_in", request.lead_in);
-  request.along     = requested.text("along");
-  request.from      = requested.text("from");
-  request.to        = requested.text("to");
-  request.points    = requested.number("points", request.points);
+  request.method = requested.text("method");
+  request.period = requested.text("period");
+  request.ratio  = requested.number("ratio", request.ratio);
+  for (const coupling::PeriodicOption &option : coupling::options_of_periodic_methods())
+  {
+    std::string key = option.name;
+    std::replace(key.begin(), key.end(), '-', '_');
+    if (double value = 0.; is_number(requested.text(key), value))
+      request.own[option.name] = value;
+  }
+  request.along  = requested.text("along");
+  request.from   = requested.text("from");
+  request.to     = requested.text("to");
+  request.points = requested.number("points", request.points);
   requested.finish();
   return session.periodic(request);
 }

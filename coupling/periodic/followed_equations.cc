@@ -91,7 +91,7 @@ class BalanceBranch final : public BranchEquations
 {
 public:
   BalanceBranch(ProblemFamily family, const PeriodicOptions &options)
-      : family_(std::move(family)), options_(options), harmonics_(options.harmonics)
+      : family_(std::move(family)), options_(options), harmonics_(harmonics_of(options))
   {
   }
 
@@ -125,7 +125,7 @@ public:
     newton.residual           = closing_;
     PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, newton, options_);
     const auto       left     = left_out();
-    solution.notes.push_back(left ? note_of_harmonics(*balance_, *left, left_out_of_branch, options_.harmonics > 0)
+    solution.notes.push_back(left ? note_of_harmonics(*balance_, *left, left_out_of_branch, harmonics_of(options_) > 0)
                                   : "what the harmonics leave out is not known: a mode without damping lies at one");
     return solution;
   }
@@ -133,7 +133,7 @@ public:
   /// By Newton's method at the value of the parameter; numbers of harmonics that have no solution near by are passed.
   bool refit(const PeriodicSolution &, MatrixXd &Z) override
   {
-    if (options_.harmonics > 0)
+    if (harmonics_of(options_) > 0)
       return false;
     if (points_to_rest_ > 0)
     {

@@ -25,7 +25,7 @@ FamilyMember member_at(const ProblemFamily &family, double lambda, int ratio = 1
 /// Shooting over `ratio` times the period of the family.
 std::unique_ptr<BranchEquations> shooting_branch(const ProblemFamily &family, const PeriodicOptions &options,
                                                  double omega, int ratio = 1);
-/// Harmonic balance with options.harmonics, which must be given.
+/// Harmonic balance, with as many harmonics as its first solution where their number is not given.
 std::unique_ptr<BranchEquations> balance_branch(const ProblemFamily &family, const PeriodicOptions &options);
 
 } // namespace gestell::coupling

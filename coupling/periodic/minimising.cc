@@ -26,8 +26,9 @@ constexpr double astray        = 4.;   ///< distance from the middle of the box,
 constexpr double promising     = 0.01; ///< closing error below which Newton's method takes over
 constexpr double coarse        = 1e-6; ///< tolerance of the steps far from a solution
 constexpr double rest_speed    = 1e-6; ///< of the speeds of the box
-constexpr int    one_in        = 4;    ///< of so many starts one keeps off the motions that are known
-constexpr double off           = 0.3;  ///< of the largest excursions: so far
+constexpr int    usual_starts  = 64;
+constexpr int    one_in        = 4;   ///< of so many starts one keeps off the motions that are known
+constexpr double off           = 0.3; ///< of the largest excursions: so far
 
 /// M r, r of (5.5.4/2), for Eigen's minimiser.
 class LeastSquares : public Eigen::DenseFunctor<double>
@@ -104,10 +105,15 @@ int prime(Index i)
   }
 }
 
+int starts_of(const PeriodicOptions &options)
+{
+  return int(options.value("starts", usual_starts));
+}
+
 /// Starts that search freely; the rest keeps off what is known.
 int free_starts(const PeriodicOptions &options)
 {
-  return options.starts - options.starts / one_in;
+  return starts_of(options) - starts_of(options) / one_in;
 }
 
 /// Largest excursions of a motion about its mean.
@@ -157,6 +163,11 @@ public:
   {
     return why_not_propagated(*problem.system, "settling");
   }
+  std::vector<PeriodicOption> options() const override
+  {
+    return {{"starts", "of minimise (default " + std::to_string(usual_starts) + ")", 1., 1e6}, lead_in_option()};
+  }
+  bool                          finds_all() const override { return true; }
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;
 };
@@ -244,7 +255,7 @@ void MotionSearch::keep_off(const PeriodicSolution &solution)
 
 void MotionSearch::from_all_starts()
 {
-  for (int k = 1; k <= options_.starts && !problem_.interrupted(); ++k)
+  for (int k = 1; k <= starts_of(options_) && !problem_.interrupted(); ++k)
     try
     {
       VectorXd z;
@@ -330,7 +341,7 @@ std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, 
     MotionSearch(problem, periods, box, options, found).from_all_starts();
   if (found.empty())
     throw NoPeriodicMotion(
-        "no periodic motion was found from " + std::to_string(highest * options.starts) +
+        "no periodic motion was found from " + std::to_string(highest * starts_of(options)) +
         " starts in the box about the start; give --starts a larger number, or a start nearer to it");
   for (PeriodicSolution &solution : found)
     solution.share /= highest * free_starts(options);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "coupling/periodic/followed_equations.h"
 #include "coupling/periodic/periodic_problem.h"
 #include "coupling/periodic/periodic_solution.h"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,17 @@ struct PeriodicGuess
   double          period = 0.; ///< [s] where it is unknown; 0: that of the problem
 };
 
+/// An option of single methods, --NAME of the command line and NAME of Python and of verification cases.
+struct PeriodicOption
+{
+  std::string name, meaning;
+  double      least = 0., most = 0.;
+  bool        whole   = true;
+  bool        of_lead = false; ///< of the way to the motion: a check, which begins at the motion, does not take it
+};
+
 /**
- * A way to periodic motions, as periodic_methods() lists it.
+ * A method for periodic motions, as periodic_methods() lists it.
  *
  * It sees a second-order system and what is to repeat, and returns what it found, with Floquet multipliers where it
  * knows them.
@@ -33,10 +44,26 @@ public:
   /// Why it cannot treat this problem, and what serves instead; empty: it can.
   virtual std::string refuses(const PeriodicProblem &problem) const = 0;
 
+  /// What it takes besides the options of all.
+  virtual std::vector<PeriodicOption> options() const { return {}; }
+  /// It integrates the motion itself, so that its failure says something about the motion.
+  virtual bool integrates() const { return true; }
+  /// It looks for all solutions.
+  virtual bool finds_all() const { return false; }
+
   /// Solutions near the guess, or of a whole box of starts; each once.
   /// @throws NoPeriodicMotion, ConvergenceFailure
   virtual std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                               const PeriodicOptions &options) const = 0;
+
+  /// Why it follows no branch, and what serves instead; empty: it does.
+  virtual std::string follows_none() const { return ""; }
+  /// Equations of a branch whose motions repeat after `ratio` times the period of the family; those of shooting.
+  virtual std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
+                                                  const PeriodicOptions &options, int ratio) const;
 };
+
+/// "lead-in": periods that lead_in() integrates.
+PeriodicOption lead_in_option();
 
 } // namespace gestell::coupling

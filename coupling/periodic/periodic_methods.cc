@@ -7,6 +7,7 @@
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace gestell::coupling
@@ -30,6 +31,22 @@ const PeriodicMethod &periodic_method(const std::string &name)
     names += (names.empty() ? "" : ", ") + method->name();
   }
   throw std::invalid_argument("there is no periodic method \"" + name + "\"; there are " + names);
+}
+
+std::vector<PeriodicOption> options_of_periodic_methods()
+{
+  std::vector<PeriodicOption> all;
+  for (const PeriodicMethod *method : periodic_methods())
+    for (const PeriodicOption &option : method->options())
+      if (std::none_of(all.begin(), all.end(), [&](const PeriodicOption &known) { return known.name == option.name; }))
+        all.push_back(option);
+  return all;
+}
+
+std::unique_ptr<BranchEquations> PeriodicMethod::branch(const ProblemFamily &family, const PeriodicSolution &first,
+                                                        const PeriodicOptions &options, int ratio) const
+{
+  return shooting_branch(family, options, 2. * M_PI / first.period, ratio);
 }
 
 } // namespace gestell::coupling

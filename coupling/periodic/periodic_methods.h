@@ -11,4 +11,7 @@ const std::vector<const PeriodicMethod *> &periodic_methods();
 /// @throws std::invalid_argument for a name there is not
 const PeriodicMethod &periodic_method(const std::string &name);
 
+/// Options of single methods, each once.
+std::vector<PeriodicOption> options_of_periodic_methods();
+
 } // namespace gestell::coupling

@@ -6,7 +6,9 @@
 #include <Eigen/Core>
 
 #include <atomic>
+#include <map>
 #include <stdexcept>
+#include <string>
 
 namespace gestell::coupling
 {
@@ -17,7 +19,8 @@ namespace gestell::coupling
  *     q(t_0 + T) = q(t_0) + turn,     q'(t_0 + T) = q'(t_0),
  *
  * turn [n] being increments of angles that leave all equations as they are, and zero for all else.  Where nothing
- * depends on the time, T is unknown too, and the coordinate `phase` is given at t_0 instead: q_phase(t_0) = phase_value.
+ * depends on the time, T is unknown too, and the coordinate `phase` is given at t_0 instead: q_phase(t_0) =
+ * phase_value.
  *
  * A shift along the columns F of `free` changes no equation.  The motion itself chooses how far it goes along them,
  *
@@ -58,18 +61,22 @@ struct PeriodicProblem
   }
 };
 
-/// What all methods obey; each takes what it knows.
+/// Options of all methods, and of single ones.
 struct PeriodicOptions
 {
-  double        tolerance     = 1e-10; ///< of PeriodicSolution::residual
-  int           iterations    = 40;    ///< of Newton's method
-  int           lead_in       = 10;    ///< periods integrated before Newton's method begins
-  MethodOptions integration   = options_of("exact", 8).with("force", "collocation");
-  int           segments      = 0;   ///< M of multiple shooting; 0: where one does not close the motion 8, then 32
-  int           harmonics     = 0;   ///< H; 0: chosen from the residual
-  int           starts        = 64;  ///< of searches from many starts
-  int           periods       = 500; ///< most of them that settling integrates
-  double        extra_damping = 0.;  ///< of settling, at first: share of critical in every mode
+  double        tolerance   = 1e-10; ///< of PeriodicSolution::residual
+  int           iterations  = 40;    ///< of Newton's method
+  MethodOptions integration = options_of("exact", 8).with("force", "collocation");
+  int           segments    = 0;   ///< M of multiple shooting; 0: where one does not close the motion 8, then 32
+  int           periods     = 500; ///< most of them that settling integrates
+
+  std::map<std::string, double> own; ///< given ones of those that methods declare (PeriodicMethod::options()), by name
+
+  double value(const std::string &name, double usual) const
+  {
+    const auto found = own.find(name);
+    return found == own.end() ? usual : found->second;
+  }
 };
 
 /// There is no such motion, or the method does not come to it; the message tells the place and what serves instead.

@@ -102,10 +102,11 @@ const LinearSystem &RaisedDamping::linear() const
 }
 using Eigen::VectorXd;
 
-constexpr double near_enough = 0.01; ///< closing error at which the lead-in ends
-constexpr double turn_margin = 3.;   ///< of the period expected, within which an angle comes round
-constexpr double kick        = 0.5;  ///< of the velocities, for the second start
-constexpr double same        = 1e-4; ///< distance of two motions, of their size, within which they are one
+constexpr int    usual_lead_in = 10;   ///< periods
+constexpr double near_enough   = 0.01; ///< closing error at which the lead-in ends
+constexpr double turn_margin   = 3.;   ///< of the period expected, within which an angle comes round
+constexpr double kick          = 0.5;  ///< of the velocities, for the second start
+constexpr double same          = 1e-4; ///< distance of two motions, of their size, within which they are one
 
 /// One period; the state behind it, whole turns taken off, becomes the next start.
 double one_period(PeriodFlow &flow, const PeriodicProblem &problem, PeriodicGuess &at)
@@ -157,9 +158,10 @@ Settled settle_damped(const PeriodicProblem &problem, const PeriodicGuess &guess
       omega = line.omega;
   for (const double level : levels)
   {
-    if (!(options.extra_damping > 0.) || omega == 0.)
+    const double extra = options.value("damping", 0.);
+    if (!(extra > 0.) || omega == 0.)
       break;
-    RaisedDamping   damped(*problem.system, 2. * level * options.extra_damping / omega);
+    RaisedDamping   damped(*problem.system, 2. * level * extra / omega);
     PeriodicProblem harder = problem;
     harder.system          = &damped;
     const Settled part     = settle(harder, all.at, options, near_enough, options.periods);
@@ -232,7 +234,12 @@ public:
            "start "
            "looks for another motion.";
   }
-  std::string refuses(const PeriodicProblem &) const override { return ""; }
+  std::string                 refuses(const PeriodicProblem &) const override { return ""; }
+  std::vector<PeriodicOption> options() const override
+  {
+    return {
+        {"damping", "of settling: share of critical by which the lowest mode is damped more at first", 0., 1e6, false}};
+  }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override
@@ -286,9 +293,16 @@ void lead_in(PeriodFlow &flow, const PeriodicProblem &problem, const PeriodicOpt
 {
   if (!(guess.period > 0.))
     guess.period = problem.period;
-  for (int k = 0; k < options.lead_in && !problem.interrupted(); ++k)
+  for (int k = 0; k < options.value("lead-in", usual_lead_in) && !problem.interrupted(); ++k)
     if (one_period(flow, problem, guess) < near_enough)
       return;
+}
+
+PeriodicOption lead_in_option()
+{
+  return {"lead-in", "periods integrated before Newton's method begins (default " + std::to_string(usual_lead_in) + ")",
+          0.,        1e9,
+          true,      true};
 }
 
 const PeriodicMethod &settling_method()

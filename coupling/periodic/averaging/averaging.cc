@@ -34,6 +34,12 @@ public:
            "look, of first order";
   }
   std::string refuses(const PeriodicProblem &problem) const override;
+  bool        integrates() const override { return false; }
+  std::string follows_none() const override
+  {
+    return "averaging follows no branch; take --method harmonic-balance --harmonics 1, which has its equations without "
+           "the limit of small changes";
+  }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;
@@ -149,9 +155,10 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
   note.precision(2);
   try
   {
-    PeriodicOptions few = options;
-    few.harmonics       = 3 * solution.series->harmonics();
-    const auto balanced = [&](double period) {
+    PeriodicOptions few  = options;
+    const int       H    = 3 * solution.series->harmonics();
+    few.own["harmonics"] = H;
+    const auto balanced  = [&](double period) {
       return harmonic_balance_method().solve(problem, {solution.q, solution.v, period}, few).front();
     };
     PeriodicSolution other;
@@ -167,13 +174,12 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
     }
     if (const double apart = distance_of(*solution.series, *other.series); apart <= far_away)
     {
-      note << "harmonic balance with " << few.harmonics << " harmonics differs from it by " << apart
-           << " of its amplitude";
+      note << "harmonic balance with " << H << " harmonics differs from it by " << apart << " of its amplitude";
       if (problem.period_is_unknown())
         note << " and by " << std::abs(other.period / solution.period - 1.) << " of its period";
       return note.str();
     }
-    note << "harmonic balance with " << few.harmonics << " harmonics leads to another motion from here";
+    note << "harmonic balance with " << H << " harmonics leads to another motion from here";
   }
   catch (const SearchInterrupted &)
   {

@@ -1,5 +1,7 @@
 #include "coupling/periodic/collocation/collocation_method.h"
 
+#include "coupling/periodic/collocation/collocation_branch.h"
+
 #include "coupling/periodic/collocation/mesh_search.h"
 #include "coupling/periodic/settling.h"
 
@@ -21,6 +23,12 @@ public:
   std::string refuses(const PeriodicProblem &problem) const override
   {
     return why_not_propagated(*problem.system, "settling");
+  }
+  std::vector<PeriodicOption>      options() const override { return {lead_in_option()}; }
+  std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
+                                          const PeriodicOptions &options, int ratio) const override
+  {
+    return collocation_branch(family, options, ratio);
   }
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override

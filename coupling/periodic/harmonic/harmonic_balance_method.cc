@@ -59,6 +59,11 @@ bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd 
 
 } // namespace
 
+int harmonics_of(const PeriodicOptions &options)
+{
+  return int(options.value("harmonics", 0.));
+}
+
 HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
 {
   HarmonicNewton newton;
@@ -120,8 +125,8 @@ void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &s
   if (closing <= closes_well)
     return;
   PeriodicOptions near;
-  near.integration = solution.integration;
-  near.lead_in     = 0;
+  near.integration    = solution.integration;
+  near.own["lead-in"] = 0;
   try
   {
     const PeriodicSolution closed =
@@ -228,6 +233,17 @@ public:
   }
   std::string refuses(const PeriodicProblem &problem) const override;
 
+  std::vector<PeriodicOption> options() const override
+  {
+    return {{"harmonics", "of harmonic balance (default: until what is left out is small)", 1., 1e4}, lead_in_option()};
+  }
+  bool                             integrates() const override { return false; }
+  std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
+                                          const PeriodicOptions &options, int) const override
+  {
+    return balance_branch(family, options);
+  }
+
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;
 };
@@ -258,9 +274,9 @@ class BalanceSearch
 public:
   BalanceSearch(const PeriodicProblem &problem, const PeriodicOptions &options)
       : problem_(problem), options_(options),
-        balance_(problem, options.harmonics > 0 ? options.harmonics : first_harmonics)
+        balance_(problem, harmonics_of(options) > 0 ? harmonics_of(options) : first_harmonics)
   {
-    if (options.harmonics == 0 && balance_.largest_load() > first_harmonics)
+    if (harmonics_of(options) == 0 && balance_.largest_load() > first_harmonics)
       balance_.set_harmonics(balance_.largest_load());
     balance_.require_load();
   }
@@ -272,7 +288,7 @@ public:
 
 private:
   bool solve_from(const VectorXd &start);
-  bool solve_from_orbit(PeriodicGuess guess, int periods);
+  bool solve_from_orbit(PeriodicGuess guess, bool leads);
   void check_memory();
 
   const PeriodicProblem   &problem_;
@@ -295,8 +311,8 @@ bool BalanceSearch::solve_from(const VectorXd &start)
   return newton_.converged;
 }
 
-/// Of the motion after so many periods that are integrated; false too if that fails.
-bool BalanceSearch::solve_from_orbit(PeriodicGuess guess, int periods)
+/// From the motion that is integrated from the guess, or from the end of its lead-in; false too if that fails.
+bool BalanceSearch::solve_from_orbit(PeriodicGuess guess, bool leads)
 {
   const auto n = problem_.system->linear().size();
   if (guess.q.size() != n || guess.v.size() != n)
@@ -305,11 +321,9 @@ bool BalanceSearch::solve_from_orbit(PeriodicGuess guess, int periods)
     guess.period = problem_.period;
   try
   {
-    PeriodFlow      flow(problem_, options_.integration);
-    PeriodicOptions few = options_;
-    few.lead_in         = periods;
-    if (periods > 0)
-      lead_in(flow, problem_, few, guess);
+    PeriodFlow flow(problem_, options_.integration);
+    if (leads)
+      lead_in(flow, problem_, options_, guess);
     return solve_from(
         balance_.pack(orbit_series(problem_, flow, guess.q, guess.v, guess.period, balance_.harmonics())));
   }
@@ -330,12 +344,12 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
       guess.q.size() > 0 && guess.v.size() == guess.q.size() && !(guess.q.isZero(0.) && guess.v.isZero(0.));
   for (const bool more : {false, true})
   {
-    if (more && options_.harmonics > 0)
+    if (more && harmonics_of(options_) > 0)
       break;
     if (more)
       balance_.set_harmonics(many_harmonics * balance_.harmonics());
-    if ((moves && solve_from_orbit(guess, 0)) || (moves && solve_from(balance_.start_through(guess.q, guess.v))) ||
-        solve_from(balance_.linear_start()) || solve_from_orbit(guess, options_.lead_in))
+    if ((moves && solve_from_orbit(guess, false)) || (moves && solve_from(balance_.start_through(guess.q, guess.v))) ||
+        solve_from(balance_.linear_start()) || solve_from_orbit(guess, true))
     {
       left_out_ = balance_.left_out(z_);
       return;
@@ -354,7 +368,7 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
 void BalanceSearch::grow()
 {
   int tried = balance_.harmonics();
-  while (options_.harmonics == 0 && left_out_.motion > options_.tolerance && !problem_.interrupted())
+  while (harmonics_of(options_) == 0 && left_out_.motion > options_.tolerance && !problem_.interrupted())
   {
     tried = more_harmonics(problem_, tried);
     if (tried == 0)
@@ -365,7 +379,7 @@ void BalanceSearch::grow()
     const FourierSeries  motion = balance_.series(z_);
     balance_.set_harmonics(tried);
     const VectorXd start = balance_.pack(motion);
-    if (!solve_from(start) && (problem_.interrupted() || !solve_from_orbit(guess_, options_.lead_in)))
+    if (!solve_from(start) && (problem_.interrupted() || !solve_from_orbit(guess_, true)))
     {
       if (!problem_.interrupted())
         failed_ += (failed_.empty() ? "" : ", ") + std::to_string(tried);
@@ -415,7 +429,7 @@ PeriodicSolution BalanceSearch::solution()
   check_memory();
   PeriodicSolution solution = finished_balance(problem_, balance_, z_, newton_, options_);
   solution.work.iterations  = iterations_;
-  solution.notes.push_back(note_of_harmonics(balance_, left_out_, options_.tolerance, options_.harmonics > 0));
+  solution.notes.push_back(note_of_harmonics(balance_, left_out_, options_.tolerance, harmonics_of(options_) > 0));
   if (!failed_.empty())
     solution.notes.push_back("Newton's method did not converge with " + failed_ + " harmonics");
   if (!others_.empty())
@@ -428,7 +442,7 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
 {
   if (const std::string reason = refuses(problem); !reason.empty())
     throw std::invalid_argument(reason);
-  require_unknowns(problem, options.harmonics);
+  require_unknowns(problem, harmonics_of(options));
   PeriodicProblem own = problem;
   if (problem.period_is_unknown() && guess.period > 0.)
     own.period = guess.period;

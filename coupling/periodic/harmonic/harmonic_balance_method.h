@@ -6,6 +6,9 @@
 namespace gestell::coupling
 {
 
+/// Number of harmonics that is given; 0: none, it is chosen from the residual.
+int harmonics_of(const PeriodicOptions &options);
+
 /// How Newton's method came to r(z) = 0.
 struct HarmonicNewton
 {

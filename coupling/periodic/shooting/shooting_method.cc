@@ -217,6 +217,7 @@ public:
   {
     return why_not_propagated(*problem.system, "settling");
   }
+  std::vector<PeriodicOption> options() const override { return {lead_in_option()}; }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override

@@ -22,7 +22,7 @@ PeriodicResult vibrations(const std::string &method, double P)
   PeriodicRequest request;
   request.method = method;
   if (method == "shooting" || method == "collocation") // a flutter leaves the motion before
-    request.lead_in = 0;
+    request.own["lead-in"] = 0;
   return periodic_of(follower_plate(P, 2e-3) + cosine_load("plate", 0.05, Omega) +
                          test::quoted("[start]\nrule = 'static'\n[output.signals]\nx = 'plate.ux'\n"),
                      request);

@@ -186,8 +186,8 @@ TEST(NamesOfCoordinates, MeanTheMotionWhereAFrameHasItsOppositeSign)
   }
   // All of them are a start, from which the machine stays on the motion.
   PeriodicRequest here;
-  here.method  = "shooting";
-  here.lead_in = 0;
+  here.method         = "shooting";
+  here.own["lead-in"] = 0;
   const PeriodicResult again =
       periodic_of(text + test::quoted("[start]\nrule = 'given'\nq = { " + q + " }\nv = { " + v + " }\n"), here);
   ASSERT_EQ(again.entries.size(), 1u) << again.failure;

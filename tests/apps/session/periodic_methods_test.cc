@@ -21,16 +21,18 @@ TEST(PeriodicScene, RefusesOptionsThatItsMethodDoesNotTake)
     ask(request);
     return refusal([&] { periodic_of(duffing(0.05, 0.5, 0.3, 1.), request); });
   };
-  EXPECT_THAT(words("shooting", [](auto &r) { r.harmonics = 3; }), testing::HasSubstr("--method harmonic-balance"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.starts = 3; }), testing::HasSubstr("--method minimise"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.damping = 0.1; }), testing::HasSubstr("--method settling"));
-  EXPECT_THAT(words("settling", [](auto &r) { r.lead_in = 3; }), testing::HasSubstr("--lead-in"));
-  EXPECT_THAT(words("shooting", [](auto &r) { r.lead_in = -1; }), testing::HasSubstr("0 or more"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.own["harmonics"] = 3; }),
+              testing::HasSubstr("--method harmonic-balance"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.own["starts"] = 3; }), testing::HasSubstr("--method minimise"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.own["damping"] = 0.1; }), testing::HasSubstr("--method settling"));
+  EXPECT_THAT(words("settling", [](auto &r) { r.own["lead-in"] = 3; }), testing::HasSubstr("--lead-in"));
+  EXPECT_THAT(words("shooting", [](auto &r) { r.own["lead-in"] = -1; }), testing::HasSubstr("a whole number from 0"));
   EXPECT_THAT(words("shooting", [](auto &r) { r.check = "shooting"; }), testing::HasSubstr("with itself"));
-  EXPECT_THAT(words("harmonic-balance", [](auto &r) { r.harmonics = 5000; }), testing::HasSubstr("at most 3999"));
+  EXPECT_THAT(words("harmonic-balance", [](auto &r) { r.own["harmonics"] = 5000; }),
+              testing::HasSubstr("at most 3999"));
   EXPECT_THAT(words("averaging", [](auto &r) { r.along = "element.load.constant", r.from = "0 N", r.to = "1 N"; }),
               testing::HasSubstr("--method harmonic-balance --harmonics 1"));
-  EXPECT_EQ(words("shooting", [](auto &r) { r.check = "harmonic-balance", r.harmonics = 9; }), "");
+  EXPECT_EQ(words("shooting", [](auto &r) { r.check = "harmonic-balance", r.own["harmonics"] = 9; }), "");
 }
 
 /// On a motion that a series gives, extremes lie between the samples: of a cosine its amplitude.
@@ -38,7 +40,7 @@ TEST(PeriodicScene, ExtremesOfASeriesAreItsOwn)
 {
   PeriodicRequest request;
   request.method              = "harmonic-balance";
-  request.harmonics           = 1;
+  request.own["harmonics"]    = 1;
   const PeriodicResult result = periodic_of(duffing(0.05, 0., 1., 1.37), request);
   ASSERT_EQ(result.entries.size(), 1u);
   const double a = 1. / std::hypot(1. - 1.37 * 1.37, 0.1 * 1.37);
@@ -95,8 +97,8 @@ TEST(PeriodicScene, WhatSticksHasItsForceFromTheFirstInstant)
 TEST(PeriodicScene, CollocationRefusesAnElementThatRemembers)
 {
   PeriodicRequest request;
-  request.method  = "collocation";
-  request.lead_in = 0;
+  request.method         = "collocation";
+  request.own["lead-in"] = 0;
   expect_refusal(
       [&] { Session(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {}).periodic(request); },
       "sheet remembers what was before");

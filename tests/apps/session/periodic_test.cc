@@ -109,8 +109,8 @@ TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
   const double zeta[] = {0.05, 0.05, 0.05, 0.1}, F0[] = {0.3, 0.3, 0.1, 0.3}, F[] = {1., 0.5, 2., 1.},
                Omega[] = {0.7, 1.8, 1.8, 1.8};
   PeriodicRequest request;
-  request.method = "minimise";
-  request.starts = 40;
+  request.method        = "minimise";
+  request.own["starts"] = 40;
   for (int i = 0; i < 4; ++i)
   {
     const PeriodicResult result = periodic_of(play(zeta[i], F0[i], F[i], Omega[i]), request);
@@ -136,8 +136,8 @@ TEST(PeriodicScene, TwoMassesMeetTheReference)
   for (const ReferenceRow &row : read_reference("periodic/two_dof_shooting.csv"))
   {
     PeriodicRequest request;
-    request.method  = "shooting";
-    request.lead_in = 0;
+    request.method         = "shooting";
+    request.own["lead-in"] = 0;
     const std::string start =
         test::quoted("[start]\nq = { 'frame.one.ux' = " + row["q1(0)"] + ", 'frame.two.ux' = " + row["q2(0)"] +
                      " }\nv = { 'frame.one.ux' = " + row["v1(0)"] + ", 'frame.two.ux' = " + row["v2(0)"] + " }\n");
@@ -181,7 +181,7 @@ TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
 {
   PeriodicRequest request;
   request.method              = "harmonic-balance";
-  request.harmonics           = 1;
+  request.own["harmonics"]    = 1;
   request.along               = "parameters.Omega";
   request.from                = "1.0";
   request.to                  = "1.7";

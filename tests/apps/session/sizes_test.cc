@@ -82,13 +82,13 @@ TEST(Sizes, OfRowsThatArePermittedAreJudgedByTheMemory)
   EXPECT_THAT(tests::refusal([&] { session.run(); }), HasSubstr("output.step"));
 }
 
-TEST(Sizes, OfHarmonicsAreJudgedByTheMemory)
+TEST(Sizes, OfHarmonicsAreLimited)
 {
   PeriodicRequest request;
-  request.method    = "harmonic-balance";
-  request.harmonics = 1000000000;
+  request.method           = "harmonic-balance";
+  request.own["harmonics"] = 1000000000;
   EXPECT_THAT(tests::refusal([&] { tests::periodic_of(tests::duffing(0.05, 0.1, 0.2, 1.2), request); }),
-              HasSubstr("--harmonics 1000000000"));
+              HasSubstr("--harmonics is 1000000000"));
 }
 
 } // namespace gestell::apps

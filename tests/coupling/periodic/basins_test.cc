@@ -31,7 +31,7 @@ PeriodicProblem problem_of(CubicSystem &system, const DuffingCase &given)
 std::vector<PeriodicSolution> all_motions(const PeriodicProblem &problem)
 {
   PeriodicOptions options;
-  options.starts = 10;
+  options.own["starts"] = 10;
   return minimising_method().solve(problem, at_rest, options);
 }
 
@@ -117,8 +117,8 @@ TEST(Basins, TakeASubharmonicMotionInAnyOfItsPeriods)
   three.ratio = 3;
   PeriodicGuess   guess{VectorXd::Zero(1), VectorXd::Constant(1, 4.), 0.};
   PeriodicOptions options;
-  options.lead_in = 100;
-  auto solutions  = shooting_method().solve(three, guess, options);
+  options.own["lead-in"] = 100;
+  auto solutions         = shooting_method().solve(three, guess, options);
   ASSERT_TRUE(solutions[0].stable());
   PeriodFlow flow(one, options.integration);
   VectorXd   q = solutions[0].q, v = solutions[0].v;

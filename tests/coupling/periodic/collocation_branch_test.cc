@@ -38,7 +38,7 @@ TwoBranches follow(const ProblemFamily &family, const PeriodicGuess &guess, cons
 {
   const FamilyMember first = family(options.from);
   PeriodicOptions    settled;
-  settled.lead_in        = 100;
+  settled.own["lead-in"] = 100;
   const auto solution    = shooting_method().solve(first.problem, guess, settled).at(0);
   const auto shooting    = shooting_branch(family, {}, 2. * M_PI / solution.period),
              collocation = collocation_branch(family, {});

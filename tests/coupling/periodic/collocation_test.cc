@@ -27,8 +27,8 @@ TEST(Collocation, MeetsTheMotionsOfDuffingsOscillator)
   CubicSystem           system  = duffing_system(duffing_cases.at("duffing1"));
   const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 1.4);
   PeriodicOptions       options;
-  options.lead_in = 0;
-  int rows        = 0;
+  options.own["lead-in"] = 0;
+  int rows               = 0;
   for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
     if (row["case"] == "duffing1")
     {
@@ -81,8 +81,8 @@ TEST(Collocation, MeetsTheTableOfPlay)
     problem.ratio                = ratio;
     const VectorXd  q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
     PeriodicOptions options;
-    options.lead_in  = 0;
-    const auto found = collocation_method().solve(problem, {q, v, 0.}, options);
+    options.own["lead-in"] = 0;
+    const auto found       = collocation_method().solve(problem, {q, v, 0.}, options);
     EXPECT_NEAR(found.at(0).q[0], q[0], 1e-8) << row["case"] << row["solution"];
     EXPECT_NEAR(found.at(0).v[0], v[0], 1e-8) << row["case"] << row["solution"];
     ++rows;
@@ -113,7 +113,7 @@ TEST(Collocation, FindsALimitCycleOfNearlyThePeriodOfTheBase)
   PeriodicProblem  problem = problem_of_period(system, 6.3);
   problem.phase            = 0;
   PeriodicOptions options;
-  options.lead_in  = 0;
+  options.own["lead-in"] = 0;
   const auto found = collocation_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.2), 6.3}, options);
   EXPECT_NEAR(found.at(0).period, 2. * M_PI * (1. + eps * eps / 16.), 1e-8);
   EXPECT_NEAR(found.at(0).v[0], 2., 1e-4);
@@ -139,9 +139,9 @@ TEST(Collocation, FindsTheSpeedOfARotorThatNothingHolds)
     problem.phase_value     = 0.2;
     const PeriodicGuess guess{VectorXd::Constant(1, 0.2), VectorXd::Constant(1, 6.), 1.};
     PeriodicOptions     options;
-    options.lead_in    = 0;
-    const auto found   = collocation_method().solve(problem, guess, options).at(0);
-    const auto by_shot = shooting_method().solve(problem, guess, options).at(0);
+    options.own["lead-in"] = 0;
+    const auto found       = collocation_method().solve(problem, guess, options).at(0);
+    const auto by_shot     = shooting_method().solve(problem, guess, options).at(0);
     EXPECT_NEAR(found.period, by_shot.period, 1e-9 * by_shot.period);
     EXPECT_NEAR(found.q[0], 0.2, 1e-10);
     EXPECT_NEAR(found.v[0], by_shot.v[0], 1e-8);

@@ -64,7 +64,7 @@ Branch branch_from(double x, double from, double to, ContinuationOptions &option
 {
   const FamilyMember first = cubic_oscillator(from);
   PeriodicOptions    settled;
-  settled.lead_in = 200;
+  settled.own["lead-in"] = 200;
   const auto solution =
       shooting_method().solve(first.problem, {VectorXd::Constant(1, x), VectorXd::Zero(1), 0.}, settled);
   options.from         = from;
@@ -86,8 +86,8 @@ void expect_beside(const Branch &branch, const SpecialMotion &special)
   ASSERT_LT(std::size_t(special.nearest), branch.points.size());
   const auto between = [&](int a, int b)
   {
-    const auto at = [&](int i) { return branch.points[std::size_t(i)].solution.q[0]; };
-    const double x = special.solution.q[0];
+    const auto   at = [&](int i) { return branch.points[std::size_t(i)].solution.q[0]; };
+    const double x  = special.solution.q[0];
     return std::min(at(a), at(b)) <= x && x <= std::max(at(a), at(b));
   };
   const int k = special.nearest;
@@ -188,7 +188,7 @@ TEST(Branch, IsFollowedToBothSidesWhereTheyAreUnlike)
 TEST(Branch, FindsTheModesOfTheBaseOnce)
 {
   PeriodicOptions settled, shared;
-  settled.lead_in          = 200;
+  settled.own["lead-in"]   = 200;
   shared.integration.modes = std::make_shared<SharedModes>();
   const FamilyMember first = cubic_oscillator(2.2);
   const auto         solution =

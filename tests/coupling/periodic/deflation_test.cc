@@ -21,7 +21,7 @@ std::vector<PeriodicSolution> motions(const std::string &name, int starts)
   const DuffingCase &given  = duffing_cases.at(name);
   CubicSystem        system = duffing_system(given);
   PeriodicOptions    options;
-  options.starts = starts;
+  options.own["starts"] = starts;
   return minimising_method().solve(problem_of_period(system, 2. * M_PI / given.Omega),
                                    {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, options);
 }

@@ -84,7 +84,7 @@ TEST(DominantSubspace, CloseALinearMotionInOneStep)
   SmallSystem           system  = chain(0.);
   const PeriodicProblem problem = slow_problem_of(system);
   PeriodicOptions       options;
-  options.lead_in = 0;
+  options.own["lead-in"] = 0;
   DominantSubspace motions(problem);
   ASSERT_TRUE(mostly_fast(motions, problem));
   const VectorXd rest  = VectorXd::Zero(n_masses);

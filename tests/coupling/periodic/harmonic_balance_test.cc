@@ -39,8 +39,8 @@ Eigen::Vector3d motion_at(const FourierSeries &series, int i, double t)
 PeriodicOptions with_harmonics(int H)
 {
   PeriodicOptions options;
-  options.harmonics = H;
-  options.tolerance = 1e-11;
+  options.own["harmonics"] = H;
+  options.tolerance        = 1e-11;
   return options;
 }
 
@@ -352,8 +352,8 @@ TEST(HarmonicBalance, RefusesWhatItCannotBalance)
                  "stands at harmonic 2");
 
   PeriodicOptions few;
-  few.harmonics    = 3;
-  CubicSystem fast = duffing_system(duffing_cases.at("duffing1"));
+  few.own["harmonics"] = 3;
+  CubicSystem fast     = duffing_system(duffing_cases.at("duffing1"));
   fast.loads().add_harmonic(0, 5. * 1.4, 1., 0.);
   expect_refusal([&] { harmonic_balance_method().solve(problem_of_period(fast, 2. * M_PI / 1.4), {}, few); },
                  "3 harmonics would leave out a load of harmonic 5");

@@ -48,8 +48,8 @@ TEST(Hill, HasTheMultipliersOfTheTableOfTwoMasses)
     const PeriodicGuess   guess{Eigen::Vector2d(row.number("q1(0)"), row.number("q2(0)")),
                               Eigen::Vector2d(row.number("v1(0)"), row.number("v2(0)")), 0.};
     PeriodicOptions       options;
-    options.harmonics = 16;
-    const auto found  = harmonic_balance_method().solve(problem, guess, options);
+    options.own["harmonics"] = 16;
+    const auto found         = harmonic_balance_method().solve(problem, guess, options);
     ASSERT_EQ(found.at(0).multipliers.size(), 4);
     for (int k = 0; k < 4; ++k)
       EXPECT_NEAR(std::abs(found[0].multipliers[k]), row.number("|mu" + std::to_string(k + 1) + "|"), 1e-8)

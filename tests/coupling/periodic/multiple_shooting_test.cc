@@ -28,9 +28,9 @@ const MatrixXd one = MatrixXd::Identity(1, 1);
 PeriodicOptions in_segments(int segments)
 {
   PeriodicOptions options;
-  options.lead_in   = 0;
-  options.segments  = segments;
-  options.tolerance = 1e-12;
+  options.own["lead-in"] = 0;
+  options.segments       = segments;
+  options.tolerance      = 1e-12;
   return options;
 }
 
@@ -164,7 +164,7 @@ TEST(MultipleShooting, ClosesAMotionTooUnstableToBeFollowedForAPeriod)
     const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / Omega);
     const PeriodicGuess   guess   = {VectorXd::Constant(1, -1.05 * F / (1. + Omega * Omega)), VectorXd::Zero(1), 0.};
     PeriodicOptions       options;
-    options.lead_in = 0;
+    options.own["lead-in"] = 0;
     ShootingEquations once(problem, options.integration);
     EXPECT_THROW(shoot(once, problem, once.unknowns(guess.q, guess.v, problem.period), options), NoPeriodicMotion);
 
@@ -226,7 +226,7 @@ TEST(UnknownPeriod, IsNotThatOfRest)
     PeriodicProblem problem = problem_of_period(system, T);
     problem.phase           = 0;
     PeriodicOptions options;
-    options.lead_in = 0;
+    options.own["lead-in"] = 0;
     for (const PeriodicMethod *method : {&shooting_method(), &collocation_method()})
       try
       {
@@ -246,7 +246,7 @@ TEST(MultipleShooting, IsTracedFromSegmentToSegment)
   SmallSystem           system  = hilltop(0.05, 0.1, Omega);
   const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / Omega);
   PeriodicOptions       options;
-  options.lead_in = 0;
+  options.own["lead-in"] = 0;
   const auto found =
       shooting_method().solve(problem, {VectorXd::Constant(1, -0.1), VectorXd::Zero(1), 0.}, options).at(0);
   int    points  = 0;

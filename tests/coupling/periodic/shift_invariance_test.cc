@@ -265,8 +265,8 @@ TEST(ShiftInvariance, ARoundRotorSlipsAgainstThePeriodOfALoad)
   for (const std::string method : {"shooting", "settling", "collocation", "minimise"})
   {
     PeriodicOptions options;
-    options.starts = 4;
-    auto found     = periodic_method(method).solve(problem, guess, options);
+    options.own["starts"] = 4;
+    auto found            = periodic_method(method).solve(problem, guess, options);
     ASSERT_EQ(found.size(), 1u) << method;
     EXPECT_NEAR(found[0].v[1], omega, 1e-8 * omega) << method;
     EXPECT_NEAR(std::hypot(found[0].q[0], found[0].v[0] / 9.), x, 1e-8 * x) << method;

@@ -64,9 +64,9 @@ TEST_P(DuffingTable, IsMetByShooting)
   SmallSystem     system  = duffing(cases.at(GetParam()));
   PeriodicProblem problem = problem_of(system, cases.at(GetParam()).Omega);
   PeriodicOptions options;
-  options.lead_in   = 0;
-  options.tolerance = 1e-12;
-  int rows          = 0;
+  options.own["lead-in"] = 0;
+  options.tolerance      = 1e-12;
+  int rows               = 0;
   for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
     if (row["case"] == GetParam())
     {
@@ -89,8 +89,8 @@ TEST_P(DuffingTable, IsFoundWithoutBeingTold)
   SmallSystem     system  = duffing(cases.at(GetParam()));
   PeriodicProblem problem = problem_of(system, cases.at(GetParam()).Omega);
   PeriodicOptions options;
-  options.starts   = 24;
-  const auto found = minimising_method().solve(problem, {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, options);
+  options.own["starts"] = 24;
+  const auto found      = minimising_method().solve(problem, {VectorXd::Zero(1), VectorXd::Zero(1), 0.}, options);
   for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
     if (row["case"] == GetParam())
     {
