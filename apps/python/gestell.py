@@ -176,17 +176,19 @@ class Scene:
         return ModesAlong(self._core.modes_along(coordinate, _text(from_), _text(to), positions, configuration, _names(hold),
                                                  _text(speed), orders, _progress(progress)))
 
-    def periodic(self, method="", period="", ratio=1, along="", from_="", to="", points=0, check="", progress=None,
-                 **own) -> "Periodic":
+    def periodic(self, method="", period="", ratio=1, harmonics=0, along="", from_="", to="", points=0, check="",
+                 progress=None, **own) -> "Periodic":
         """Motions that repeat, with their stability; along an entry, "parameters.n" from `from_` to `to`, their branches.
 
         method: "shooting", "harmonic-balance", ...; by default the one that suits.  period: [s] by default that of the loads.
         ratio: periods of the excitation in one of the motion.  check: a second method, which is compared.
-        Options of single methods by name: harmonics, lead_in, starts, damping, as `gestell periodic --help` lists them.
+        harmonics, and by name lead_in, starts, damping: options of single methods, as `gestell periodic --help` lists them.
         """
         if along and "" in (from_, to):
             raise InputError(f"periodic: along {along} needs its ends, from_ and to")
         own = {name.replace("_", "-"): value for name, value in own.items()}
+        if harmonics:
+            own["harmonics"] = harmonics
         found = self._core.periodic(method, _text(period), ratio, own, along, _text(from_), _text(to), points, check,
                                     _progress(progress))
         return Periodic(found)

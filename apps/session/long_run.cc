@@ -122,16 +122,15 @@ std::vector<PhasePlane> section_planes(coupling::Machine &machine, double begin,
 
 /// The motion that the section comes back to, from its last state.
 std::vector<PeriodicSolution> repeated(const PeriodicProblem &problem, const Recurrence &motion,
-                                       coupling::PeriodicOptions options)
+                                       const coupling::PeriodicOptions &options)
 {
   PeriodicProblem longer = problem;
   longer.period *= double(motion.repeats) / problem.ratio;
   longer.turn *= double(motion.repeats) / problem.ratio;
-  longer.ratio           = motion.repeats;
-  options.own["lead-in"] = 0;
-  const Index n          = motion.section.rows() / 2;
-  const auto  last       = motion.section.col(motion.section.cols() - 1);
-  return coupling::shooting_method().solve(longer, {last.head(n), last.tail(n), 0.}, options);
+  longer.ratio     = motion.repeats;
+  const Index n    = motion.section.rows() / 2;
+  const auto  last = motion.section.col(motion.section.cols() - 1);
+  return coupling::shooting_method().solve(longer, {last.head(n), last.tail(n), 0.}, without_lead_in(options));
 }
 
 bool lasts(const std::vector<PeriodicSolution> &solutions)

@@ -9,6 +9,7 @@
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/trace_orbit.h"
+#include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -129,7 +130,12 @@ void check_options(const PeriodicRequest &request, const coupling::PeriodicMetho
     const auto all    = coupling::options_of_periodic_methods();
     const auto option = std::find_if(all.begin(), all.end(), [&](const auto &known) { return known.name == name; });
     if (option == all.end())
-      throw std::invalid_argument("periodic: there is no option \"" + name + '"');
+    {
+      std::vector<std::string> names;
+      for (const auto &known : all)
+        names.push_back(known.name);
+      throw std::invalid_argument("periodic: there is no option \"" + name + '"' + suggestion(name, names));
+    }
     if (!(value >= option->least && value <= option->most) || (option->whole && value != std::floor(value)))
       throw std::invalid_argument("--" + name + " is " + short_text(value, 12) + "; it must be " +
                                   (option->whole ? "a whole number" : "a number") + " from " +
@@ -169,9 +175,7 @@ PeriodicSolution of_own_period(const coupling::PeriodicMethod &method, const cou
   shorter.period                    = part * solution.period;
   shorter.turn                      = part * solution.turn;
   shorter.ratio                     = k;
-  coupling::PeriodicOptions near    = options;
-  near.own["lead-in"]               = 0;
-  return method.solve(shorter, {solution.q, solution.v, shorter.period}, near).front();
+  return method.solve(shorter, {solution.q, solution.v, shorter.period}, without_lead_in(options)).front();
 }
 
 coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution &solution,

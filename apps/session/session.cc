@@ -97,8 +97,6 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
   for (const PeriodicEntry &entry : found.entries)
     try
     {
-      coupling::PeriodicOptions again = options;
-      again.own["lead-in"]            = 0;
       const coupling::PeriodicGuess near{entry.solution.q, entry.solution.v, entry.solution.period};
       coupling::PeriodicProblem     problem = repeating.problem;
       if (!problem.period_is_unknown()) // it may repeat after several periods only
@@ -107,7 +105,7 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
         problem.ratio  = entry.solution.ratio;
         problem.turn   = entry.solution.turn;
       }
-      const auto solutions = second.method->solve(problem, near, again);
+      const auto solutions = second.method->solve(problem, near, without_lead_in(options));
       found.checks.push_back(compared(entry, entry_of(machine, problem, solutions.front(), signals, orbit_rows), name));
     }
     catch (const std::exception &none) // among them what the method refuses of this motion

@@ -6,6 +6,7 @@
 #include "apps/output/result_folder.h"
 #include "apps/show/result_collections.h"
 #include "coupling/plugin/plugin.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>

@@ -1,12 +1,12 @@
 #include "coupling/exchange/node_places.h"
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
 #include "coupling/exchange/bulk_cards.h"
 #include "coupling/exchange/text_file.h"
 #include "fem/values/inp_lines.h"
 #include "fem/values/number_text.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>

@@ -23,6 +23,7 @@ using ProblemFamily = std::function<FamilyMember(double)>;
 FamilyMember member_at(const ProblemFamily &family, double lambda, int ratio = 1);
 
 /// Shooting over `ratio` times the period of the family.
+/// @param omega  [rad/s] of the motions, by which rates are compared with coordinates
 std::unique_ptr<BranchEquations> shooting_branch(const ProblemFamily &family, const PeriodicOptions &options,
                                                  double omega, int ratio = 1);
 /// Harmonic balance, with as many harmonics as its first solution where their number is not given.

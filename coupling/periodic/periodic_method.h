@@ -47,7 +47,7 @@ public:
   /// What it takes besides the options of all.
   virtual std::vector<PeriodicOption> options() const { return {}; }
   /// It integrates the motion itself, so that its failure says something about the motion.
-  virtual bool integrates() const { return true; }
+  virtual bool integrates() const = 0;
   /// It looks for all solutions.
   virtual bool finds_all() const { return false; }
 
@@ -58,12 +58,14 @@ public:
 
   /// Why it follows no branch, and what serves instead; empty: it does.
   virtual std::string follows_none() const { return ""; }
-  /// Equations of a branch whose motions repeat after `ratio` times the period of the family; those of shooting.
+  /// Equations of a branch from `first` on, whose motions repeat after `ratio` times the period of the family.
   virtual std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
-                                                  const PeriodicOptions &options, int ratio) const;
+                                                  const PeriodicOptions &options, int ratio) const = 0;
 };
 
 /// "lead-in": periods that lead_in() integrates.
 PeriodicOption lead_in_option();
+/// The options without lead-in: the search begins at the guess.
+PeriodicOptions without_lead_in(PeriodicOptions options);
 
 } // namespace gestell::coupling

@@ -43,10 +43,4 @@ std::vector<PeriodicOption> options_of_periodic_methods()
   return all;
 }
 
-std::unique_ptr<BranchEquations> PeriodicMethod::branch(const ProblemFamily &family, const PeriodicSolution &first,
-                                                        const PeriodicOptions &options, int ratio) const
-{
-  return shooting_branch(family, options, 2. * M_PI / first.period, ratio);
-}
-
 } // namespace gestell::coupling

@@ -234,7 +234,13 @@ public:
            "start "
            "looks for another motion.";
   }
-  std::string                 refuses(const PeriodicProblem &) const override { return ""; }
+  std::string                      refuses(const PeriodicProblem &) const override { return ""; }
+  bool                             integrates() const override { return true; }
+  std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
+                                          const PeriodicOptions &options, int ratio) const override
+  {
+    return shooting_branch(family, options, 2. * M_PI / first.period, ratio);
+  }
   std::vector<PeriodicOption> options() const override
   {
     return {
@@ -303,6 +309,12 @@ PeriodicOption lead_in_option()
   return {"lead-in", "periods integrated before Newton's method begins (default " + std::to_string(usual_lead_in) + ")",
           0.,        1e9,
           true,      true};
+}
+
+PeriodicOptions without_lead_in(PeriodicOptions options)
+{
+  options.own[lead_in_option().name] = 0.;
+  return options;
 }
 
 const PeriodicMethod &settling_method()

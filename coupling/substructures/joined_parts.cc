@@ -95,10 +95,6 @@ VectorXd errors_by_modes_left_out(const std::vector<ReducedFrame> &parts, const 
   return errors;
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double free_share = 1e-8; ///< of the highest frequency: motions without energy, but for rounding
 constexpr double rest_share = 1e-3; ///< of the kinetic energy of such a motion that no rigid one of the whole has
 

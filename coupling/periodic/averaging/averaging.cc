@@ -40,6 +40,11 @@ public:
     return "averaging follows no branch; take --method harmonic-balance --harmonics 1, which has its equations without "
            "the limit of small changes";
   }
+  std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
+                                          const PeriodicOptions &options, int) const override
+  {
+    return balance_branch(family, with_harmonics(options, 1));
+  }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;
@@ -155,10 +160,9 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
   note.precision(2);
   try
   {
-    PeriodicOptions few  = options;
-    const int       H    = 3 * solution.series->harmonics();
-    few.own["harmonics"] = H;
-    const auto balanced  = [&](double period) {
+    const int             H        = 3 * solution.series->harmonics();
+    const PeriodicOptions few      = with_harmonics(options, H);
+    const auto            balanced = [&](double period) {
       return harmonic_balance_method().solve(problem, {solution.q, solution.v, period}, few).front();
     };
     PeriodicSolution other;

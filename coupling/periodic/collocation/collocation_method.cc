@@ -25,6 +25,7 @@ public:
     return why_not_propagated(*problem.system, "settling");
   }
   std::vector<PeriodicOption>      options() const override { return {lead_in_option()}; }
+  bool                             integrates() const override { return true; }
   std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
                                           const PeriodicOptions &options, int ratio) const override
   {

@@ -7,6 +7,7 @@
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shift_invariance.h"
 #include "coupling/periodic/shooting/shooting_method.h"
+#include "fem/values/available_memory.h"
 
 #include <cmath>
 #include <sstream>
@@ -62,6 +63,12 @@ bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd 
 int harmonics_of(const PeriodicOptions &options)
 {
   return int(options.value("harmonics", 0.));
+}
+
+PeriodicOptions with_harmonics(PeriodicOptions options, int harmonics)
+{
+  options.own["harmonics"] = harmonics;
+  return options;
 }
 
 HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
@@ -124,9 +131,8 @@ void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &s
   solution.multipliers         = multipliers_of(passage.monodromy, problem);
   if (closing <= closes_well)
     return;
-  PeriodicOptions near;
-  near.integration    = solution.integration;
-  near.own["lead-in"] = 0;
+  PeriodicOptions near = without_lead_in({});
+  near.integration     = solution.integration;
   try
   {
     const PeriodicSolution closed =
@@ -212,13 +218,16 @@ namespace
 /// Unknowns of harmonics that were asked for.
 void require_unknowns(const PeriodicProblem &problem, int harmonics)
 {
-  const auto n_u = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
-  if (n_u * (2. * harmonics + 1.) <= most_asked)
+  const auto   n_u = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
+  const double n   = double(n_u) * (2. * harmonics + 1.);
+  if (harmonics > 0)
+    fem::require_available("harmonic balance: the equations of " + std::to_string(harmonics) + " harmonics",
+                           16. * n * n + 128. * n, "Ask for fewer harmonics, or leave their number out.");
+  if (n <= most_asked)
     return;
   std::ostringstream text;
-  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are "
-       << n_u * (2. * harmonics + 1.) << " unknowns; up to " << most_asked << " are handled: ask for at most "
-       << (most_asked / n_u - 1) / 2 << " harmonics";
+  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are " << n << " unknowns; up to "
+       << most_asked << " are handled: ask for at most " << (most_asked / n_u - 1) / 2 << " harmonics";
   throw std::invalid_argument(text.str());
 }
 

@@ -7,7 +7,8 @@ namespace gestell::coupling
 {
 
 /// Number of harmonics that is given; 0: none, it is chosen from the residual.
-int harmonics_of(const PeriodicOptions &options);
+int             harmonics_of(const PeriodicOptions &options);
+PeriodicOptions with_harmonics(PeriodicOptions options, int harmonics);
 
 /// How Newton's method came to r(z) = 0.
 struct HarmonicNewton

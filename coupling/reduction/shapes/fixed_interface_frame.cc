@@ -1,7 +1,5 @@
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 
-#include <Eigen/SparseCore>
-
 #include "coupling/algebra/sparse_cholesky.h"
 #include "coupling/eigensolvers/slepc/mode_search.h"
 #include "coupling/integration/system/dense_solvers.h"
@@ -9,6 +7,8 @@
 #include "fem/assembly/rigid_motions.h"
 #include "fem/mesh/memory_estimate.h"
 #include "fem/values/frame_matrices.h"
+
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
