@@ -6,31 +6,16 @@
 namespace gestell::apps
 {
 
-mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table)
-{
-  mechanism::KlossMotor::Parameters motor;
-  motor.breakdown_torque  = table.value("breakdown_torque");
-  motor.breakdown_slip    = table.value("breakdown_slip");
-  motor.synchronous_speed = table.value("synchronous_speed");
-  motor.ratio             = table.value("ratio");
-  return motor;
-}
-
 std::vector<Key> kloss_keys()
 {
-  const mechanism::KlossMotor::Parameters own;
-  return {key::number("breakdown_torque", kind::torque, "largest torque of the motor").above_zero(),
-          key::number("breakdown_slip", kind::number, "slip at that torque").as_share(),
-          key::number("synchronous_speed", kind::angular_speed, "of the motor; negative: it runs backwards"),
-          key::number("ratio", kind::number, "motor speed / shaft speed").above_zero().by_default(own.ratio)};
-}
-
-/// Measure: angle of the shaft, against the stator.
-void read_asynchronous_motor(const SceneTable &table, const Names &names, Scene &scene)
-{
-  const auto shaft = read_shaft(table, names);
-  const auto motor = read_kloss(table);
-  add_law<mechanism::KlossMotor>(scene, table, motor, shaft);
+  using Motor = mechanism::KlossMotor::Parameters;
+  return {key::number("breakdown_torque", kind::torque, "largest torque of the motor")
+              .above_zero()
+              .into(&Motor::breakdown_torque),
+          key::number("breakdown_slip", kind::number, "slip at that torque").as_share().into(&Motor::breakdown_slip),
+          key::number("synchronous_speed", kind::angular_speed, "of the motor; negative: it runs backwards")
+              .into(&Motor::synchronous_speed),
+          key::number("ratio", kind::number, "motor speed / shaft speed").above_zero().by_default(&Motor::ratio)};
 }
 
 ElementType asynchronous_motor_type()
@@ -39,7 +24,7 @@ ElementType asynchronous_motor_type()
           "Stationary torque over slip, after Kloss.",
           "`torque`, `power`, `slip`",
           joined({shaft_keys(), kloss_keys()}),
-          read_asynchronous_motor,
+          read_law<mechanism::KlossMotor, read_shaft>,
           {R"toml(on                = "crank"
 breakdown_torque  = "240 N m"
 breakdown_slip    = "15 %"

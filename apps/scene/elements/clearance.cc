@@ -6,37 +6,20 @@
 
 namespace gestell::apps
 {
+
 namespace
 {
 
 using mechanism::Clearance;
 
-void add_contact(Scene &scene, const SceneTable &table, const RelativeMotion &motion,
-                 const Clearance::Parameters &contact)
+/// Play to both sides, or contact on one: closed where u > gap, or -u > gap below.
+void read_gap(const SceneTable &table, const Names &names, Scene &scene)
 {
-  add_law<Clearance>(scene, table, contact, motion);
+  const auto motion = read_relative_motion(table, names);
+  add_law<Clearance>(scene, table, read_contact(table, motion.rotation), motion);
 }
 
 } // namespace
-
-void read_clearance(const SceneTable &table, const Names &names, Scene &scene)
-{
-  const auto motion  = read_relative_motion(table, names);
-  auto       contact = read_contact(table, motion.rotation);
-  contact.gap        = table.value("gap", motion.rotation);
-  add_contact(scene, table, motion, contact);
-}
-
-/// One-sided: closed where u > gap, or -u > gap below.
-void read_stop(const SceneTable &table, const Names &names, Scene &scene)
-{
-  const auto motion  = read_relative_motion(table, names);
-  const bool turns   = motion.rotation;
-  auto       contact = read_contact(table, turns);
-  contact.gap        = table.value("gap", turns);
-  contact.stops      = table.choice("side") == "above" ? Clearance::Stops::above : Clearance::Stops::below;
-  add_contact(scene, table, motion, contact);
-}
 
 ElementType clearance_type()
 {
@@ -45,8 +28,11 @@ ElementType clearance_type()
           "`force`, `displacement`",
           joined({motion_keys(),
                   contact_keys(),
-                  {key::number("gap", kind::length, "half of the total play").on_angle(kind::angle).from_zero()}}),
-          read_clearance,
+                  {key::number("gap", kind::length, "half of the total play")
+                       .on_angle(kind::angle)
+                       .from_zero()
+                       .into(&Clearance::Parameters::gap)}}),
+          read_gap,
           {R"toml(from      = "flywheel"               # claws with 0.2 degrees of play to either side
 to        = "crank"
 gap       = "0.2 deg"
@@ -63,17 +49,18 @@ impact_speed = "0.1 m/s"
 
 ElementType stop_type()
 {
-  return {
-      "stop",
-      "Contact on one side: closed where u > gap, or -u > gap below.",
-      "`force`, `displacement`",
-      joined(
-          {motion_keys(),
-           contact_keys(),
-           {key::number("gap", kind::length, "where it closes, may be negative").on_angle(kind::angle).by_default(0.),
-            key::choice("side", {"above", "below"}, true, "on which it stands")}}),
-      read_stop,
-      {R"toml(from      = "slide"
+  return {"stop",
+          "Contact on one side: closed where u > gap, or -u > gap below.",
+          "`force`, `displacement`",
+          joined({motion_keys(),
+                  contact_keys(),
+                  {key::number("gap", kind::length, "where it closes, may be negative")
+                       .on_angle(kind::angle)
+                       .by_default(&Clearance::Parameters::gap),
+                   key::choice("side", {"above", "below"}, true, "on which it stands")
+                       .into(&Clearance::Parameters::stops, {Clearance::Stops::above, Clearance::Stops::below})}}),
+          read_gap,
+          {R"toml(from      = "slide"
 stiffness = "20 kN/mm"
 gap       = "10 mm"
 )toml"}};

@@ -28,15 +28,7 @@ void read_connecting_rod(const SceneTable &table, const Names &names, Scene &sce
     throw table.error("the axes of crank '" + crank.name + "' and slider '" + slider.name +
                       "' are not at right angles");
 
-  mechanism::ConnectingRod::Parameters rod;
-  rod.crank_radius   = table.value("crank_radius");
-  rod.length         = table.value("length");
-  rod.stiffness      = table.value("stiffness");
-  rod.damping        = table.value("damping");
-  rod.closing_length = table.value("closing_length");
-  rod.clearance      = table.value("clearance");
-  rod.oil_damping    = table.value("oil_damping");
-
+  const auto rod = table.filled<mechanism::ConnectingRod::Parameters>();
   add_element(scene, table, checked(table, [&] { return std::make_shared<mechanism::ConnectingRod>(rod); }),
               {{{crank.name, true, crank.axis, 1.}},
                difference(crank.name, slider.name, e, false),
@@ -46,22 +38,22 @@ void read_connecting_rod(const SceneTable &table, const Names &names, Scene &sce
 
 ElementType connecting_rod_type()
 {
-  const mechanism::ConnectingRod::Parameters own;
+  using Rod = mechanism::ConnectingRod::Parameters;
   return {"connecting rod",
           "An elastic rod with play from a crank to a slider; angle 0 of the crank is top dead centre, the slider "
           "furthest back.",
           "`force` along the slider's axis, `rod_force` along the rod, compression positive; `side_force`, "
           "`compression`, `compression_rate`",
           {key::named("from", "rotor with the crank"), key::named("to", "slider, at right angles to the rotor's axis"),
-           key::number("crank_radius", kind::length, "of the crank pin").above_zero(),
-           key::number("length", kind::length, "of the rod").above_zero(),
-           key::number("stiffness", kind::stiffness, "of the rod along itself").above_zero(),
-           key::number("damping", kind::damping, "of the closed chain").from_zero().by_default(own.damping),
+           key::number("crank_radius", kind::length, "of the crank pin").above_zero().into(&Rod::crank_radius),
+           key::number("length", kind::length, "of the rod").above_zero().into(&Rod::length),
+           key::number("stiffness", kind::stiffness, "of the rod along itself").above_zero().into(&Rod::stiffness),
+           key::number("damping", kind::damping, "of the closed chain").from_zero().by_default(&Rod::damping),
            key::number("closing_length", kind::length, "over which the damping fades in")
                .above_zero()
-               .by_default(own.closing_length),
-           key::number("clearance", kind::length, "total play").from_zero().by_default(own.clearance),
-           key::number("oil_damping", kind::damping, "which acts always").from_zero().by_default(own.oil_damping)},
+               .by_default(&Rod::closing_length),
+           key::number("clearance", kind::length, "total play").from_zero().by_default(&Rod::clearance),
+           key::number("oil_damping", kind::damping, "which acts always").from_zero().by_default(&Rod::oil_damping)},
           read_connecting_rod,
           {R"toml(from         = "crank"
 to           = "slide"

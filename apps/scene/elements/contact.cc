@@ -71,9 +71,7 @@ void read_guide_with_play(const SceneTable &table, const Names &names, Scene &sc
   if (std::abs(axis[0] * normal[0] + axis[1] * normal[1] + axis[2] * normal[2]) > 1e-9)
     throw table.error("normal", "must be at right angles to 'axis': the play lies across the guide");
   PointContact::Parameters contact{read_contact(table, false), read_sliding_friction(table)};
-  contact.normal.gap   = table.value("gap");
-  contact.normal.stops = Clearance::Stops::both;
-  const double length  = table.value("length");
+  const double             length = table.value("length");
   for (const double end : {-1., 1.})
   {
     PlaceRequest point = slide;
@@ -115,19 +113,20 @@ friction  = { coefficient = 0.1, static = 0.15, stribeck_speed = "10 mm/s" }
 
 ElementType guide_with_play_type()
 {
-  return {"guide with play",
-          "A slide between two parallel planes of its guide: a contact at each of its four corners.",
-          "of `NAME.rear`, `NAME.front` (the ends against and along `axis`): as of a contact, `normal_force` along "
-          "`normal`",
-          joined({{key::named("from", "guide"), key::named("to", "slide"),
-                   key::vector("at", kind::length, "middle of the slide, as described").by_default("place `to`"),
-                   key::direction("axis", "along the guide"), key::direction("normal", "across it"),
-                   key::number("gap", kind::length, "half of the total play").from_zero(),
-                   key::number("length", kind::length, "of the slide").above_zero()},
-                  contact_keys(),
-                  {sliding_friction_key()}}),
-          read_guide_with_play,
-          {R"toml(from      = "ground"
+  return {
+      "guide with play",
+      "A slide between two parallel planes of its guide: a contact at each of its four corners.",
+      "of `NAME.rear`, `NAME.front` (the ends against and along `axis`): as of a contact, `normal_force` along "
+      "`normal`",
+      joined({{key::named("from", "guide"), key::named("to", "slide"),
+               key::vector("at", kind::length, "middle of the slide, as described").by_default("place `to`"),
+               key::direction("axis", "along the guide"), key::direction("normal", "across it"),
+               key::number("gap", kind::length, "half of the total play").from_zero().into(&Clearance::Parameters::gap),
+               key::number("length", kind::length, "of the slide").above_zero()},
+              contact_keys(),
+              {sliding_friction_key()}}),
+      read_guide_with_play,
+      {R"toml(from      = "ground"
 to        = "lance"
 at        = ["0.9 m", 0, 0]
 axis      = [1, 0, 0]

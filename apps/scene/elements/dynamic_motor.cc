@@ -9,14 +9,13 @@ namespace gestell::apps
 {
 
 /// Of asynchronous motors, stationary or dynamic.
-mechanism::KlossMotor::Parameters read_kloss(const SceneTable &table);
-std::vector<Key>                  kloss_keys();
+std::vector<Key> kloss_keys();
 
 /// Measures: angle of the shaft, against the stator; the torque, a lag.
 void read_dynamic_motor(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto shaft = read_shaft(table, names);
-  const auto motor = read_kloss(table);
+  const auto motor = table.filled<mechanism::KlossMotor::Parameters>();
   if (table.has("time_constant") == table.has("mains_frequency"))
     throw table.error(
         "needs either 'time_constant', with which the torque follows, or 'mains_frequency', from which it "

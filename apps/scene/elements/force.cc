@@ -16,7 +16,7 @@ void read_force(const SceneTable &table, const Names &names, Scene &scene)
   load.name       = table.name();
   load.u          = motion.u;
   load.force_unit = motion.force_unit();
-  load.constant   = table.value("constant", motion.rotation);
+  table.fill(load, motion.rotation);
   for (const auto &part : table.table_array("harmonics"))
     load.oscillations.push_back(
         {2. * M_PI * part.value("frequency"), part.value("amplitude", motion.rotation), part.value("phase")});
@@ -39,7 +39,9 @@ ElementType force_type()
           "`to` against it.",
           "`force` (or `torque`)",
           joined({load_motion_keys(),
-                  {key::number("constant", kind::force, "part of the force").on_angle(kind::torque).by_default(0.),
+                  {key::number("constant", kind::force, "part of the force")
+                       .on_angle(kind::torque)
+                       .by_default(&LoadRequest::constant),
                    key::composed("harmonics", Key::Form::tables, kind::force,
                                  {key::number("amplitude", kind::force, "of the harmonic").on_angle(kind::torque),
                                   key::number("frequency", kind::frequency, "of the harmonic").above_zero(),

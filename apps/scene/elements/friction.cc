@@ -13,20 +13,21 @@ namespace
 using mechanism::CoulombFriction;
 using mechanism::RegularisedFriction;
 
-/// Keys of read_curve().
-std::vector<Key> curve_keys(double exponent)
+/// Stribeck curve and viscous part, which every friction may have.
+template <class Friction>
+std::vector<Key> curve_keys()
 {
   return {key::number("stribeck_speed", kind::speed, "over which the force falls from the static to the kinetic one")
               .on_angle(kind::angular_speed)
               .above_zero()
-              .by_default(0.),
+              .by_default(&Friction::stribeck_speed),
           key::number("stribeck_exponent", kind::number, "n of the fall exp(-(v/v_s)^n), 1 or 2")
               .above_zero()
-              .by_default(exponent),
+              .by_default(&Friction::stribeck_exponent),
           key::number("viscous", kind::damping, "of a damper beside it")
               .on_angle(kind::torsional_damping)
               .from_zero()
-              .by_default(0.)};
+              .by_default(&Friction::viscous)};
 }
 
 Key force_key(const std::string &name, const std::string &meaning)
@@ -34,35 +35,15 @@ Key force_key(const std::string &name, const std::string &meaning)
   return key::number(name, kind::force, meaning).on_angle(kind::torque).from_zero();
 }
 
-/// Stribeck curve and viscous part, which every friction may have.
-template <typename Parameters>
-void read_curve(const SceneTable &table, const RelativeMotion &motion, Parameters &friction)
-{
-  friction.stribeck_speed    = table.value("stribeck_speed", motion.rotation);
-  friction.stribeck_exponent = table.value("stribeck_exponent");
-  friction.viscous           = table.value("viscous", motion.rotation);
-}
-
-void add_friction(const SceneTable &table, const RelativeMotion &motion, const CoulombFriction::Parameters &friction,
-                  Scene &scene)
-{
-  add_law<CoulombFriction>(scene, table, friction, motion);
-}
-
 } // namespace
 
 void read_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                      motion = read_relative_motion(table, names);
-  RegularisedFriction::Parameters friction;
-  friction.force        = table.value("force", motion.rotation);
-  friction.speed        = table.value("speed", motion.rotation);
-  friction.static_force = table.value_or("static_force", friction.force, motion.rotation);
-  read_curve(table, motion, friction);
+  const auto motion = read_relative_motion(table, names);
   if (table.has("static_force") != table.has("stribeck_speed"))
     throw table.error(
         "needs 'static_force' and 'stribeck_speed' together: from where the force falls, and over which speed");
-  add_law<RegularisedFriction>(scene, table, friction, motion);
+  add_law<RegularisedFriction>(scene, table, table.filled<RegularisedFriction::Parameters>(motion.rotation), motion);
 }
 
 /// Truly sticks.  Its two forces are given, or follow from a normal force by their coefficients.
@@ -77,7 +58,7 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
     throw table.error(
         "acts on an angle, where a normal force has no lever; give 'static_force' and 'kinetic_force' as torques");
 
-  CoulombFriction::Parameters friction;
+  auto friction = table.filled<CoulombFriction::Parameters>(motion.rotation);
   if (coefficients)
   {
     const double normal    = table.value("normal_force");
@@ -85,30 +66,27 @@ void read_dry_friction(const SceneTable &table, const Names &names, Scene &scene
     friction.kinetic_force = table.value("kinetic") * normal;
   }
   else
-  {
-    friction.static_force  = table.value("static_force", motion.rotation);
-    friction.kinetic_force = table.value("kinetic_force", motion.rotation);
-  }
+    table.demand({"static_force", "kinetic_force"}, motion.rotation);
   if (friction.static_force < friction.kinetic_force)
     throw table.error(coefficients ? "static" : "static_force",
                       std::string("is below '") + (coefficients ? "kinetic" : "kinetic_force") +
                           "'; what slides would hold more than what sticks, give at least as much");
-  friction.belt_speed = table.value("speed", motion.rotation);
-  read_curve(table, motion, friction);
-  add_friction(table, motion, friction, scene);
+  add_law<CoulombFriction>(scene, table, friction, motion);
 }
 
 /// Keys of brakes and clutches.
 static std::vector<Key> brake_keys()
 {
   return joined({motion_keys(),
-                 {force_key("capacity", "while it slips"),
-                  force_key("static_capacity", "while it sticks").by_default("`capacity`"),
+                 {force_key("capacity", "while it slips").into(&CoulombFriction::Parameters::kinetic_force),
+                  force_key("static_capacity", "while it sticks")
+                      .same_as("capacity")
+                      .into(&CoulombFriction::Parameters::static_force),
                   profile_key("engagement", level_profile(kind::number, "5"),
                               "share of the capacity: a level or ramps from 0 to 1"),
                   key::number("initial_engagement", kind::number, "before the first ramp").from_zero().by_default(0.),
                   waits_key()},
-                 curve_keys(CoulombFriction::Parameters().stribeck_exponent)});
+                 curve_keys<CoulombFriction::Parameters>()});
 }
 
 /// Dry friction that is engaged over time, against the ground or another body.
@@ -116,19 +94,16 @@ void read_brake(const SceneTable &table, const Names &names, Scene &scene)
 {
   const auto motion = constant_motion(read_relative_motion(table, names), names);
   refuse_measure(table, motion);
-  CoulombFriction::Parameters brake;
-  brake.kinetic_force = table.value("capacity", motion.rotation);
-  brake.static_force  = table.value_or("static_capacity", brake.kinetic_force, motion.rotation);
+  auto brake = table.filled<CoulombFriction::Parameters>(motion.rotation);
   if (brake.static_force < brake.kinetic_force)
     throw table.error("static_capacity", "is below 'capacity'; what slides would hold more than what sticks");
-  read_curve(table, motion, brake);
   if (!table.has("engagement"))
     throw table.error(
         "needs 'engagement', a share from 0 to 1: ramps such as [{ at = \"1 s\", to = 1, rate = \"5/s\" }]");
   const double from = table.value("initial_engagement");
   const auto   keys = level_profile(kind::number, "5");
   brake.engagement  = read_course(table, "engagement", keys, from);
-  add_friction(table, motion, brake, scene);
+  add_law<CoulombFriction>(scene, table, brake, motion);
   scene.elements.back().levels = std::make_shared<ProfileKeys>(keys);
 }
 
@@ -141,18 +116,20 @@ void read_clutch(const SceneTable &table, const Names &names, Scene &scene)
 
 ElementType friction_type()
 {
-  const RegularisedFriction::Parameters own;
+  using Friction = RegularisedFriction::Parameters;
   return {"friction",
           "Friction that creeps below a speed instead of sticking.",
           "`force`, `rate`",
           joined({motion_keys(),
-                  {force_key("force", "while it slides"),
+                  {force_key("force", "while it slides").into(&Friction::force),
                    key::number("speed", kind::speed, "at which it is 76 % developed")
                        .on_angle(kind::angular_speed)
                        .above_zero()
-                       .by_default(own.speed),
-                   force_key("static_force", "from which it falls; with `stribeck_speed`").by_default("`force`")},
-                  curve_keys(own.stribeck_exponent)}),
+                       .by_default(&Friction::speed),
+                   force_key("static_force", "from which it falls; with `stribeck_speed`")
+                       .same_as("force")
+                       .into(&Friction::static_force)},
+                  curve_keys<Friction>()}),
           read_friction,
           {R"toml(from  = "slide"
 force = "80 N"
@@ -161,13 +138,19 @@ force = "80 N"
 
 ElementType dry_friction_type()
 {
-  const CoulombFriction::Parameters own;
+  using Friction = CoulombFriction::Parameters;
   return {"dry friction",
           "Friction that truly sticks, along or about a constant direction: meant for located events.",
           "`force`, `rate`",
           joined({motion_keys(),
-                  {force_key("static_force", "while it sticks").by_default("from `static`"),
-                   force_key("kinetic_force", "while it slides").by_default("from `kinetic`"),
+                  {force_key("static_force", "while it sticks")
+                       .by_default("from `static`")
+                       .unless("static")
+                       .into(&Friction::static_force),
+                   force_key("kinetic_force", "while it slides")
+                       .by_default("from `kinetic`")
+                       .unless("kinetic")
+                       .into(&Friction::kinetic_force),
                    key::number("normal_force", kind::force, "by which coefficients are multiplied")
                        .from_zero()
                        .by_default("none"),
@@ -175,8 +158,8 @@ ElementType dry_friction_type()
                    key::number("kinetic", kind::number, "coefficient while it slides").from_zero().by_default(""),
                    key::number("speed", kind::speed, "of the partner, a belt")
                        .on_angle(kind::angular_speed)
-                       .by_default(own.belt_speed)},
-                  curve_keys(own.stribeck_exponent)}),
+                       .by_default(&Friction::belt_speed)},
+                  curve_keys<Friction>()}),
           read_dry_friction,
           {R"toml(from              = "slide"          # stick-slip on a Stribeck curve
 static_force      = "120 N"

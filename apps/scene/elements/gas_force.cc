@@ -5,47 +5,41 @@
 
 namespace gestell::apps
 {
-namespace
-{
-} // namespace
 
 /// Measure: displacement of the piston `from` against `to`.
 void read_gas_force(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                      motion = read_displacement(table, names);
-  mechanism::GasForce::Parameters gas;
-  gas.area             = table.value("area");
-  gas.clearance_volume = table.value("clearance_volume");
-  gas.dead_centre_at   = table.value("dead_centre_at");
-  gas.exponent         = table.value("exponent");
-  gas.back_pressure    = table.value("back_pressure");
-  gas.grows            = table.choice("side") == "above";
+  const auto motion = read_displacement(table, names);
+  auto       gas    = table.filled<mechanism::GasForce::Parameters>();
   if (table.has("suction_pressure") != table.has("delivery_pressure"))
     throw table.error(
         "needs 'suction_pressure' and 'delivery_pressure' together, or neither for gas that stays enclosed");
   if (table.has("suction_pressure"))
     gas.valves = {table.value("suction_pressure"), table.value("delivery_pressure")};
-  gas.initial_pressure =
-      gas.valves ? table.value_or("initial_pressure", gas.valves->suction) : table.value("initial_pressure");
+  else
+    table.demand({"initial_pressure"});
   add_law<mechanism::GasForce>(scene, table, gas, motion);
 }
 
 ElementType gas_force_type()
 {
-  const mechanism::GasForce::Parameters own;
+  using Gas = mechanism::GasForce::Parameters;
   return {
       "gas force",
       "Gas behind a piston, polytropic; with valves that open at two pressures, or enclosed.",
       "`force` along u, `pressure`, `volume`",
       joined({motion_keys(),
-              {key::number("area", kind::area, "of the piston").above_zero(),
-               key::number("clearance_volume", kind::volume, "left at the dead centre").above_zero(),
-               key::number("dead_centre_at", kind::length, "u there").by_default(own.dead_centre_at),
-               key::choice("side", {"above", "below"}, true, "the volume grows with u, or against it"),
-               key::number("exponent", kind::number, "of the polytropic").above_zero().by_default(own.exponent),
+              {key::number("area", kind::area, "of the piston").above_zero().into(&Gas::area),
+               key::number("clearance_volume", kind::volume, "left at the dead centre")
+                   .above_zero()
+                   .into(&Gas::clearance_volume),
+               key::number("dead_centre_at", kind::length, "u there").by_default(&Gas::dead_centre_at),
+               key::choice("side", {"above", "below"}, true, "the volume grows with u, or against it")
+                   .into(&Gas::grows, {true, false}),
+               key::number("exponent", kind::number, "of the polytropic").above_zero().by_default(&Gas::exponent),
                key::number("back_pressure", kind::pressure, "on the other side of the piston")
                    .from_zero()
-                   .by_default(own.back_pressure),
+                   .by_default(&Gas::back_pressure),
                key::number("suction_pressure", kind::pressure, "at which the inlet opens")
                    .above_zero()
                    .by_default("no valves"),
@@ -54,7 +48,8 @@ ElementType gas_force_type()
                    .by_default("no valves"),
                key::number("initial_pressure", kind::pressure, "at the start; demanded without valves")
                    .above_zero()
-                   .by_default("`suction_pressure`")}}),
+                   .same_as("suction_pressure")
+                   .into(&Gas::initial_pressure)}}),
       read_gas_force,
       {R"toml(from              = "slide"          # compressor; a double-acting one has a second with side = "below"
 area              = "100 cm^2"

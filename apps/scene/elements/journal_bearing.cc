@@ -40,14 +40,12 @@ void read_journal_bearing(const SceneTable &table, const Names &names, Scene &sc
     pair.from.at = pair.to.at;
   pair.along = right_handed_plane(*pair.about);
 
-  const auto                            contact = read_contact(table, false);
-  mechanism::JournalBearing::Parameters bearing;
-  bearing.clearance   = table.value("clearance");
+  const auto contact  = read_contact(table, false);
+  auto       bearing  = table.filled<mechanism::JournalBearing::Parameters>();
   bearing.stiffness   = contact.stiffness;
   bearing.dissipation = contact.dissipation;
   bearing.exponent    = contact.exponent;
   bearing.friction    = read_sliding_friction(table);
-  bearing.radius      = table.value("radius");
   if ((bearing.friction.kinetic > 0. || bearing.friction.static_coefficient > 0.) && bearing.radius == 0.)
     throw table.error("needs 'radius' of the journal: its surface slides with radius times the speed of rotation");
   ElementRequest element;
@@ -59,6 +57,7 @@ void read_journal_bearing(const SceneTable &table, const Names &names, Scene &sc
 
 ElementType journal_bearing_type()
 {
+  using Bearing = mechanism::JournalBearing::Parameters;
   return {
       "journal bearing",
       "A journal in a bearing with radial play.",
@@ -68,8 +67,10 @@ ElementType journal_bearing_type()
                key::vector("at_from", kind::length, "centre of the bearing").by_default("`at`"),
                key::vector("at_to", kind::length, "centre of the journal").by_default("`at`"),
                key::direction("axis", "of the bearing"),
-               key::number("clearance", kind::length, "radial play").above_zero(),
-               key::number("radius", kind::length, "of the journal, needed for friction").above_zero().by_default(0.)},
+               key::number("clearance", kind::length, "radial play").above_zero().into(&Bearing::clearance),
+               key::number("radius", kind::length, "of the journal, needed for friction")
+                   .above_zero()
+                   .by_default(&Bearing::radius)},
               contact_keys(),
               {sliding_friction_key()}}),
       read_journal_bearing,

@@ -9,17 +9,8 @@ namespace gestell::apps
 /// Measures: displacement or angle of `from` against `to`; the force of the bristles, a lag.
 void read_lugre_friction(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto motion = constant_motion(read_relative_motion(table, names), names);
-  const bool turns  = motion.rotation;
-
-  mechanism::LuGreFriction::Parameters friction;
-  friction.kinetic_force     = table.value("kinetic_force", turns);
-  friction.static_force      = table.value_or("static_force", friction.kinetic_force, turns);
-  friction.stribeck_speed    = table.value("stribeck_speed", turns);
-  friction.stribeck_exponent = table.value("stribeck_exponent");
-  friction.bristle_stiffness = table.value("bristle_stiffness", turns);
-  friction.bristle_damping   = table.value("bristle_damping", turns);
-  friction.viscous           = table.value("viscous", turns);
+  const auto motion   = constant_motion(read_relative_motion(table, names), names);
+  const auto friction = table.filled<mechanism::LuGreFriction::Parameters>(motion.rotation);
   if (friction.static_force > friction.kinetic_force && !table.has("stribeck_speed"))
     throw table.error("needs 'stribeck_speed', over which the force falls from the static to the kinetic one");
   add_law<mechanism::LuGreFriction>(scene, table, friction, motion,
@@ -28,34 +19,39 @@ void read_lugre_friction(const SceneTable &table, const Names &names, Scene &sce
 
 ElementType lugre_friction_type()
 {
-  const mechanism::LuGreFriction::Parameters own;
+  using Friction = mechanism::LuGreFriction::Parameters;
   return {"lugre friction",
           "Friction with presliding: bristles that bend; method bdf only.",
           "`force`, `rate`, `deflection`",
           joined({motion_keys(),
-                  {key::number("kinetic_force", kind::force, "while it slides").on_angle(kind::torque).above_zero(),
+                  {key::number("kinetic_force", kind::force, "while it slides")
+                       .on_angle(kind::torque)
+                       .above_zero()
+                       .into(&Friction::kinetic_force),
                    key::number("static_force", kind::force, "at the end of presliding")
                        .on_angle(kind::torque)
                        .above_zero()
-                       .by_default("`kinetic_force`"),
+                       .same_as("kinetic_force")
+                       .into(&Friction::static_force),
                    key::number("stribeck_speed", kind::speed, "over which the force falls to the kinetic one")
                        .on_angle(kind::angular_speed)
                        .above_zero()
-                       .by_default(0.),
+                       .by_default(&Friction::stribeck_speed),
                    key::number("stribeck_exponent", kind::number, "of the fall")
                        .above_zero()
-                       .by_default(own.stribeck_exponent),
+                       .by_default(&Friction::stribeck_exponent),
                    key::number("bristle_stiffness", kind::stiffness, "of the bristles")
                        .on_angle(kind::torsional_stiffness)
-                       .above_zero(),
+                       .above_zero()
+                       .into(&Friction::bristle_stiffness),
                    key::number("bristle_damping", kind::damping, "of the bristles")
                        .on_angle(kind::torsional_damping)
                        .from_zero()
-                       .by_default(0.),
+                       .by_default(&Friction::bristle_damping),
                    key::number("viscous", kind::damping, "of a damper beside it")
                        .on_angle(kind::torsional_damping)
                        .from_zero()
-                       .by_default(0.)}}),
+                       .by_default(&Friction::viscous)}}),
           read_lugre_friction,
           {R"toml(from              = "slide"
 static_force      = "120 N"

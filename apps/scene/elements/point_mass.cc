@@ -6,12 +6,9 @@ namespace gestell::apps
 
 void read_point_mass(const SceneTable &table, const Names &names, Scene &scene)
 {
-  PointMassRequest point;
-  point.name    = table.name();
-  point.marker  = names.marker(table, "on");
-  point.mass    = table.value("mass");
-  point.inertia = table.vector_or("inertia", {});
-  point.offset  = table.vector_or("offset", {});
+  auto point   = table.filled<PointMassRequest>();
+  point.name   = table.name();
+  point.marker = names.marker(table, "on");
   if (point.marker == "ground")
     throw table.error("on", "a mass on the ground never moves; name a body or an interface of the frame");
   for (const double J : point.inertia)
@@ -26,10 +23,13 @@ ElementType point_mass_type()
           "A mass, and its inertia, on a body or an interface of the frame.",
           "",
           {key::named("on", "body or frame.INTERFACE that carries it"),
-           key::number("mass", kind::mass, "of the point").above_zero(),
+           key::number("mass", kind::mass, "of the point").above_zero().into(&PointMassRequest::mass),
            key::vector("inertia", kind::inertia, "moments of inertia about the global axes, none negative")
-               .by_default("[0, 0, 0]"),
-           key::vector("offset", kind::length, "from the reference point of what carries it").by_default("[0, 0, 0]")},
+               .by_default("[0, 0, 0]")
+               .into(&PointMassRequest::inertia),
+           key::vector("offset", kind::length, "from the reference point of what carries it")
+               .by_default("[0, 0, 0]")
+               .into(&PointMassRequest::offset)},
           read_point_mass,
           {R"toml(on   = "slide"
 mass = "3 kg"

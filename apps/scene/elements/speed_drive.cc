@@ -19,13 +19,10 @@ const Kind gain_of_angle{"gain over an angle", "300 N m/rad", {2, 1, -2}};
 /// Measures: angle of the shaft, against the stator; the integral, a lag.
 void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto                        shaft = read_shaft(table, names);
-  mechanism::SpeedDrive::Parameters drive;
-  drive.proportional_gain = table.value("proportional_gain");
-  drive.integral_gain     = table.value("integral_gain");
-  drive.largest_torque    = table.value("largest_torque");
-  const double from       = table.value("initial_speed");
-  drive.input             = read_input(table, "speed", from);
+  const auto   shaft = read_shaft(table, names);
+  auto         drive = table.filled<mechanism::SpeedDrive::Parameters>();
+  const double from  = table.value("initial_speed");
+  drive.input        = read_input(table, "speed", from);
   if (!drive.input)
     drive.speed = read_free_course(table, "speed", speed_profile(), from);
   const auto element = checked(table, [&] { return std::make_shared<mechanism::SpeedDrive>(drive); });
@@ -36,35 +33,36 @@ void read_speed_drive(const SceneTable &table, const Names &names, Scene &scene)
 
 ElementType speed_drive_type()
 {
-  const mechanism::SpeedDrive::Parameters own;
-  return {
-      "speed drive",
-      "Torque k_p (speed - actual) + k_i times its integral, limited without winding up; method bdf only.",
-      "`torque`, `power`, `wanted_speed`, `speed_error`, `integral`",
-      joined(
-          {shaft_keys(),
-           {or_input(course_key("speed", speed_profile(), "wanted speed: a level, ramps or a function of time")),
-            key::number("proportional_gain", gain, "k_p").above_zero(),
-            key::number("integral_gain", gain_of_angle, "k_i").from_zero().by_default(own.integral_gain),
-            key::number("largest_torque", kind::torque, "to either side").above_zero().by_default(own.largest_torque),
-            key::number("initial_speed", kind::angular_speed, "before the first ramp").by_default(0.), waits_key()}}),
-      read_speed_drive,
-      {R"toml(on                = "crank"           # run-up without a jerk, and down again
+  using Drive = mechanism::SpeedDrive::Parameters;
+  return {"speed drive",
+          "Torque k_p (speed - actual) + k_i times its integral, limited without winding up; method bdf only.",
+          "`torque`, `power`, `wanted_speed`, `speed_error`, `integral`",
+          joined({shaft_keys(),
+                  {or_input(course_key("speed", speed_profile(), "wanted speed: a level, ramps or a function of time")),
+                   key::number("proportional_gain", gain, "k_p").above_zero().into(&Drive::proportional_gain),
+                   key::number("integral_gain", gain_of_angle, "k_i").from_zero().by_default(&Drive::integral_gain),
+                   key::number("largest_torque", kind::torque, "to either side")
+                       .above_zero()
+                       .by_default(&Drive::largest_torque),
+                   key::number("initial_speed", kind::angular_speed, "before the first ramp").by_default(0.),
+                   waits_key()}}),
+          read_speed_drive,
+          {R"toml(on                = "crank"           # run-up without a jerk, and down again
 proportional_gain = "200 N m s/rad"
 integral_gain     = "4000 N m/rad"
 largest_torque    = "2 kN m"
 speed = [{ at = "0.1 s", to = "30 1/min", acceleration = "10 rad/s^2", jerk = "200 rad/s^3" },
          { at = "4 s", to = 0, acceleration = "5 rad/s^2" }]
 )toml",
-       R"toml(on                = "crank"
+           R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 speed             = { table = [["0 s", 0], ["1 s", 3], ["2 s", 10]], period = "2 s", rise = 10 }
 )toml",
-       R"toml(on                = "crank"
+           R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 speed             = { function = "10 rad/s*sin(2*pi*t/(2 s))", period = "2 s" }
 )toml",
-       R"toml(on                = "crank"
+           R"toml(on                = "crank"
 proportional_gain = "200 N m s/rad"
 initial_speed     = "30 1/min"
 speed             = { input = "w" }

@@ -10,42 +10,41 @@ namespace gestell::apps
 /// growth.
 void read_spring_damper(const SceneTable &table, const Names &names, Scene &scene)
 {
-  const auto   motion    = read_relative_motion(table, names);
-  const bool   turns     = motion.rotation;
-  const double stiffness = table.value("stiffness", turns);
-  const double damping   = table.value("damping", turns);
-  const double preload   = table.value("preload", turns);
-  const double rest      = table.value("rest", turns);
+  const auto motion = read_relative_motion(table, names);
+  const auto spring = table.filled<mechanism::SpringDamper::Parameters>(motion.rotation);
   // A value may be varied down to zero; what is not given at all was forgotten.
   if (!table.has("stiffness") && !table.has("damping") && !table.has("preload"))
     throw table.error("needs 'stiffness', 'damping' or 'preload'; with none of them it would do nothing");
   if (!motion.is_measure())
-    scene.linear.push_back({table.name(), motion.u, stiffness, damping, preload, rest, motion.force_unit()});
+    scene.linear.push_back(
+        {table.name(), motion.u, spring.stiffness, spring.damping, spring.preload, spring.rest, motion.force_unit()});
   else
-    add_element_on(scene, table,
-                   std::make_shared<mechanism::SpringDamper>(
-                       mechanism::SpringDamper::Parameters{stiffness, damping, preload, rest}),
-                   motion);
+    add_law<mechanism::SpringDamper>(scene, table, spring, motion);
 }
 
 ElementType spring_damper_type()
 {
-  return {
-      "spring-damper",
-      "F = preload + c (u - rest) + b u' acts on `to` along the direction and on `from` against it.",
-      "`force` (or `torque`), `displacement`, `rate`",
-      joined({motion_keys(),
-              {key::number("stiffness", kind::stiffness, "c")
-                   .on_angle(kind::torsional_stiffness)
-                   .from_zero()
-                   .by_default(0.),
-               key::number("damping", kind::damping, "b").on_angle(kind::torsional_damping).from_zero().by_default(0.),
-               key::number("preload", kind::force, "force at u = rest").on_angle(kind::torque).by_default(0.),
-               key::number("rest", kind::length, "u without the force of the spring")
-                   .on_angle(kind::angle)
-                   .by_default(0.)}}),
-      read_spring_damper,
-      {R"toml(from      = "slide"
+  using Spring = mechanism::SpringDamper::Parameters;
+  return {"spring-damper",
+          "F = preload + c (u - rest) + b u' acts on `to` along the direction and on `from` against it.",
+          "`force` (or `torque`), `displacement`, `rate`",
+          joined({motion_keys(),
+                  {key::number("stiffness", kind::stiffness, "c")
+                       .on_angle(kind::torsional_stiffness)
+                       .from_zero()
+                       .by_default(&Spring::stiffness),
+                   key::number("damping", kind::damping, "b")
+                       .on_angle(kind::torsional_damping)
+                       .from_zero()
+                       .by_default(&Spring::damping),
+                   key::number("preload", kind::force, "force at u = rest")
+                       .on_angle(kind::torque)
+                       .by_default(&Spring::preload),
+                   key::number("rest", kind::length, "u without the force of the spring")
+                       .on_angle(kind::angle)
+                       .by_default(&Spring::rest)}}),
+          read_spring_damper,
+          {R"toml(from      = "slide"
 stiffness = "200 N/mm"
 damping   = "50 N s/m"
 )toml"}};

@@ -13,23 +13,20 @@ void read_wheel(const SceneTable &table, const Names &names, Scene &scene)
   if (motion.rotation)
     throw table.error("stands on the ground along a displacement, not on an angle; give 'direction' or a measure of a "
                       "length");
-  mechanism::Wheel::Parameters wheel;
-  wheel.stiffness = table.value("stiffness");
-  wheel.damping   = table.value("damping");
-  wheel.bilateral = table.truth("bilateral");
-  add_law<mechanism::Wheel>(scene, table, wheel, motion);
+  add_law<mechanism::Wheel>(scene, table, table.filled<mechanism::Wheel::Parameters>(), motion);
 }
 
 ElementType wheel_type()
 {
+  using Wheel = mechanism::Wheel::Parameters;
   return {"wheel",
           "A tyre on the ground: F = -c u - d u' pushes up and lifts off; u is the height of the hub above the "
           "position in which the tyre is just unloaded.",
           "`force`, `compression`",
           joined({motion_keys(),
-                  {key::number("stiffness", kind::stiffness, "c of the tyre").above_zero(),
-                   key::number("damping", kind::damping, "d of the tyre").from_zero().by_default(0.),
-                   key::truth("bilateral", false, "stands always")}}),
+                  {key::number("stiffness", kind::stiffness, "c of the tyre").above_zero().into(&Wheel::stiffness),
+                   key::number("damping", kind::damping, "d of the tyre").from_zero().by_default(&Wheel::damping),
+                   key::truth("bilateral", false, "stands always").into(&Wheel::bilateral)}}),
           read_wheel,
           {R"toml(from      = "slide"
 stiffness = "600 N/mm"

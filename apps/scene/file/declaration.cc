@@ -75,6 +75,21 @@ Key Key::by_default(const std::string &words) const
   return changed(*this, [&](Key &key) { key.demanded = false, key.fallback.reset(), key.otherwise = words; });
 }
 
+Key Key::same_as(const std::string &other) const
+{
+  return changed(by_default("`" + other + "`"), [&](Key &key) { key.source = other; });
+}
+
+Key Key::unless(const std::string &other) const
+{
+  return changed(*this, [&](Key &key) { key.substitute = other; });
+}
+
+Key Key::filling(const std::type_info &type, decltype(fill) filler) const
+{
+  return changed(*this, [&](Key &key) { key.object = &type, key.fill = filler; });
+}
+
 namespace key
 {
 

@@ -2,18 +2,35 @@
 
 #include "apps/scene/language/quantity.h"
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
+#include <typeinfo>
 #include <vector>
 
 namespace gestell::apps
 {
 
+class SceneTable;
+struct Key;
+
+// The value of a key as a member has it: number, number that may be missing, vector or direction, truth, whole number.
+void        read_into(double &member, const SceneTable &table, const Key &key, bool on_angle);
+void        read_into(std::optional<double> &member, const SceneTable &table, const Key &key, bool on_angle);
+void        read_into(std::array<double, 3> &member, const SceneTable &table, const Key &key, bool on_angle);
+void        read_into(bool &member, const SceneTable &table, const Key &key, bool on_angle);
+void        read_into(int &member, const SceneTable &table, const Key &key, bool on_angle);
+std::size_t chosen(const SceneTable &table, const Key &key); ///< index of the choice
+
 /**
- * What a key of a table takes.  Its reader, `gestell help`, the schema for editors and the tables of docs/scene are
- * made from it:
+ * What a key of a table takes, and the member that its value goes to.  Its reader (SceneTable::fill()), `gestell help`,
+ * the schema for editors and the tables of docs/scene are made from it:
  *
- *     key::number("stiffness", kind::stiffness, "of the rope").on_angle(kind::torsional_stiffness).above_zero()
+ *     key::number("stiffness", kind::stiffness, "of the rope")
+ *         .on_angle(kind::torsional_stiffness)
+ *         .above_zero()
+ *         .into(&Rope::Parameters::stiffness)
  */
 struct Key
 {
@@ -57,10 +74,16 @@ struct Key
   std::optional<Kind>      angular; ///< kind where the motion is an angle
   Range                    range    = Range::any;
   bool                     demanded = true;
-  std::optional<double>    fallback;  ///< SI
-  std::string              otherwise; ///< what holds without the key, in words
-  std::vector<std::string> choices{}; ///< the first is the default of a key that may be left out
-  std::vector<Key>         keys{};    ///< of its tables
+  std::optional<double>    fallback;     ///< SI
+  std::string              otherwise;    ///< what holds without the key, in words
+  std::vector<std::string> choices{};    ///< the first is the default of a key that may be left out
+  std::vector<Key>         keys{};       ///< of its tables
+  std::string              source{};     ///< key whose value it has where it is left out
+  std::string              substitute{}; ///< key that tells the same, so that this one is not read
+
+  /// Class of the object whose member it fills, and what fills it; null: a reader asks for the key by name.
+  const std::type_info                                                                     *object = nullptr;
+  std::function<void(void *object, const SceneTable &table, const Key &key, bool on_angle)> fill{};
 
   Key also(const std::vector<Form> &forms) const;
   Key on_angle(const Kind &kind) const;
@@ -71,6 +94,31 @@ struct Key
   Key as_share() const;
   Key by_default(double value) const;
   Key by_default(const std::string &words) const; ///< "" for nothing to tell
+  Key same_as(const std::string &key) const;      ///< by default
+  Key unless(const std::string &other) const;     ///< demanded where there is no key `other`, else left alone
+
+  template <class Object, class Member>
+  Key into(Member Object::*member) const
+  {
+    return filling(typeid(Object), [member](void *object, const SceneTable &table, const Key &key, bool on_angle)
+                   { read_into(static_cast<Object *>(object)->*member, table, key, on_angle); });
+  }
+  /// Of a choice: what each of the choices means.
+  template <class Object, class Member>
+  Key into(Member Object::*member, const std::vector<Member> &meanings) const
+  {
+    return filling(typeid(Object), [member, meanings](void *object, const SceneTable &table, const Key &key, bool)
+                   { static_cast<Object *>(object)->*member = meanings[chosen(table, key)]; });
+  }
+  /// As into(); the default is the initial value of the member.
+  template <class Object, class Member>
+  Key by_default(Member Object::*member) const
+  {
+    return into(member).by_default(Object().*member);
+  }
+
+private:
+  Key filling(const std::type_info &type, decltype(fill) filler) const;
 };
 
 namespace key

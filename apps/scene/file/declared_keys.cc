@@ -1,10 +1,55 @@
 #include "apps/scene/file/expected_values.h"
 #include "apps/scene/file/scene_table.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace gestell::apps
 {
+
+void read_into(double &member, const SceneTable &table, const Key &key, bool on_angle)
+{
+  member = table.value(key.source.empty() || table.has(key.name) ? key.name : key.source, on_angle);
+}
+
+void read_into(std::optional<double> &member, const SceneTable &table, const Key &key, bool on_angle)
+{
+  read_into(member.emplace(), table, key, on_angle);
+}
+
+void read_into(std::array<double, 3> &member, const SceneTable &table, const Key &key, bool)
+{
+  member = key.form == Key::Form::direction ? table.direction(key.name) : table.vector(key.name);
+}
+
+void read_into(bool &member, const SceneTable &table, const Key &key, bool)
+{
+  member = table.truth(key.name);
+}
+
+void read_into(int &member, const SceneTable &table, const Key &key, bool)
+{
+  member = table.whole(key.name);
+}
+
+std::size_t chosen(const SceneTable &table, const Key &key)
+{
+  return std::find(key.choices.begin(), key.choices.end(), table.choice(key.name)) - key.choices.begin();
+}
+
+void SceneTable::fill(void *object, const std::type_info &type, bool on_angle) const
+{
+  const auto is_read = [&](const Key &key)
+  {
+    if (!key.substitute.empty())
+      return !has(key.substitute);
+    return key.demanded || key.fallback || key.form == Key::Form::choice || has(key.name) ||
+           (!key.source.empty() && has(key.source));
+  };
+  for (const Key &key : *keys_)
+    if (key.object && *key.object == type && is_read(key))
+      key.fill(object, *this, key, on_angle);
+}
 
 SceneTable SceneTable::declared(const std::vector<Key> &keys) const
 {
@@ -56,6 +101,12 @@ double SceneTable::value(const std::string &key, bool on_angle) const
   if (const std::string words = unexpected_words(key, kind, value); !words.empty())
     warn(key, words);
   return value;
+}
+
+void SceneTable::demand(std::initializer_list<const char *> numbers, bool on_angle) const
+{
+  for (const char *key : numbers)
+    value(key, on_angle);
 }
 
 double SceneTable::value_or(const std::string &key, double otherwise, bool on_angle) const

@@ -37,7 +37,23 @@ public:
 
   // Of declared keys: kind, range, choices and default are those of the declaration.
 
+  /// Gives the members of `object` that keys go into (Key::into()) their values; those of keys that are left out and
+  /// have no default as a number keep theirs.
+  template <class Object>
+  void fill(Object &object, bool on_angle = false) const
+  {
+    fill(&object, typeid(Object), on_angle);
+  }
+  template <class Object>
+  Object filled(bool on_angle = false) const
+  {
+    Object object;
+    fill(object, on_angle);
+    return object;
+  }
+
   double value(const std::string &key, bool on_angle = false) const;
+  void demand(std::initializer_list<const char *> numbers, bool on_angle = false) const; ///< that may else be left out
   /// @param otherwise  in place of a default
   double      value_or(const std::string &key, double otherwise, bool on_angle = false) const;
   std::string choice(const std::string &key) const;
@@ -114,6 +130,7 @@ private:
   using Warnings = std::shared_ptr<std::vector<std::string>>; ///< shared by all tables of a scene
   SceneTable(const SceneNode &node, const Parameters &parameters, const std::string &path, const std::string &name,
              const Warnings &warnings);
+  void fill(void *object, const std::type_info &type, bool on_angle) const;
   /// Of tables of a declared key the keys are declared, too.
   SceneTable inner(SceneTable table, const std::string &key) const;
   SceneTable below(const SceneNode &node, const std::string &path, const std::string &name) const;

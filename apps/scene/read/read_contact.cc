@@ -28,18 +28,17 @@ Kind stiffness_of(double exponent, bool turns)
 
 std::vector<Key> contact_keys()
 {
-  const Clearance::Parameters own;
   return {
       key::number("stiffness", kind::stiffness, "of the contact; in N/m^n a plain number")
           .on_angle(kind::torsional_stiffness)
           .above_zero(),
       key::number("exponent", kind::number, "n of the force c d^n; 1.5 after Hertz")
           .above_zero()
-          .by_default(own.exponent),
+          .by_default(&Clearance::Parameters::exponent),
       key::number("dissipation", dissipation, "factor of Hunt and Crossley")
           .on_angle(torsional_dissipation)
           .from_zero()
-          .by_default(0.),
+          .by_default(&Clearance::Parameters::dissipation),
       key::number("restitution", kind::number, "share of its speed that a free body keeps, in place of `dissipation`")
           .as_share()
           .by_default(""),
@@ -52,18 +51,23 @@ std::vector<Key> contact_keys()
 
 Key sliding_friction_key()
 {
-  const mechanism::SlidingFriction own;
+  using Friction = mechanism::SlidingFriction;
   return key::composed(
              "friction", Key::Form::coefficient, kind::number,
-             {key::number("coefficient", kind::number, "while it slides").from_zero(),
-              key::number("speed", kind::speed, "at which it is 76 % developed").above_zero().by_default(own.speed),
+             {key::number("coefficient", kind::number, "while it slides").from_zero().into(&Friction::kinetic),
+              key::number("speed", kind::speed, "at which it is 76 % developed")
+                  .above_zero()
+                  .by_default(&Friction::speed),
               key::number("static", kind::number, "from which it falls; with `stribeck_speed`")
                   .from_zero()
-                  .by_default(""),
-              key::number("stribeck_speed", kind::speed, "over which it falls").above_zero().by_default(0.),
+                  .by_default("")
+                  .into(&Friction::static_coefficient),
+              key::number("stribeck_speed", kind::speed, "over which it falls")
+                  .above_zero()
+                  .by_default(&Friction::stribeck_speed),
               key::number("stribeck_exponent", kind::number, "of the fall, 1 or 2")
                   .above_zero()
-                  .by_default(own.stribeck_exponent)},
+                  .by_default(&Friction::stribeck_exponent)},
              "coefficient of sliding friction, or its table")
       .from_zero()
       .by_default("none");
@@ -72,9 +76,8 @@ Key sliding_friction_key()
 Clearance::Parameters read_contact(const SceneTable &table, bool turns)
 {
   Clearance::Parameters contact;
-  contact.exponent    = table.value("exponent");
-  contact.stiffness   = table.positive("stiffness", stiffness_of(contact.exponent, turns));
-  contact.dissipation = table.value("dissipation", turns);
+  table.fill(contact, turns);
+  contact.stiffness = table.positive("stiffness", stiffness_of(contact.exponent, turns));
   if (table.has("restitution") != table.has("impact_speed"))
     throw table.error("needs 'restitution' and 'impact_speed' together: how much of its speed a body keeps depends on "
                       "how fast it comes");
@@ -101,16 +104,11 @@ mechanism::SlidingFriction read_sliding_friction(const SceneTable &any)
     friction.kinetic = table.value("friction");
     return friction;
   }
-  const SceneTable own       = table.table("friction");
-  friction.kinetic           = own.value("coefficient");
-  friction.speed             = own.value("speed");
-  friction.stribeck_speed    = own.value("stribeck_speed");
-  friction.stribeck_exponent = own.value("stribeck_exponent");
+  const SceneTable own = table.table("friction");
+  own.fill(friction);
   if (own.has("static") != own.has("stribeck_speed"))
     throw own.error("needs 'static' and 'stribeck_speed' together: from where the coefficient falls, and over which "
                     "speed");
-  if (own.has("static"))
-    friction.static_coefficient = own.value("static");
   if (own.has("static") && friction.static_coefficient < friction.kinetic)
     throw own.error("static", "is below 'coefficient'; what slides would hold more than what sticks");
   return friction;

@@ -69,6 +69,14 @@ void add_law(Scene &scene, const SceneTable &table, const Parameters &parameters
   add_element_on(scene, table, checked(table, [&] { return std::make_shared<Law>(parameters); }), motion, lags);
 }
 
+/// Reads an element that is one law of one motion, and whose keys fill its parameters.
+template <typename Law, RelativeMotion (*read_motion)(const SceneTable &, const Names &) = read_relative_motion>
+void read_law(const SceneTable &table, const Names &names, Scene &scene)
+{
+  const RelativeMotion motion = read_motion(table, names);
+  add_law<Law>(scene, table, table.filled<typename Law::Parameters>(motion.rotation), motion);
+}
+
 /// The same motion without a measure, where that is one along or about constant directions; else as it is.
 RelativeMotion constant_motion(const RelativeMotion &motion, const Names &names);
 /// For elements that need a motion along a constant direction. @throws std::invalid_argument if it is a measure
