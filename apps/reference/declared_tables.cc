@@ -1,22 +1,19 @@
 #include "apps/reference/declared_tables.h"
 
+#include "apps/scene/bodies/body_types.h"
 #include "apps/scene/elements/element_types.h"
+#include "apps/scene/joints/compliance.h"
+#include "apps/scene/joints/joint_friction.h"
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/matrix_keys.h"
-#include "apps/scene/read/frame/parts_keys.h"
-#include "apps/scene/read/joint_keys.h"
-#include "apps/scene/read/read_bodies.h"
-#include "apps/scene/read/read_compliance.h"
+#include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/read_contact.h"
 #include "apps/scene/read/read_function.h"
-#include "apps/scene/read/read_joint_friction.h"
 #include "apps/scene/read/read_material.h"
 #include "apps/scene/read/read_motion.h"
 #include "apps/scene/read/read_output.h"
 #include "apps/scene/read/read_part.h"
 #include "apps/scene/read/read_run.h"
-#include "apps/scene/read/read_stages.h"
-#include "apps/scene/read/read_stress.h"
 #include "apps/scene/read/read_switches.h"
 #include "apps/scene/read/relative_motion.h"
 #include "apps/scene/scene_keys.h"
@@ -32,9 +29,10 @@ namespace
 
 using Tables = std::vector<DeclaredTable>;
 
-void add_types(Tables &tables, const std::string &family, const std::vector<TypeOfTable> &types)
+template <class Type>
+void add_types(Tables &tables, const std::string &family, const std::vector<Type> &types)
 {
-  for (const TypeOfTable &type : types)
+  for (const Type &type : types)
     tables.push_back(
         {family + "." + type.name, "[" + family + ".NAME]", type.name, type.does, type.signals, type.keys, {}});
 }

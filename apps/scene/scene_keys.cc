@@ -136,10 +136,11 @@ const std::vector<Key> &start_keys()
             .by_default("0"),
         coordinates("v", kind::speed, kind::angular_speed, "given and steady: their rates; of a static start warned of")
             .by_default("0"),
-        key::truth("drift", false, "static: with the velocity of the quasi-static drift"),
+        key::truth("drift", false, "static: with the velocity of the quasi-static drift").into(&StartRequest::drift),
         key::truth("inertia_relief", false,
                    "static: loads along motions that nothing holds are taken by the inertia of the machine; without it "
-                     "they are refused"),
+                     "they are refused")
+            .into(&StartRequest::inertia_relief),
         key::map("angles", kind::angle, {}, rotors + "`{ crank = \"120 deg\" }`")
             .by_default("by the balance of the `driver`"),
         key::map("speeds", kind::angular_speed, {}, rotors + "`{ crank = \"30 rpm\" }`").by_default("0"),
@@ -163,7 +164,7 @@ const std::vector<Key> &modes_keys()
           "number", Key::Form::whole,
           "how many; 0: none, so that a run tells its motion alone. Runs of more than 600 coordinates leave them "
           "out by themselves, and say so")
-          .by_default(ModesRequest().number)};
+          .by_default(&ModesRequest::number)};
   return keys;
 }
 

@@ -1,6 +1,6 @@
 #include "apps/session/basin_answer.h"
 
-#include "apps/scene/build/coordinate_sign.h"
+#include "apps/scene/build/build_machine.h"
 #include "apps/session/option_value.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/periodic/trace_orbit.h"
@@ -26,7 +26,7 @@ constexpr double excursions     = 2.; ///< of the motions, that the plane reache
 struct PlaneSide
 {
   std::string                              name;
-  int                                      index = 0; ///< in (q, q')
+  int                                      index = 0;  ///< in (q, q')
   double                                   sign  = 1.; ///< in it, of what the name names
   std::optional<std::pair<double, double>> ends;
 };

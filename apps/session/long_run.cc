@@ -1,6 +1,6 @@
 #include "apps/session/long_run.h"
 
-#include "apps/scene/build/coordinate_sign.h"
+#include "apps/scene/build/build_machine.h"
 #include "apps/session/phase_planes.h"
 #include "coupling/machine/accelerations.h"
 #include "coupling/periodic/periodic_methods.h"

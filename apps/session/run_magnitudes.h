@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/file/unexpected_values.h"
+#include "apps/scene/file/expected_values.h"
 #include "apps/scene/values/requests.h"
 #include "coupling/machine/machine.h"
 #include "coupling/simulation/resumable_run.h"

@@ -1,7 +1,7 @@
 #include "apps/session/session.h"
 
 #include "apps/output/text/settings_text.h"
-#include "apps/scene/build/coordinate_sign.h"
+#include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/result_window.h"
 #include "apps/scene/file/scene_file.h"

@@ -1,17 +1,184 @@
 #include "apps/scene/build/build_machine.h"
 
-#include "apps/scene/build/build_joints.h"
+#include "apps/scene/bodies/body_types.h"
 #include "apps/scene/build/build_measures.h"
-#include "apps/scene/build/build_unbalance.h"
 #include "apps/scene/build/carried_bodies.h"
+#include "apps/scene/joints/compliance.h"
+#include "apps/scene/joints/joint_friction.h"
+#include "apps/scene/joints/joint_types.h"
+#include "apps/scene/language/parse_quantity.h"
+#include "apps/scene/language/quantity.h"
+#include "apps/scene/values/requests.h"
+#include "coupling/machine/machine.h"
 #include "coupling/reduction/dense_frame.h"
+#include "mechanism/elements/unbalance.h"
+#include "mechanism/transmitted_element.h"
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <regex>
+#include <stdexcept>
 
 namespace gestell::apps
 {
 namespace
 {
+
+using mechanism::RelativeMeasure;
+
+/// What a joint looks like: a bar, a pin; of others only the points where they hold.
+void draw_joint(coupling::MachineModel &machine, const JointRequest &joint, JointType::Drawn drawn, const Pair &pair)
+{
+  draw_places(machine, joint.from, joint.to);
+  if (drawn == JointType::Drawn::bar)
+    machine.draw_bar({joint.name, placed(machine, joint.from), placed(machine, joint.to)});
+  if (drawn != JointType::Drawn::pin)
+    return;
+  if (joint.axis != Vector3{})
+    machine.draw_pin({placed(machine, joint.from), joint.axis});
+  else if (const coupling::Body *body = pair.planar())
+    machine.draw_pin({placed(machine, joint.from), body->axis});
+}
+
+/// What a switch compares its signal with is told in the unit of the signal.
+void check_level(const coupling::MachineModel &machine, const SwitchRequest &request, const Quantity &level,
+                 const std::string &what)
+{
+  const coupling::Signal signal = machine.signal(request.request.name, request.request.signal);
+  if (!level.checked || signal.unit.empty() || signal.unit == "1")
+    return;
+  const Quantity unit = parse_quantity("1 " + signal.unit, [](const std::string &) { return std::nullopt; });
+  if (!equal(unit.dimension, level.dimension))
+    throw std::invalid_argument("the signal \"" + request.request.signal + "\" is in " + signal.unit + ", but the " +
+                                what + " is " + describe(level.dimension));
+  const Kind kind{what + " of a signal in " + signal.unit, "20 1/min", unit.dimension,
+                  unit.counts == Counts::radians ? Counts::turns : Counts::nothing};
+  value_as(level, kind, describe(level.dimension));
+}
+
+/// The joints and switches of a scene, in the machine; bodies and elements must be there.
+void add_joint(coupling::MachineModel &machine, const JointRequest &joint)
+{
+  if (joint.is_scalar())
+  {
+    add_measure_joint(machine, joint);
+    return;
+  }
+  const JointType &type = joint_type(joint.type);
+  const Pair       pair(machine, joint.from, joint.to);
+  const bool       directed = joint.compliance && joint.compliance->directed;
+  JointEquations   equations(pair, directed, carrier_of(joint, pair));
+  type.demand(equations, joint);
+  if (equations.list.empty())
+    throw std::invalid_argument("holds nothing: neither body can move in the way the joint forbids");
+  Pair felt = pair;
+  equations.leave_out_idle(felt);
+  if (joint.compliance)
+  {
+    equations.join_translations(felt);
+    const auto yielding = compliant_joint(joint, equations, felt);
+    machine.attach(joint.name, yielding, felt.measures);
+  }
+  else
+    machine.attach(joint.name,
+                   std::make_shared<mechanism::IdealJoint>(felt.first, felt.second, equations.list, joint.law),
+                   felt.measures);
+  if (joint.friction)
+    add_joint_friction(machine, joint, type.friction, pair, equations.list);
+  draw_joint(machine, joint, type.drawn, pair);
+}
+
+/// Attaches a law that acts between two places, on the measures of its PairRequest.
+void attach_between(coupling::MachineModel &machine, const ElementRequest &element)
+{
+  const PairRequest           &request = *element.pair;
+  const Pair                   pair(machine, request.from, request.to);
+  std::vector<RelativeMeasure> measures;
+  const coupling::Body        *planar = pair.planar();
+  if (request.about && planar && std::abs(vector(planar->axis).dot(vector(*request.about))) < 1. - 1e-9)
+    throw std::invalid_argument("its axis must stand across the plane of \"" + planar->name +
+                                "\", which turns about its normal only");
+  for (const Vector3 &a : request.along)
+    measures.push_back(seen_from_first(vector(a)));
+  if (request.about)
+    measures.push_back(pair.in_space() ? angle_about(vector(*request.about))
+                                       : rotation_about(pair, vector(*request.about), 1.));
+  machine.attach(
+      element.name,
+      std::make_shared<mechanism::TransmittedElement>(pair.first, pair.second, std::move(measures), element.element),
+      pair.measures);
+  draw_places(machine, request.from, request.to);
+  if (request.about)
+    machine.draw_pin({placed(machine, request.to), *request.about});
+}
+
+void add_switch(coupling::MachineModel &machine, const SwitchRequest &request)
+{
+  machine.add_switch(request.request); // refuses a signal that there is not, in words of its own
+  check_level(machine, request, request.level, "level");
+  if (request.hysteresis)
+    check_level(machine, request, *request.hysteresis, "hysteresis");
+}
+
+using coupling::operator*, coupling::operator+; // of measures
+
+Vector3 cross(const Vector3 &a, const Vector3 &b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vector3 &a, const Vector3 &b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// e . (translation + rotation x arm) = e . translation + (arm x e) . rotation
+coupling::Measure moved_along(const Vector3 &e, const coupling::Marker &marker, const Vector3 &arm)
+{
+  const Vector3     turned = cross(arm, e);
+  coupling::Measure u;
+  for (int d = 0; d < 3; ++d)
+    u = u + e[d] * marker.translation[d] + turned[d] * marker.rotation[d];
+  return u;
+}
+
+/// Places beside a carrier that turns by any angle are carried round, which small motions are not.
+void refuse_carried_round(const coupling::MachineModel &machine, const BodyRequest &rotor, const Vector3 &arm)
+{
+  for (const coupling::Body &body : machine.bodies())
+    if (body.name == rotor.carrier && body.kind != coupling::BodyKind::slider &&
+        body.kind != coupling::BodyKind::point && dot(cross(arm, body.axis), cross(arm, body.axis)) > 0.)
+      throw std::invalid_argument(
+          "the unbalance lies beside \"" + rotor.carrier +
+          "\", which turns by any angle and would "
+          "carry it round; put unbalance_position on its axis, or the rotor on a body of its own");
+}
+
+/// Attaches the unbalance of a rotor as an element "NAME unbalance": along e_1, the first global axis across the
+/// rotor's axis a, and e_2 = a x e_1.
+/// @throws std::invalid_argument for an unbalance beside a carrier that turns by any angle
+void attach_unbalance(coupling::MachineModel &machine, const BodyRequest &rotor, const Vector3 &gravity)
+{
+  const coupling::Marker &carrier = machine.marker(rotor.carrier);
+  const Vector3           e_1 = coupling::plane_across(rotor.axis).first, e_2 = cross(rotor.axis, e_1);
+  Vector3                 arm{};
+  if (rotor.unbalance->position && rotor.carrier != "ground")
+  {
+    const Vector3 origin = machine.position(rotor.carrier);
+    for (int d = 0; d < 3; ++d)
+      arm[d] = (*rotor.unbalance->position)[d] - origin[d];
+  }
+  refuse_carried_round(machine, rotor, arm);
+  mechanism::Unbalance::Parameters own;
+  own.unbalance  = rotor.unbalance->amount;
+  own.phase      = rotor.unbalance->phase;
+  own.gravity[0] = dot(gravity, e_1);
+  own.gravity[1] = dot(gravity, e_2);
+  machine.attach(
+      rotor.name + " unbalance", std::make_shared<mechanism::Unbalance>(own),
+      {{{machine.body(rotor.name).coordinate, 1.}}, moved_along(e_1, carrier, arm), moved_along(e_2, carrier, arm)});
+}
 
 constexpr Eigen::Index largest_dense_frame = 500; // coordinates; above, sparse solves win
 
@@ -32,24 +199,7 @@ auto placed(const std::string &place, Make make)
 void add_body(coupling::MachineModel &machine, const BodyRequest &body)
 {
   check_carrier(machine, body);
-  switch (body.kind)
-  {
-  case coupling::BodyKind::rotor:
-    machine.add_rotor(body.name, body.axis, body.inertia, body.mass, body.carrier);
-    break;
-  case coupling::BodyKind::slider:
-    machine.add_slider(body.name, body.axis, body.mass, body.carrier);
-    break;
-  case coupling::BodyKind::point:
-    machine.add_point(body.name, body.mass, body.position);
-    break;
-  case coupling::BodyKind::planar:
-    machine.add_planar(body.name, body.axis, body.mass, body.inertia, body.position);
-    break;
-  case coupling::BodyKind::rigid:
-    machine.add_rigid(body.name, body.mass, body.tensor, body.position);
-    break;
-  }
+  body_type(body.kind).add(machine, body);
   machine.draw(body.name, body.position, body.radius, body.size);
 }
 

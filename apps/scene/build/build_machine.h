@@ -40,6 +40,10 @@ std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::
 /// State at the beginning of the run by the rule of the scene.
 coupling::InitialState initial_state(const Scene &scene, coupling::Machine &machine);
 
+/// Of the motion that coordinate_name() names, in coordinate i: -1 where a frame from matrices has the opposite motion
+/// ("-uz") in its row.
+double coordinate_sign(const coupling::Machine &machine, int i);
+
 /// q [n] of the configuration that modes are asked for.
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/build/joined_pair.h"
+#include "apps/scene/joints/joined_pair.h"
 #include "apps/scene/values/requests.h"
 #include "coupling/machine/machine.h"
 

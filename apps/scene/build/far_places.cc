@@ -1,6 +1,7 @@
 #include "apps/scene/build/far_places.h"
 
 #include "apps/scene/build/build_measures.h"
+#include "apps/scene/joints/joint_types.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -15,17 +16,14 @@ constexpr const char *frame_prefix = "frame.";
 /// Directions in which the point of a joint may lie anywhere: onto them.
 Eigen::Matrix3d unconstrained_directions(const JointRequest &joint)
 {
-  const Eigen::Vector3d axis = vector(joint.axis).normalized();
-  switch (joint.type)
-  {
-  case JointType::prismatic:
-  case JointType::cylindrical:
-    return axis * axis.transpose();
-  case JointType::in_plane:
-    return Eigen::Matrix3d::Identity() - axis * axis.transpose();
-  default:
-    return Eigen::Matrix3d::Zero();
-  }
+  const Eigen::Vector3d axis   = vector(joint.axis).normalized();
+  const Eigen::Matrix3d along  = axis * axis.transpose();
+  const int             leaves = joint_type(joint.type).leaves;
+  if (leaves == 2)
+    return Eigen::Matrix3d::Identity() - along;
+  if (leaves == 1)
+    return along;
+  return Eigen::Matrix3d::Zero();
 }
 
 /// What an interface guides may act on it anywhere along the way.

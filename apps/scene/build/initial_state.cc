@@ -1,5 +1,4 @@
 #include "apps/scene/build/build_machine.h"
-#include "apps/scene/build/coordinate_sign.h"
 
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/assembly.h"
@@ -36,7 +35,7 @@ int set_coordinate(Eigen::VectorXd &x, const NamedValue &value, const coupling::
     }
   static const std::vector<std::string> motions{"ux", "uy", "uz", "rx", "ry", "rz"};
   const auto                            dot = value.name.rfind('.');
-  const auto motion     = std::find(motions.begin(), motions.end(), value.name.substr(dot + 1)) - motions.begin();
+  const auto motion = std::find(motions.begin(), motions.end(), value.name.substr(dot + 1)) - motions.begin();
   for (const auto &interface : interfaces_of(machine))
     if ("frame." + interface.name == value.name.substr(0, dot) && motion < 6)
     {

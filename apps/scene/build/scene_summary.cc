@@ -127,10 +127,8 @@ std::string body_text(const BodyRequest &body)
 
 std::string joint_text(const JointRequest &joint)
 {
-  static const std::array<const char *, 10> types = {"revolute",  "spherical", "universal", "cylindrical", "rigid",
-                                                     "prismatic", "in-plane",  "distance",  "gear",        "measure"};
-  const std::string                         kind =
-      joint.law != nullptr ? "driven " + std::string(types[std::size_t(joint.type)]) : types[std::size_t(joint.type)];
+  const std::string type = joint.is_scalar() ? "measure" : joint.type;
+  const std::string kind = joint.law != nullptr ? "driven " + type : type;
   return "'" + joint.name + "' (" + kind + (joint.compliance ? ", yields" : "") + ")";
 }
 

@@ -1,7 +1,6 @@
 #include "mechanism/elements/profile_force.h"
 
 #include "apps/scene/elements/element_types.h"
-#include "apps/scene/read/read_input.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 

@@ -2,7 +2,6 @@
 
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/read/checked.h"
-#include "apps/scene/read/read_input.h"
 #include "apps/scene/read/read_profile.h"
 #include "apps/scene/read/relative_motion.h"
 

@@ -17,11 +17,15 @@ struct Key;
 
 // The value of a key as a member has it: number, number that may be missing, vector or direction, truth, whole number.
 void        read_into(double &member, const SceneTable &table, const Key &key, bool on_angle);
-void        read_into(std::optional<double> &member, const SceneTable &table, const Key &key, bool on_angle);
 void        read_into(std::array<double, 3> &member, const SceneTable &table, const Key &key, bool on_angle);
 void        read_into(bool &member, const SceneTable &table, const Key &key, bool on_angle);
 void        read_into(int &member, const SceneTable &table, const Key &key, bool on_angle);
 std::size_t chosen(const SceneTable &table, const Key &key); ///< index of the choice
+template <class Member>
+void read_into(std::optional<Member> &member, const SceneTable &table, const Key &key, bool on_angle)
+{
+  read_into(member.emplace(), table, key, on_angle);
+}
 
 /**
  * What a key of a table takes, and the member that its value goes to.  Its reader (SceneTable::fill()), `gestell help`,

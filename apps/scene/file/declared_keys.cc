@@ -12,11 +12,6 @@ void read_into(double &member, const SceneTable &table, const Key &key, bool on_
   member = table.value(key.source.empty() || table.has(key.name) ? key.name : key.source, on_angle);
 }
 
-void read_into(std::optional<double> &member, const SceneTable &table, const Key &key, bool on_angle)
-{
-  read_into(member.emplace(), table, key, on_angle);
-}
-
 void read_into(std::array<double, 3> &member, const SceneTable &table, const Key &key, bool)
 {
   member = key.form == Key::Form::direction ? table.direction(key.name) : table.vector(key.name);

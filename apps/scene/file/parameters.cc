@@ -1,7 +1,5 @@
 #include "apps/scene/file/parameters.h"
 
-#include "apps/scene/file/idle_parameter.h"
-
 #include "apps/scene/file/override_rules.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/tokens.h"

@@ -5,11 +5,18 @@
 
 #include <map>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace gestell::apps
 {
+
+/// A parameter is given another value, and no value of the scene depends on it.
+struct IdleParameter : std::invalid_argument
+{
+  using std::invalid_argument::invalid_argument;
+};
 
 /// The values of [parameters]: each a number or an expression of other parameters, in any order.
 class Parameters

@@ -211,13 +211,7 @@ Quantity SceneTable::quantity(const std::string &key) const
 
 double SceneTable::number(const std::string &key, const Kind &kind, double fallback) const
 {
-  return optional_number(key, kind).value_or(fallback);
-}
-
-std::optional<double> SceneTable::optional_number(const std::string &key, const Kind &kind) const
-{
-  const SceneNode *value = look_up(key);
-  return value ? std::optional<double>(evaluate(key, *value, kind)) : std::nullopt;
+  return has(key) ? number(key, kind) : fallback;
 }
 
 double SceneTable::positive(const std::string &key, const Kind &kind) const

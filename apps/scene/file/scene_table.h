@@ -34,6 +34,8 @@ public:
   SceneTable declared(const std::vector<Key> &keys) const;
 
   bool has(const std::string &key) const; ///< marks the key as known
+  bool declares(const std::string &key) const { return keys_ && find_key(*keys_, key); }
+  bool demands(const std::string &key) const { return declaration(key).demanded; }
 
   // Of declared keys: kind, range, choices and default are those of the declaration.
 
@@ -65,8 +67,7 @@ public:
   double number(const std::string &key, const Kind &kind) const;
   double number(const std::string &key, const Kind &kind, double fallback) const;
   /// A value of any kind, whose dimension the caller judges.
-  Quantity              quantity(const std::string &key) const;
-  std::optional<double> optional_number(const std::string &key, const Kind &kind) const;
+  Quantity quantity(const std::string &key) const;
   /// As number(), and must be > 0 or >= 0.
   double positive(const std::string &key, const Kind &kind) const;
   double positive(const std::string &key, const Kind &kind, double fallback) const;

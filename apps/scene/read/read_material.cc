@@ -103,12 +103,9 @@ void check_speed_of_waves(const SceneTable &table, const fem::Material &material
 
 fem::Material material_from(const SceneTable &any)
 {
-  const SceneTable table = any.declared(material_keys());
-  fem::Material    material;
-  material.E     = table.value("E");
-  material.nu    = table.value("nu");
-  material.rho   = table.value("rho");
-  material.place = table.place();
+  const SceneTable table    = any.declared(material_keys());
+  auto             material = table.filled<fem::Material>();
+  material.place            = table.place();
   if (material.nu <= -1. || material.nu >= 0.5)
     throw table.error("nu", "Poisson's ratio must lie above -1 and below 0.5; steel has 0.3");
   const bool E_plausible = check_plausible(table, "E", plausible_modulus(), material.E, 5e9, 5e11);
@@ -134,9 +131,10 @@ std::map<std::string, fem::Material> known_materials(const SceneTable &scene)
 
 const std::vector<Key> &material_keys()
 {
-  static const std::vector<Key> keys = {key::number("E", kind::pressure, "Young's modulus").above_zero(),
-                                        key::number("nu", kind::number, "Poisson's ratio, above -1 and below 0.5"),
-                                        key::number("rho", kind::density, "density").above_zero()};
+  static const std::vector<Key> keys = {
+      key::number("E", kind::pressure, "Young's modulus").above_zero().into(&fem::Material::E),
+      key::number("nu", kind::number, "Poisson's ratio, above -1 and below 0.5").into(&fem::Material::nu),
+      key::number("rho", kind::density, "density").above_zero().into(&fem::Material::rho)};
   return keys;
 }
 

@@ -1,12 +1,196 @@
 #include "apps/scene/read/read_output.h"
 
-#include "apps/scene/read/read_stages.h"
-#include "apps/scene/read/read_stress.h"
+#include "apps/scene/file/scene_table.h"
+#include "apps/scene/read/read_run.h"
+#include "apps/scene/values/requests.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gestell::apps
 {
+namespace
+{
+
+constexpr int most_ringing_modes = 12;
+
+std::vector<std::string> stage_names(const SceneTable &stages, std::size_t n_borders)
+{
+  std::vector<std::string> names;
+  if (!stages.has("names"))
+    for (std::size_t i = 0; i <= n_borders; ++i)
+      names.push_back("stage " + std::to_string(i + 1));
+  else
+    names = stages.texts("names");
+  if (names.size() != n_borders + 1)
+    throw stages.error("names", std::to_string(names.size()) + " names, but " + count_text(n_borders, "border") +
+                                    " part the run into " + std::to_string(n_borders + 1) +
+                                    " stages; give one name more than borders");
+  return names;
+}
+
+void require_signals(const SceneTable &stages, const Scene &scene)
+{
+  std::vector<std::string> valid;
+  for (const SignalRequest &signal : scene.signals)
+    valid.push_back(signal.name);
+  for (const std::string &name : scene.stages.ringing)
+    if (std::find(valid.begin(), valid.end(), name) == valid.end())
+      throw stages.error("ringing", "there is no signal '" + name + "' in [output.signals]" + suggestion(name, valid));
+}
+
+} // namespace
+
+/// Of [output.stages].
+const std::vector<Key> &stage_keys()
+{
+  static const std::vector<Key> keys = {
+      key::plain("borders", Key::Form::texts,
+                 "events that end a stage, in their order: `\"limiter\"`, the first event of that object behind the "
+                 "border before, or `\"cylinder.braking_ends\"`, the first of that kind"),
+      key::plain("names", Key::Form::texts, "of the stages, one more than borders").by_default("stage 1, stage 2, ..."),
+      key::plain("ringing", Key::Form::texts,
+                 "names of signals in which modes and damping of the last stage are looked for")
+          .by_default("none"),
+      key::plain("modes", Key::Form::whole, "of them that are told, at most, the strongest")
+          .by_default(&StageRequest::modes)};
+  return keys;
+}
+
+/// [output.stages]: between which events the run has which stages, and in which signals the last one rings.  `result`
+/// has its signals and switches already, or reads them later: borders are looked for when the run is over.
+/// @throws std::invalid_argument for numbers of names and borders that do not fit, and unknown signals
+void read_stages(const SceneTable &output, Scene &scene)
+{
+  if (!output.has("stages"))
+    return;
+  const SceneTable stages = output.table("stages").declared(stage_keys());
+  stages.fill(scene.stages);
+  scene.stages.place   = stages.place();
+  scene.stages.borders = stages.texts("borders");
+  if (scene.stages.borders.empty())
+    throw stages.error("borders", "is empty; name the events that end a stage, such as a switch");
+  scene.stages.names = stage_names(stages, scene.stages.borders.size());
+  if (stages.has("ringing"))
+    scene.stages.ringing = stages.texts("ringing");
+  require_signals(stages, scene);
+  if (scene.stages.modes < 1 || scene.stages.modes > most_ringing_modes)
+    throw stages.error("modes", "needs a number between 1 and " + std::to_string(most_ringing_modes));
+}
+
+namespace
+{
+
+constexpr const char *the_stress  = "stress"; ///< itself, beside the names of signals
+constexpr double      most_states = 5000.;    ///< by default
+
+void require_stresses(const SceneTable &stress, const Scene &scene)
+{
+  switch (scene.frame.source)
+  {
+  case FrameSource::none:
+    throw stress.error("there is no frame, so that there are no stresses; leave [output.stress] out");
+  case FrameSource::matrices:
+    throw stress.error(
+        "a frame given by matrices has no material and no elements, so that there are no stresses; give it by 'cad'");
+  case FrameSource::parts:
+    throw stress.error("stresses of a frame of parts are not computed; leave [output.stress] out, or draw the frame in "
+                       "one piece, [frame] cad = ...");
+  case FrameSource::reduced_file:
+    break; // known when it is read
+  case FrameSource::geometry:
+    if (!scene.reduction.reduces())
+      throw stress.error("stresses are recovered from the reduced frame; leave out reduction.method = \"none\"");
+  }
+}
+
+void read_instants(const SceneTable &stress, Scene &scene)
+{
+  if (!stress.has("at"))
+    return;
+  coupling::RunOptions &run = scene.run.options;
+  run.states.at = stress.is_array("at") ? stress.numbers("at", kind::time) : std::vector<double>{stress.value("at")};
+  for (const double t : run.states.at)
+    if (scene.run.given && !(t >= run.begin && t <= run.end))
+      throw stress.error("at", "the instant " + seconds(t) + " lies outside the run, which goes from " +
+                                   seconds(run.begin) + " to " + seconds(run.end));
+  std::sort(run.states.at.begin(), run.states.at.end());
+  for (std::size_t i = 0; i < run.states.at.size(); ++i)
+    scene.stress.instants.push_back({"", StressInstant::time, static_cast<int>(i)});
+}
+
+void read_extremes(const SceneTable &stress, const std::string &key, Scene &scene)
+{
+  if (!stress.has(key))
+    return;
+  std::vector<std::string> valid;
+  for (const SignalRequest &signal : scene.signals)
+    valid.push_back(signal.name);
+  for (const std::string &name : stress.texts(key))
+  {
+    const auto signal = std::find(valid.begin(), valid.end(), name);
+    if (key == "largest" && name == the_stress)
+    {
+      if (signal != valid.end())
+        throw stress.error(key, "'stress' is the stress itself, but a signal has this name, too; rename the signal");
+      scene.stress.instants.push_back({"largest stress", StressInstant::largest_stress, 0});
+      continue;
+    }
+    if (signal == valid.end())
+      throw stress.error(key, "there is no signal '" + name + "' in [output.signals]" + suggestion(name, valid) +
+                                  (key == "largest" ? "; the stress itself is 'stress'" : ""));
+    auto &extremes = scene.run.options.states.extremes;
+    scene.stress.instants.push_back(
+        {key + " " + name, StressInstant::extreme_of_signal, static_cast<int>(extremes.size())});
+    extremes.push_back({static_cast<int>(signal - valid.begin()), key == "largest"});
+  }
+}
+
+} // namespace
+
+/// Of [output.stress].
+const std::vector<Key> &stress_keys()
+{
+  static const std::vector<Key> keys = {
+      key::number("at", kind::time, "instant").also({Key::Form::numbers}).by_default("none"),
+      key::plain(
+          "largest", Key::Form::texts,
+          "names of signals at whose largest value stresses are written; `\"stress\"`: when the equivalent stress "
+          "itself is largest anywhere, see `step`")
+          .by_default("`\"stress\"` if nothing else is asked for"),
+      key::plain("smallest", Key::Form::texts, "names of signals, likewise").by_default("none"),
+      key::number("step", kind::time, "between the states among which the largest stress is looked for")
+          .above_zero()
+          .by_default("`output.step`, or a five thousandth of the run if that is longer")};
+  return keys;
+}
+
+/// [output.stress]: at which instants stresses are told.  Asks the frame for them and the run for the states; `result`
+/// has its frame, run and signals already.
+/// @throws std::invalid_argument for a frame that knows no stresses, instants outside the run and unknown signals.
+void read_stress(const SceneTable &output, Scene &scene)
+{
+  if (!output.has("stress"))
+    return;
+  const SceneTable stress = output.table("stress").declared(stress_keys());
+  require_stresses(stress, scene);
+  scene.stress.given          = true;
+  scene.stress.place          = stress.place();
+  scene.frame.geometry.stress = true;
+  read_instants(stress, scene);
+  read_extremes(stress, "largest", scene);
+  read_extremes(stress, "smallest", scene);
+  if (scene.stress.instants.empty())
+    scene.stress.instants.push_back({"largest stress", StressInstant::largest_stress, 0});
+  coupling::RunOptions &run = scene.run.options;
+  const double step = std::max(scene.run.given ? coupling::output_step(run) : 0., (run.end - run.begin) / most_states);
+  const double chosen = stress.value_or("step", step);
+  const bool   search = std::any_of(scene.stress.instants.begin(), scene.stress.instants.end(),
+                                    [](const auto &instant) { return instant.when == StressInstant::largest_stress; });
+  run.states.step     = search ? chosen : 0.;
+}
 
 const std::vector<Key> &output_keys()
 {
@@ -20,7 +204,8 @@ const std::vector<Key> &output_keys()
           .by_default("none"),
       key::number("step", kind::time, "between rows of `history.csv`, taken from the dense output where no step ends")
           .above_zero()
-          .by_default("the fixed step; with a tolerance a two thousandth of the run"),
+          .by_default("the fixed step; with a tolerance a two thousandth of the run")
+          .into(&coupling::RunOptions::output_step),
       key::number(
           "from", kind::time,
           "start of the window in which extremes, key numbers and spectra are taken; or `\"last period\"`, [see "
@@ -29,9 +214,11 @@ const std::vector<Key> &output_keys()
           .by_default("the start of the run"),
       key::number("picture_step", kind::time, "between pictures of the motion; 0: none")
           .from_zero()
-          .by_default("a hundredth of the run"),
+          .by_default("a hundredth of the run")
+          .into(&coupling::RunOptions::picture_step),
       key::truth("allow_large", coupling::RunOptions().allow_large,
-                 "more than 1 GB of history and states, or 20 000 pictures, is refused without it"),
+                 "more than 1 GB of history and states, or 20 000 pictures, is refused without it")
+          .into(&coupling::RunOptions::allow_large),
       key::table("stress", {}, "stresses, [see there](#stress)").by_default("none"),
       key::table("stages", {}, "parts of the run between events, [see there](#stages)").by_default("none")};
   return keys;
@@ -67,9 +254,7 @@ void read_output(const SceneTable &scene, Scene &result)
   if (!scene.has("output"))
     return;
   const SceneTable table = scene.table("output").declared(output_keys());
-  run.output_step        = table.value_or("step", 0.);
-  run.picture_step       = table.value_or("picture_step", run.picture_step);
-  run.allow_large        = table.truth("allow_large");
+  table.fill(run);
   read_window(table, result);
   if (table.is_array("signals"))
     for (const auto &path : table.texts("signals"))

@@ -25,33 +25,11 @@ Vector3d vector(const Vector3 &x)
   return Vector3d(x.data());
 }
 
-/// Where the file's coordinates lie in the scene: x = origin + R x_file.
-struct Placement
+void place(fem::CadBody &part, const coupling::Placement &placement)
 {
-  Vector3d origin = Vector3d::Zero();
-  Matrix3d R      = Matrix3d::Identity();
-};
-
-Placement read_placement(const SceneTable &table)
-{
-  Placement  placement;
-  const auto inner = table.optional_table("placement");
-  if (!inner)
-    return placement;
-  placement.origin = vector(inner->vector_or("origin", {}));
-  if (inner->has("axis") != inner->has("angle"))
-    throw inner->error(inner->has("axis") ? "has an axis and no angle" : "has an angle and no axis",
-                       "the part is turned by `angle` about `axis` through the file's origin; give both");
-  if (inner->has("axis"))
-    placement.R = Eigen::AngleAxisd(inner->value("angle"), vector(inner->direction("axis"))).matrix();
-  return placement;
-}
-
-void place(fem::CadBody &part, const Placement &placement)
-{
-  const auto moved = [&](const Vector3d &x) -> Vector3d { return placement.origin + placement.R * x; };
+  const auto moved = [&](const Vector3d &x) -> Vector3d { return placement.at + placement.Q * x; };
   part.centre      = moved(part.centre);
-  part.inertia     = placement.R * part.inertia * placement.R.transpose();
+  part.inertia     = placement.Q * part.inertia * placement.Q.transpose();
   for (auto &x : part.points)
   {
     const Vector3d there = moved(vector(x));
@@ -181,6 +159,26 @@ std::vector<Key> part_keys()
               .by_default("the file's coordinates are the scene's, in the position the scene describes")};
 }
 
+coupling::Placement read_placement(const SceneTable &table)
+{
+  coupling::Placement placement;
+  const auto          inner = table.optional_table("placement");
+  if (!inner)
+    return placement;
+  placement.at = vector(inner->vector_or("origin", {}));
+  if (inner->has("axis") != inner->has("angle"))
+    throw inner->error(inner->has("axis") ? "has an axis and no angle" : "has an angle and no axis",
+                       "the part is turned by `angle` about `axis` through the file's origin; give both");
+  if (inner->declares("mirror") && inner->has("mirror"))
+  {
+    const Vector3d n = vector(inner->direction("mirror"));
+    placement.Q -= 2. * n * n.transpose();
+  }
+  if (inner->has("axis"))
+    placement.Q = Eigen::AngleAxisd(inner->value("angle"), vector(inner->direction("axis"))).matrix() * placement.Q;
+  return placement;
+}
+
 void read_part(const SceneTable &any, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts)
 {
   static const std::vector<Key> keys = joined(
@@ -188,9 +186,9 @@ void read_part(const SceneTable &any, const SceneTable &scene, BodyRequest &body
   const SceneTable  table = any.declared(keys);
   const std::string file  = table.file("cad");
   check_keys(any, body.kind);
-  const Placement placement = read_placement(table);
-  auto            part      = std::make_shared<CadBodyRequest>();
-  part->shape               = service(table).measure({file, table.value_or("unit", 0.), table.place(), scripts});
+  const auto placement = read_placement(table);
+  auto       part      = std::make_shared<CadBodyRequest>();
+  part->shape          = service(table).measure({file, table.value_or("unit", 0.), table.place(), scripts});
   place(part->shape, placement);
   part->density = read_density(table, scene, part->shape.volume);
 

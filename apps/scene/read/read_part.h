@@ -17,6 +17,10 @@ namespace gestell::apps
  */
 void read_part(const SceneTable &table, const SceneTable &scene, BodyRequest &body, fem::Scripts scripts);
 
+/// `placement`: where the file's coordinates lie, x = at + Q x_file; turned about an `axis`, of parts of a frame
+/// mirrored before.
+coupling::Placement read_placement(const SceneTable &table);
+
 /// Keys of it beside `mass`, `position` and those that the file tells.
 std::vector<Key> part_keys();
 

@@ -2,6 +2,9 @@
 
 #include "apps/scene/file/scene_table.h"
 #include "mechanism/functions/commanded_profile.h"
+#include "mechanism/functions/input_value.h"
+
+#include <memory>
 
 namespace gestell::apps
 {
@@ -39,5 +42,10 @@ mechanism::CommandedProfile read_course(const SceneTable &table, const std::stri
 /// As read_course(); besides a formula of the time t, or a table { function = ... } or { table = ... } of it.
 mechanism::CommandedProfile read_free_course(const SceneTable &table, const std::string &key, const ProfileKeys &keys,
                                              double from);
+
+/// The key of a course that may be an input as well.
+Key or_input(Key course);
+/// Reads { input = "NAME" } of a course, which is at `from` until it is set from outside; null if it is no input.
+std::shared_ptr<mechanism::InputValue> read_input(const SceneTable &table, const std::string &key, double from);
 
 } // namespace gestell::apps

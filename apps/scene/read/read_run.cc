@@ -122,7 +122,7 @@ MethodOptions read_method_options(const SceneTable &run, bool in_modes)
   else
     read_steps(run, method, o);
   read_parameters(run, method, o);
-  o.max_halvings = run.whole("max_halvings");
+  run.fill(o);
   if (o.max_halvings < 0 || o.max_halvings > 40)
     throw run.error("max_halvings", "needs a number from 0 to 40");
   o.newton.tolerance = run.value("newton_tolerance");
@@ -161,8 +161,10 @@ std::vector<Key> parameter_keys()
 
 const std::vector<Key> &run_keys()
 {
-  const coupling::RunOptions    run;
-  const coupling::MethodOptions own;
+  using Run    = coupling::RunOptions;
+  using Method = coupling::MethodOptions;
+  const Run                     run;
+  const Method                  own;
   static const std::vector<Key> keys = joined(
       {{key::choice(
             "method", method_names(), true,
@@ -179,21 +181,23 @@ const std::vector<Key> &run_keys()
             "`bdf` and `exact` with `\"collocation\"`")
             .from_zero()
             .by_default("fixed step"),
-        key::number("begin", kind::time, "time of the start").by_default(0.),
-        key::number("end", kind::time, "time of the end, at which the last step is cut"),
+        key::number("begin", kind::time, "time of the start").by_default(&Run::begin),
+        key::number("end", kind::time, "time of the end, at which the last step is cut").into(&Run::end),
         key::truth(
             "events", run.events,
             "contacts, fracture, sticking and other switches are located to rounding and the integration restarts "
             "there with full order; `false`: steps pass over them, and they are listed afterwards. Not with dry "
             "friction, "
-            "which may then hold more than its limit: a warning says so"),
+            "which may then hold more than its limit: a warning says so")
+            .into(&Run::events),
         key::plain("order", Key::Form::whole, "of `bdf`, 1 to 6; of `exact` with `\"collocation\"`, 2, 4, 6 or 8")
             .by_default("2, with `tolerance` 5; of `exact` 4")},
        parameter_keys(),
-       {key::truth("force_unstable", run.force_unstable, "runs although a mode grows with this method and step"),
+       {key::truth("force_unstable", run.force_unstable, "runs although a mode grows with this method and step")
+            .into(&Run::force_unstable),
         key::plain("max_halvings", Key::Form::whole,
                    "how often the step is halved where Newton's iteration fails, 0 to 40")
-            .by_default(own.max_halvings),
+            .by_default(&Method::max_halvings),
         key::number(
             "newton_tolerance", kind::number,
             "relative, 1e-13 and above; `bdf` with a `tolerance` chooses its own. Where it is not given, fixed "
@@ -201,7 +205,8 @@ const std::vector<Key> &run_keys()
             "forces so much closer that its own error stands out")
             .above_zero()
             .by_default(own.newton.tolerance),
-        key::truth("energy", run.energy, "keep the energy balance; costs a few products with M, B, C in every step")}});
+        key::truth("energy", run.energy, "keep the energy balance; costs a few products with M, B, C in every step")
+            .into(&Run::energy)}});
   return keys;
 }
 
@@ -222,17 +227,13 @@ RunRequest read_run(const SceneTable &scene, bool in_modes)
   run.place              = table.place();
   auto &o                = run.options;
   run.given              = true;
-  o.method               = read_method_options(table, in_modes);
-  run.step_given         = !in_modes || table.has("step") || table.has("tolerance");
-  o.begin                = table.value("begin");
-  o.end                  = table.value("end");
+  table.fill(o);
+  o.method       = read_method_options(table, in_modes);
+  run.step_given = !in_modes || table.has("step") || table.has("tolerance");
   if (o.end <= o.begin)
     throw table.error("end", "must lie after 'begin' (" + seconds(o.begin) + "), got " + seconds(o.end));
   if (o.method.step > o.end - o.begin)
     throw table.error("step", "is longer than the run itself, " + seconds(o.end - o.begin));
-  o.events         = table.truth("events");
-  o.force_unstable = table.truth("force_unstable");
-  o.energy         = table.truth("energy");
   return run;
 }
 

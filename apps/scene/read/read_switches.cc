@@ -204,9 +204,8 @@ SwitchRequest read_switch(const SceneTable &any, Scene &scene)
   own.request.name   = table.name();
   own.request.signal = table.text("when");
   read_crossing(table, own);
-  own.request.delay  = table.value("delay");
-  own.request.after  = table.text("after", "");
-  own.request.repeat = table.truth("repeat");
+  table.fill(own.request);
+  own.request.after = table.text("after", "");
   if (own.request.repeat && own.request.signal == "t")
     throw table.error("repeat", "the time passes its value only once; leave it out");
   if (table.has("hysteresis"))
@@ -303,9 +302,11 @@ const std::vector<Key> &switch_keys()
                    "the run ends at the orders with this statement, such as `\"the crane tips\"`, and exit code 3; "
                    "what was computed is kept")
             .by_default("it goes on"),
-        key::number("delay", kind::time, "from the crossing to the orders").from_zero().by_default(0.),
+        key::number("delay", kind::time, "from the crossing to the orders")
+            .from_zero()
+            .by_default(&coupling::Switch::delay),
         key::named("after", "switch from whose orders on it watches").by_default("always"),
-        key::truth("repeat", false, "thrown every time"),
+        key::truth("repeat", false, "thrown every time").into(&coupling::Switch::repeat),
         key::plain("hysteresis", Key::Form::quantity,
                    "with `repeat`: by so much the signal must first come back, or with `crosses` go away from "
                    "the value to either side")

@@ -33,6 +33,24 @@ Key principal_axes_key()
       .by_default("global axes");
 }
 
+Key per_direction_key(const std::string &name, const Kind &kind, const std::string &meaning)
+{
+  return key::number(name, kind, meaning).from_zero().also({Key::Form::vector}).by_default(0.);
+}
+
+Vector3 read_per_direction(const SceneTable &table, const std::string &key, const Kind &kind)
+{
+  Vector3 value{};
+  if (table.is_array(key))
+    value = table.vector(key, kind);
+  else if (table.has(key))
+    value.fill(table.number(key, kind));
+  for (const double x : value)
+    if (x < 0.)
+      throw table.error(key, "needs " + with_article(kind) + " of zero or more in every direction");
+  return value;
+}
+
 Eigen::Matrix3d read_tensor(const SceneTable &table)
 {
   const std::string needed = "needs three moments [Jx, Jy, Jz], or the tensor as three rows [[Jxx, Jxy, Jxz], ..]";

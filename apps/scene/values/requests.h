@@ -147,21 +147,7 @@ struct MeasureRequest
   std::optional<MeshRequest> mesh; ///< of `form` mesh
 };
 
-enum class JointType
-{
-  revolute,    ///< the two places stay together, turning freely about one axis
-  spherical,   ///< the two places stay together
-  universal,   ///< the two places stay together, and an axis of each body at right angles to the other's
-  cylindrical, ///< turns about an axis of the first body and slides along it
-  rigid,       ///< the two places stay together and do not turn against each other
-  prismatic,   ///< moves along an axis of the first body and does not turn against it
-  in_plane,    ///< stays in the plane across an axis of the first body
-  distance,    ///< the two places keep their distance, or it follows a law
-  gear,        ///< the angles (or displacements) of two bodies keep a ratio
-  measure      ///< a scalar of the motion has a value or follows a law: cams, screws, wheels, prescribed motions
-};
-
-struct JointFrictionRequest; // apps/scene/read/joint_friction_request.h
+struct JointFrictionRequest; // apps/scene/joints/joint_friction.h
 
 /// Of a joint that yields.
 struct ComplianceRequest
@@ -175,19 +161,22 @@ struct ComplianceRequest
 struct JointRequest
 {
   std::string                                 name;
-  JointType                                   type = JointType::revolute;
+  std::string                                 type; ///< name of a JointType, apps/scene/joints/joint_types.h
   PlaceRequest                                from, to;
   Vector3                                     axis{};        ///< zero for a revolute joint of bodies without a choice
   Vector3                                     axis_to{};     ///< of `universal`, on the second body
   std::optional<double>                       length;        ///< of `distance` [m]; none: as described
   double                                      ratio = 1.;    ///< of `gear`
-  std::shared_ptr<const mechanism::MotionLaw> law;           ///< of `distance` and `measure`
-  MeasureRequest                              measure;       ///< of `measure`
-  std::optional<double>                       value;         ///< of `measure` [m or rad]; none: as described
+  std::shared_ptr<const mechanism::MotionLaw> law;           ///< of `distance` and of a scalar
+  MeasureRequest                              measure;       ///< a scalar of the motion, if it has a value or a course
+  std::optional<double>                       value;         ///< of the scalar [m or rad]; none: as described
   std::string                                 reaction_unit; ///< of what acts on the argument of its function
   std::shared_ptr<const JointFrictionRequest> friction;      ///< or null; of joints that slide
-  std::optional<ComplianceRequest>            compliance;    ///< of those without `measure`, `distance`, `gear`
+  std::optional<ComplianceRequest>            compliance;    ///< of those that hold two places
+  bool                                        holds_rotations = false;
   std::string                                 place;
+
+  bool is_scalar() const { return !measure.unit.empty(); }
 };
 
 struct SwitchRequest

@@ -1,6 +1,7 @@
 #include "apps/session/forces/force_places.h"
 
 #include "apps/scene/build/build_measures.h"
+#include "apps/scene/joints/joint_types.h"
 
 #include <algorithm>
 #include <set>
@@ -117,12 +118,12 @@ void Places::add(const coupling::ElementPlacement &element)
 
 void Places::add_joint(const JointRequest &joint, const coupling::ElementPlacement &element)
 {
-  if (joint.type == JointType::measure)
+  if (joint.is_scalar())
     add_measure(joint.measure, element);
   else
     add_between(element.joint >= 0 ? joint.name + " friction" : joint.name, joint.from, joint.to, element, 0,
                 int(element.measures.size()));
-  if (joint.type == JointType::gear)
+  if (!joint.is_scalar() && joint_type(joint.type).is_coupling)
     places_.between.back().is_coupling = true;
 }
 

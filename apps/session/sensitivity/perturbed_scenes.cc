@@ -1,7 +1,7 @@
 #include "apps/session/sensitivity/perturbed_scenes.h"
 
 #include "apps/scene/build/result_window.h"
-#include "apps/scene/file/idle_parameter.h"
+#include "apps/scene/file/parameters.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/build/build_machine.h"
-#include "apps/scene/file/unexpected_values.h"
+#include "apps/scene/file/expected_values.h"
 #include "apps/session/session.h"
 #include "apps/templates/scene_templates.h"
 #include "tests/support/scene_run.h"

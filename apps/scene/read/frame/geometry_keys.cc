@@ -20,60 +20,61 @@ Key surfaces_key(const std::string &meaning)
   return key::plain("surfaces", Key::Form::texts, meaning).by_default("`surface`");
 }
 
-Key per_direction_key(const std::string &name, const Kind &kind, const std::string &meaning)
-{
-  return key::number(name, kind, meaning).from_zero().also({Key::Form::vector}).by_default(0.);
-}
-
 } // namespace
 
 const std::vector<Key> &mesh_keys()
 {
+  using Mesh = fem::MeshOptions;
+
   static const std::vector<Key> keys = {
       key::number("size", kind::length, "of elements; a `.msh` or `.inp` needs none").above_zero(),
       key::number("max_cells", kind::number, "refuses a mesh of more elements")
           .above_zero()
-          .by_default(fem::MeshOptions().max_cells),
+          .by_default(&Mesh::max_cells),
       key::number("gap", kind::length,
                   "solids of STEP, BREP and `.geo` files are joined where they touch, as if welded (a script needs no "
                   "`BooleanFragments`, its physical groups stay); with `gap = \"0.1 mm\"` also where they are that far "
                   "apart, which must be less than a third of the mean thickness of these solids (2 volume / surface: "
                   "of a plate its thickness). In meshes nodes that close are taken for one")
           .from_zero()
-          .by_default(0.),
+          .by_default(&Mesh::gap),
       key::plain("bodies", Key::Form::whole,
                  "number of bodies expected that do not hang together. With another number the frame is refused, and "
                  "the message names the nearest faces of the bodies and their distance")
-          .by_default(1.),
+          .by_default(&Mesh::bodies),
       key::number("defeature", kind::length,
                   "bores, fillets, chamfers and edges smaller than this length are removed from STEP and BREP models, "
                   "where the neighbouring faces can close the gap; a note lists what was removed")
           .from_zero()
-          .by_default(0.),
+          .by_default(&Mesh::defeature),
       key::choice("overlaps", {"refused", "once"}, true,
                   "solids that overlap would count twice what they share; `\"once\"` gives it to the solid that comes "
-                  "first in the file"),
+                  "first in the file")
+          .into(&Mesh::overlaps, {fem::Overlaps::refused, fem::Overlaps::once}),
       key::choice(
           "plates", {"tetrahedra", "swept"}, true,
           "`\"swept\"` meshes solids whose walls stand at right angles to each other in hexahedra through the "
           "thickness, narrow along the edges of plates and up to `size` wide amid them: of thin plates far fewer "
           "coordinates for the same accuracy. Holes straight through a plate are swept around with it; with any "
-          "other face all is meshed in tetrahedra, and a note names the face"),
-      key::plain("layers", Key::Form::whole, "of cells through a swept plate, at least").by_default(1.),
+          "other face all is meshed in tetrahedra, and a note names the face")
+          .into(&Mesh::plates, {fem::Plates::tetrahedra, fem::Plates::swept}),
+      key::plain("layers", Key::Form::whole, "of cells through a swept plate, at least").by_default(&Mesh::layers),
       key::truth(
           "curved", false,
           "sides of tetrahedra follow bores, fillets and other curved faces, so that coarse elements keep the "
           "shape, off by the fourth power of their size where straight sides are off by the second. Where that "
           "would fold a cell its sides are straightened, and a note says so. Quadratic meshes of tetrahedra keep the "
           "sides they come with. Hexahedra have straight edges: `true` is refused, and a note says how far "
-          "the middle nodes of quadratic ones lie off these edges")};
+          "the middle nodes of quadratic ones lie off these edges")
+          .into(&Mesh::curved)};
   return keys;
 }
 
 const std::vector<Key> &frame_keys()
 {
   static const std::vector<Key> keys = {
-      key::plain("cad", Key::Form::file, "`.step .stp .brep .geo .msh .inp`, see [geometry](frame.md#geometry-and-meshes)")
+      key::plain("cad", Key::Form::file,
+                 "`.step .stp .brep .geo .msh .inp`, see [geometry](frame.md#geometry-and-meshes)")
           .by_default("`reduced`, or [matrices](#frame-given-by-matrices)"),
       key::number("unit", kind::length, "length unit of a file that has none, `\"1 mm\"`")
           .above_zero()
@@ -183,9 +184,13 @@ const std::vector<Key> &interface_keys()
           "surfaces or, if it names none, on the whole skin, with its three displacements as they are and no rotation; "
           "`\"flexible\"`: a plane face in a weld or contact of [parts](parts.md), which moves with the node and "
           "deforms in "
-          "polynomials"),
+          "polynomials")
+          .into(&fem::InterfaceSpecification::coupling,
+                {fem::InterfaceCoupling::rigid, fem::InterfaceCoupling::average, fem::InterfaceCoupling::point,
+                 fem::InterfaceCoupling::node, fem::InterfaceCoupling::flexible}),
       key::vector("position", kind::length, "of the node; of a point and of `\"node\"` required")
-          .by_default("centroid"),
+          .by_default("centroid")
+          .into(&fem::InterfaceSpecification::position),
       key::number("radius", kind::length, "of a point: triangles of the surface within it")
           .from_zero()
           .by_default("triangles that meet at the nearest corner"),
@@ -207,7 +212,7 @@ const std::vector<Key> &cut_keys()
 const std::vector<Key> &attached_mass_keys()
 {
   static const std::vector<Key> keys = {
-      key::number("mass", kind::mass, "of the body").above_zero(),
+      key::number("mass", kind::mass, "of the body").above_zero().into(&fem::AttachedMass::mass),
       key::vector(
           "inertia", kind::inertia,
           "about its centre of mass: moments `[Jx, Jy, Jz]` or the tensor, as of a rigid [body](bodies.md#bodies)")
@@ -217,10 +222,12 @@ const std::vector<Key> &attached_mass_keys()
       key::named("on", "the interface whose node carries it, such as `\"crown\"`").by_default("`surfaces`"),
       one_surface_key(),
       surfaces_key("the surfaces it is fastened to, which belong to no interface"),
-      key::choice("coupling", {"rigid", "average"}, true, "to these surfaces"),
+      key::choice("coupling", {"rigid", "average"}, true, "to these surfaces")
+          .into(&fem::AttachedMass::coupling, {fem::InterfaceCoupling::rigid, fem::InterfaceCoupling::average}),
       key::vector("position", kind::length,
                   "its centre of mass; where it lies off the node, the lever arm is part of the model")
-          .by_default("node of the interface, centroid of the surfaces")};
+          .by_default("node of the interface, centroid of the surfaces")
+          .into(&fem::AttachedMass::centre)};
   return keys;
 }
 

@@ -85,13 +85,10 @@ public:
 
   void look_at(const JointRequest &joint) const
   {
-    const bool in_the_plane = joint.type == JointType::revolute && joint.axis == Vector3{};
-    const bool of_points    = in_the_plane || joint.type == JointType::spherical || joint.type == JointType::distance ||
-                           joint.type == JointType::in_plane || joint.type == JointType::measure;
     for (const PlaceRequest *point : {&joint.from, &joint.to})
     {
       look_at(*point);
-      if (!of_points)
+      if (joint.holds_rotations)
         refuse(point->marker, "this joint holds rotations; a spherical one does not");
     }
     look_at(joint.measure);

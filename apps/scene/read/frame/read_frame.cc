@@ -2,7 +2,6 @@
 
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/matrix_keys.h"
-#include "apps/scene/read/frame/parts_keys.h"
 
 #include <stdexcept>
 #include <string>

@@ -18,6 +18,11 @@ fem::FrameSpecification read_frame_geometry(const SceneTable &frame, const Scene
 /// [frame] of several parts and their joints.
 coupling::FrameOfParts read_frame_parts(const SceneTable &frame, const SceneTable &scene);
 
+/// Keys of [frame] of several parts; of [frame.part.NAME], with those of a frame from geometry; of [frame.joint.NAME].
+const std::vector<Key> &parts_frame_keys();
+const std::vector<Key> &frame_part_keys();
+const std::vector<Key> &frame_joint_keys();
+
 /// [frame] of a frame given by matrices; has_translations says whether `translations` were given or could be derived.
 fem::FrameMatrices read_frame_matrices(const SceneTable &frame, bool &has_translations);
 

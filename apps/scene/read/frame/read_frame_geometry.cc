@@ -76,20 +76,6 @@ std::vector<std::string> read_surface_names(const SceneTable &table, const fem::
   return names;
 }
 
-/// A scalar for all directions, or [x, y, z]; zero if missing.
-fem::Vector3 per_direction(const SceneTable &table, const std::string &key, const Kind &kind)
-{
-  fem::Vector3 value{};
-  if (table.is_array(key))
-    value = table.vector(key, kind);
-  else if (table.has(key))
-    value.fill(table.number(key, kind));
-  for (const double x : value)
-    if (x < 0.)
-      throw table.error(key, "needs " + with_article(kind) + " of zero or more in every direction");
-  return value;
-}
-
 /// `key`, a total over the surface, or `key`_per_area.
 fem::Vector3 total_or_per_area(const SceneTable &table, const std::string &key, const Kind &total, const Kind &per_area,
                                bool &is_per_area)
@@ -99,7 +85,7 @@ fem::Vector3 total_or_per_area(const SceneTable &table, const std::string &key, 
   if (is_per_area && table.has(key))
     throw table.error(longer,
                       "cannot be given together with '" + key + "', the total over the surface; give one of them");
-  return is_per_area ? per_direction(table, longer, per_area) : per_direction(table, key, total);
+  return is_per_area ? read_per_direction(table, longer, per_area) : read_per_direction(table, key, total);
 }
 
 fem::Support read_support(const SceneTable &any, const fem::FrameSpecification &frame)
@@ -163,21 +149,15 @@ fem::InterfaceSpecification read_interface(const SceneTable &any, const fem::Fra
 {
   const SceneTable table = any.declared(interface_keys());
   check_thing_name(table);
-  fem::InterfaceSpecification interface;
-  interface.name             = table.name();
-  interface.place            = table.place();
-  const std::string coupling = table.choice("coupling");
-  interface.coupling         = coupling == "rigid"     ? fem::InterfaceCoupling::rigid
-                               : coupling == "average" ? fem::InterfaceCoupling::average
-                               : coupling == "point"   ? fem::InterfaceCoupling::point
-                               : coupling == "node"    ? fem::InterfaceCoupling::node
-                                                       : fem::InterfaceCoupling::flexible;
-  const bool point           = interface.coupling == fem::InterfaceCoupling::point;
-  const bool node            = interface.coupling == fem::InterfaceCoupling::node;
+  auto interface   = table.filled<fem::InterfaceSpecification>();
+  interface.name   = table.name();
+  interface.place  = table.place();
+  const bool point = interface.coupling == fem::InterfaceCoupling::point;
+  const bool node  = interface.coupling == fem::InterfaceCoupling::node;
   if (!node || table.has("surface") || table.has("surfaces"))
     interface.surfaces = read_surface_names(table, frame);
-  if (point || node || table.has("position"))
-    interface.position = table.vector("position");
+  if (point || node)
+    table.vector("position"); // demanded
   if (table.has("radius") && !point)
     throw table.error("radius", "belongs to coupling = \"point\"; other interfaces take the whole of their surfaces");
   if (point)
@@ -207,17 +187,9 @@ bool matches(const std::string &pattern, const std::string &name, std::size_t p 
 /// mesh = { size = "60 mm", "crown bearing *" = "30 mm" }: every other key is a pattern of surface names.
 fem::MeshOptions read_mesh(const SceneTable &table, const fem::FrameSpecification &frame, bool is_mesh_file)
 {
-  fem::MeshOptions mesh;
-  mesh.place     = table.place();
-  mesh.size      = is_mesh_file ? table.value_or("size", 0.) : table.value("size");
-  mesh.max_cells = table.value("max_cells");
-  mesh.gap       = table.value("gap");
-  mesh.bodies    = table.whole("bodies");
-  mesh.defeature = table.value("defeature");
-  mesh.curved    = table.truth("curved");
-  mesh.overlaps  = table.choice("overlaps") == "once" ? fem::Overlaps::once : fem::Overlaps::refused;
-  mesh.plates    = table.choice("plates") == "swept" ? fem::Plates::swept : fem::Plates::tetrahedra;
-  mesh.layers    = table.whole("layers");
+  auto mesh  = table.filled<fem::MeshOptions>();
+  mesh.place = table.place();
+  mesh.size  = is_mesh_file ? table.value_or("size", 0.) : table.value("size");
   if (mesh.layers < 1)
     throw table.error("layers", "needs the number of cells through a plate, 1 or more");
   if (table.has("layers") && mesh.plates != fem::Plates::swept)
@@ -278,22 +250,17 @@ fem::AttachedMass read_mass(const SceneTable &any, const fem::FrameSpecification
 {
   const SceneTable table = any.declared(attached_mass_keys());
   check_thing_name(table);
-  fem::AttachedMass mass;
+  auto mass  = table.filled<fem::AttachedMass>();
   mass.name  = table.name();
   mass.place = table.place();
-  mass.mass  = table.value("mass");
   if (table.has("inertia"))
     mass.inertia = read_tensor(table);
-  if (table.has("position"))
-    mass.centre = table.vector("position");
   const bool surfaces = table.has("surface") || table.has("surfaces");
   if (surfaces == table.has("on"))
     throw table.error("needs either 'on', the interface that carries it, or 'surfaces' it is fastened to");
   if (surfaces)
   {
     mass.surfaces = read_surface_names(table, frame);
-    mass.coupling =
-        table.choice("coupling") == "rigid" ? fem::InterfaceCoupling::rigid : fem::InterfaceCoupling::average;
     return mass;
   }
   std::vector<std::string> known;

@@ -1,18 +1,117 @@
-#include "apps/scene/read/frame/parts_keys.h"
+#include "apps/scene/file/declaration.h"
+#include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/read_damping.h"
 #include "apps/scene/read/frame/read_frame.h"
 #include "apps/scene/read/names.h"
 #include "apps/scene/read/read_material.h"
+#include "apps/scene/read/read_part.h"
 #include "apps/scene/read/read_tensor.h"
 #include "coupling/substructures/require_joints.h"
 #include "fem/values/nearest_name.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 
 namespace gestell::apps
 {
+namespace
+{
+
+std::vector<Key> without_reduced(std::vector<Key> keys)
+{
+  keys.erase(std::remove_if(keys.begin(), keys.end(), [](const Key &key) { return key.name == "reduced"; }),
+             keys.end());
+  for (Key &key : keys)
+    if (key.name == "cad")
+      key.otherwise = "`same_as`";
+  return keys;
+}
+
+} // namespace
+
+/// Keys of [frame] of several parts; of [frame.part.NAME], with those of a frame from geometry; of [frame.joint.NAME].
+const std::vector<Key> &parts_frame_keys()
+{
+  static const std::vector<Key> keys = {
+      key::table("part", {}, "`[frame.part.NAME]`, two at least").by_default(""),
+      key::table("joint", {}, "`[frame.joint.NAME]`, which hold the parts together").by_default(""),
+      key::table("damping", damping_keys(),
+                 "by ratios of the modes of the joined frame, `{ ratio = 0.02 }`, beside what parts have; `rayleigh` "
+                 "belongs to the parts")
+          .by_default("that of the parts"),
+      key::choice(
+          "modes", {"by tolerance", "all"}, true,
+          "of the joined parts with the interfaces of the mechanism held: as many as `[reduction]` asks for, or "
+          "`\"all\"` that the reduced parts have, which changes nothing but the coordinates")};
+  return keys;
+}
+
+const std::vector<Key> &frame_part_keys()
+{
+  static const std::vector<Key> keys = joined(
+      {without_reduced(frame_keys()),
+       {key::named("same_as", "an equal part elsewhere: only `placement` is given beside it. Equal parts are reduced "
+                              "once, whether they are said to be or not")
+            .by_default("`cad`"),
+        key::table("placement",
+                   {key::vector("origin", kind::length, "where the part's origin lies").by_default("[0, 0, 0]"),
+                    key::direction("axis", "about which the part is turned").by_default("not turned"),
+                    key::number("angle", kind::angle, "by which it is turned").by_default("not turned"),
+                    key::direction("mirror", "normal of the plane through the part's origin in which it is mirrored, "
+                                             "before it is turned")
+                        .by_default("not mirrored")},
+                   "all that is said of the part is in its own coordinates; mirrored, then turned about `axis` through "
+                   "its origin, which then is moved to `origin`")
+            .by_default("the part's coordinates are the frame's")}});
+  return keys;
+}
+
+const std::vector<Key> &frame_joint_keys()
+{
+  static const std::vector<Key> keys = {
+      key::choice(
+          "type", {"weld", "contact", "bolts", "tie rod"}, true,
+          "`\"weld\"`: the two interfaces move as one; `\"contact\"`: likewise, as long as they are pressed "
+          "together, which every run watches; `\"bolts\"`: springs and dampers; `\"tie rod\"`: a bar that pulls "
+          "the two together"),
+      key::plain("between", Key::Form::texts,
+                 "two interfaces, `[\"crown.left foot\", \"left column.top\"]`: PART.INTERFACE"),
+      key::direction("normal", "of a contact, or of bolts with a `preload`: across the faces, from the first part to "
+                               "the second")
+          .by_default("demanded of a contact"),
+      key::number("tolerance", kind::length, "how far the nodes of the two may be apart; not of tie rods")
+          .above_zero()
+          .by_default("a thousandth of the larger part"),
+      key::truth("keep", false,
+                 "the first interface of the joint carries something of the mechanism, too, as `frame.PART.INTERFACE`"),
+      key::composed("positions", Key::Form::matrix, kind::length, {},
+                    "of bolts, in the frame: `[[x, y, z], ...]`, each with `stiffness` and `damping`")
+          .by_default("one, amid the interfaces"),
+      key::composed("axes", Key::Form::matrix, kind::number, {},
+                    "of bolts: the three values act along these two directions and the third at right angles to both")
+          .by_default("x, y and z"),
+      per_direction_key("stiffness", kind::stiffness, "of each bolt, or `[x, y, z]` along `axes`"),
+      per_direction_key("rotational_stiffness", kind::torsional_stiffness,
+                        "of all bolts together against turning, beside what their places give"),
+      per_direction_key("rotational_damping", kind::torsional_damping, "likewise"),
+      key::number("preload", kind::force, "of all bolts together, which the joint opens against; needs `normal`")
+          .above_zero()
+          .by_default("not known"),
+      key::number("diameter", kind::length, "of a tie rod").above_zero().by_default("demanded of a tie rod"),
+      key::number("length", kind::length, "of a tie rod, by which it yields: E A / L")
+          .above_zero()
+          .by_default("distance of the interfaces"),
+      material_key(),
+      key::number("damping", kind::damping, "of a tie rod along it; of each bolt, or `[x, y, z]` along `axes`")
+          .from_zero()
+          .also({Key::Form::vector})
+          .by_default(0.),
+      key::number("prestress", kind::force,
+                  "tension of a tie rod in the tightened frame at rest, without weight and other loads")
+          .from_zero()
+          .by_default(0.)};
+  return keys;
+}
+
 namespace
 {
 
@@ -24,25 +123,6 @@ using coupling::JointKind;
 Eigen::Vector3d column(const Vector3 &x)
 {
   return Eigen::Map<const Eigen::Vector3d>(x.data());
-}
-
-coupling::Placement read_part_placement(const SceneTable &part)
-{
-  coupling::Placement placement;
-  const auto          table = part.optional_table("placement");
-  if (!table)
-    return placement;
-  placement.at = column(table->vector_or("origin", {}));
-  if (table->has("axis") != table->has("angle"))
-    throw table->error("a turn needs both 'axis' and 'angle'");
-  if (table->has("mirror"))
-  {
-    const Eigen::Vector3d n = column(table->direction("mirror"));
-    placement.Q -= 2. * n * n.transpose();
-  }
-  if (table->has("axis"))
-    placement.Q = Eigen::AngleAxisd(table->value("angle"), column(table->direction("axis"))).matrix() * placement.Q;
-  return placement;
 }
 
 void refuse_beside_same_as(const SceneTable &part)
@@ -64,7 +144,7 @@ FramePart read_frame_part(const SceneTable &any, const SceneTable &scene)
   FramePart part;
   part.name      = table.name();
   part.place     = table.place();
-  part.placement = read_part_placement(table);
+  part.placement = read_placement(table);
   if (table.has("same_as"))
     refuse_beside_same_as(table);
   else
@@ -104,28 +184,15 @@ coupling::JointEnd read_end(const SceneTable &table, const std::string &text)
   return {text.substr(0, dot), text.substr(dot + 1)};
 }
 
-/// One number for all directions, or [x, y, z].
-Eigen::Vector3d of_all_directions(const SceneTable &table, const std::string &key, const Kind &kind)
-{
-  Eigen::Vector3d value = Eigen::Vector3d::Zero();
-  if (table.is_array(key))
-    value = column(table.vector(key, kind));
-  else if (table.has(key))
-    value.setConstant(table.number(key, kind));
-  if (value.minCoeff() < 0.)
-    throw table.error(key, "needs " + with_article(kind) + " of zero or more in every direction");
-  return value;
-}
-
 coupling::BoltedJoint read_bolts(const SceneTable &table)
 {
   coupling::BoltedJoint bolts;
   if (table.has("axes"))
     bolts.axes = read_axes(table, "axes");
-  bolts.stiffness          = of_all_directions(table, "stiffness", kind::stiffness);
-  bolts.damping            = of_all_directions(table, "damping", kind::damping);
-  bolts.rotational         = of_all_directions(table, "rotational_stiffness", kind::torsional_stiffness);
-  bolts.rotational_damping = of_all_directions(table, "rotational_damping", kind::torsional_damping);
+  bolts.stiffness          = column(read_per_direction(table, "stiffness", kind::stiffness));
+  bolts.damping            = column(read_per_direction(table, "damping", kind::damping));
+  bolts.rotational         = column(read_per_direction(table, "rotational_stiffness", kind::torsional_stiffness));
+  bolts.rotational_damping = column(read_per_direction(table, "rotational_damping", kind::torsional_damping));
   if (bolts.stiffness.isZero(0.))
     throw table.error("needs a 'stiffness' of the bolts such as \"2 MN/mm\"; interfaces that move as one are joined by "
                       "type = \"weld\"");

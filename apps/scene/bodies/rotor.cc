@@ -1,0 +1,85 @@
+#include "apps/scene/bodies/body_types.h"
+#include "apps/scene/read/read_part.h"
+#include "fem/values/number_text.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+std::vector<Key> unbalance_keys()
+{
+  return {
+      key::number("unbalance", kind::unbalance, "mass times eccentricity of its centre of mass")
+          .from_zero()
+          .by_default("none")
+          .into(&UnbalanceRequest::amount),
+      key::number("unbalance_phase", kind::angle,
+                  "where the centre of mass lies at zero angle, in the positive sense of turning from the first global "
+                  "axis across `axis`")
+          .by_default(&UnbalanceRequest::phase),
+      key::vector("unbalance_position", kind::length, "the point of its axis that the unbalance is at")
+          .by_default("`position`, or where its carrier is if there is none")};
+}
+
+/// @throws the error of the table for keys without an unbalance, and an eccentric mass that turns harder than the rotor
+std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
+{
+  if (!table.has("unbalance"))
+  {
+    for (const char *key : {"unbalance_phase", "unbalance_position"})
+      if (table.has(key))
+        throw table.error(std::string("has '") + key +
+                          "' but no 'unbalance'; give it, such as unbalance = \"2.4 g m\"");
+    return std::nullopt;
+  }
+  auto unbalance = table.filled<UnbalanceRequest>();
+  for (const char *key : {"position", "unbalance_position"})
+    if (table.has(key))
+      unbalance.position = table.vector(key);
+  return unbalance;
+}
+
+/// J about the axis is that of the mass at its eccentricity and what lies about it: J >= m e^2 = U^2/m.
+void check_unbalance(const SceneTable &table, const BodyRequest &body)
+{
+  if (const double U = body.unbalance ? body.unbalance->amount : 0.; U * U > body.mass * body.inertia && body.mass > 0.)
+    throw table.error("its unbalance of " + short_text(U) + " kg m puts its " + short_text(body.mass) + " kg " +
+                      short_text(U / body.mass) + " m off its axis, about which it would have at least " +
+                      short_text(U * U / body.mass) + " kg m^2; inertia is " + short_text(body.inertia) + " kg m^2");
+}
+
+void read_rotor(const SceneTable &table, BodyRequest &body)
+{
+  body.unbalance = read_unbalance(table);
+  if (!table.has("cad"))
+    check_unbalance(table, body);
+}
+
+} // namespace
+
+BodyType rotor_type()
+{
+  return {"rotor",
+          "One angle about an axis.",
+          joined({{key::direction("axis", "about which it turns").into(&BodyRequest::axis),
+                   key::named("on", "what carries it: `\"frame.NAME\"`, a body or `\"ground\"`").by_default("ground"),
+                   inertia_key("about its axis"),
+                   key::number("mass", kind::mass, "at the carrier; with `cad` spread evenly, in place of `material`")
+                       .from_zero()
+                       .by_default(&BodyRequest::mass),
+                   key::vector("position", kind::length,
+                               "where it is drawn, at zero displacement; on the ground it turns about it")
+                       .by_default("[0, 0, 0]; with `cad` the centre of mass")
+                       .into(&BodyRequest::position),
+                   drawn_radius("a disc")},
+                  unbalance_keys(),
+                  part_keys()}),
+          coupling::BodyKind::rotor,
+          [](coupling::MachineModel &machine, const BodyRequest &body)
+          { machine.add_rotor(body.name, body.axis, body.inertia, body.mass, body.carrier); },
+          read_rotor,
+          "on"};
+}
+
+} // namespace gestell::apps

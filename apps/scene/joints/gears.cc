@@ -1,0 +1,120 @@
+#include "apps/scene/joints/joint_keys.h"
+#include "apps/scene/joints/joint_types.h"
+#include "apps/scene/read/relative_motion.h"
+#include "fem/values/vector3.h"
+
+#include <cmath>
+
+namespace gestell::apps
+{
+namespace
+{
+
+/// A gear whose wheels are carried by a third body: their motions count against it (Willis).
+void read_carried_gear(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  const std::string carrier = names.marker(table, "carrier");
+  refuse_in_space(table, "carrier", carrier, names);
+  for (const bool first : {true, false})
+  {
+    const std::string  key    = first ? "from" : "to";
+    const std::string &marker = first ? joint.from.marker : joint.to.marker;
+    const BodyRequest *body   = names.find_body(marker);
+    if (!body || body->kind == coupling::BodyKind::point || body->kind == coupling::BodyKind::rigid)
+      throw table.error(key, "a gear couples rotors, sliders and planar bodies by their one angle or displacement");
+    if (marker == carrier)
+      throw table.error("carrier", "is '" + carrier + "' like `" + key + "`; it must be what carries the wheels");
+    const bool slides = body->kind == coupling::BodyKind::slider;
+    joint.measure.terms.push_back(
+        {first ? -joint.ratio : 1., difference(marker, carrier, body->axis, !slides), nullptr});
+    joint.measure.unit = slides ? "m" : "rad";
+  }
+}
+
+void read_gear(const SceneTable &table, const Names &names, JointRequest &joint)
+{
+  read_joined_places(table, names, joint);
+  joint.holds_rotations = !table.has("carrier");
+  if (table.has("carrier"))
+    read_carried_gear(table, names, joint);
+}
+
+std::vector<Key> gear_mesh_keys()
+{
+  return joined({two_places(),
+                 {key::direction("axis", "of both wheels").into(&MeshRequest::axis),
+                  key::number("ratio", kind::number,
+                              "angle of `to` for one of `from`, against the line of their centres: negative of two "
+                              "outer wheels, positive with a ring, `\"-18/24\"`")
+                      .into(&MeshRequest::ratio),
+                  key::number("pressure_angle", kind::angle,
+                              "of the flank that carries while `force` is positive, negative of the other; between -45 "
+                              "and 45 degrees")
+                      .by_default(&MeshRequest::pressure_angle)}});
+}
+
+/// The teeth of two wheels: the way along their line of action.
+MeasureRequest read_gear_mesh(const SceneTable &table, const Names &names)
+{
+  MeasureRequest measure;
+  measure.form   = mechanism::RelativeMeasure::Form::gear;
+  measure.unit   = "m";
+  measure.first  = names.place(table, "from", "at_from");
+  measure.second = names.place(table, "to", "at_to");
+  check_two_places(table, measure.first, measure.second);
+  const auto mesh = table.filled<MeshRequest>();
+  for (const bool first : {true, false})
+  {
+    const std::string &marker = first ? measure.first.marker : measure.second.marker;
+    refuse_in_space(table, first ? "from" : "to", marker, names);
+    const BodyRequest *body = names.find_body(marker);
+    if (turns_about_own_axis(body) && std::abs(std::abs(fem::dot(body->axis, mesh.axis)) - 1.) > 1e-9)
+      throw table.error("axis", "is not that of '" + marker + "'; wheels with teeth in mesh turn about parallel axes");
+  }
+  if (mesh.ratio == 0. || mesh.ratio == 1.)
+    throw table.error("ratio", "must be neither 0 nor 1: negative of two outer wheels, positive with a ring");
+  if (!(std::abs(mesh.pressure_angle) < 0.25 * M_PI))
+    throw table.error("pressure_angle", "must lie between -45 and 45 degrees");
+  measure.mesh = mesh;
+  return measure;
+}
+
+} // namespace
+
+JointType gear_type()
+{
+  JointType type{
+      "gear",
+      "Coordinate of `to` = `ratio` times that of `from`: angles of rotors and planar bodies, displacements of "
+      "sliders. With `carrier` both count against it (Willis), and it takes the rest of the torque.",
+      "`torque` or `force` on `to`",
+      joined({one_point(),
+              {key::number("ratio", kind::number, "of the coordinates").into(&JointRequest::ratio),
+               key::named("carrier", "body or interface that carries the wheels").by_default("none")}}),
+      read_gear,
+      [](JointEquations &equations, const JointRequest &joint) { equations.gear(joint.ratio); }};
+  type.is_coupling = true;
+  return type;
+}
+
+JointType gear_mesh_type()
+{
+  return {"gear mesh",
+          "Holds the angles of two wheels against the line of their centres. The wheels may be carried by different "
+          "bodies; radii follow from the distance of the centres, `at_from` and `at_to`, as described. A ring that is "
+          "held is `to = "
+          "\"ground\"`, a body or an interface.",
+          "`force` of the teeth, positive where it turns `to` positively about `axis`", gear_mesh_keys(),
+          [](const SceneTable &table, const Names &names, JointRequest &joint)
+          { joint.measure = read_gear_mesh(table, names); }};
+}
+
+MeasureType gear_mesh_measure()
+{
+  return {"gear mesh",
+          "Way along the line of action of the teeth of two wheels, as of the [joint](#joints): a clearance or spring "
+          "on it is an elastic gear with backlash.",
+          "`value`, `rate`, `acceleration`", gear_mesh_keys(), read_gear_mesh};
+}
+
+} // namespace gestell::apps
