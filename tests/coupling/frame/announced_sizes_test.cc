@@ -6,15 +6,12 @@
 #include "coupling/integration/system/announced_size.h"
 #include "coupling/integration/system/state_archive.h"
 #include "tests/support/limited_memory.h"
+#include "tests/support/program.h"
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace gestell::coupling
@@ -76,15 +73,10 @@ void claim_everywhere(const std::string &valid, Order order, std::size_t step, c
 class AnnouncedSizes : public ::testing::Test
 {
 protected:
-  const std::string file = (fs::temp_directory_path() / ("gestell_" + std::to_string(getpid()) + ".sizes")).string();
-  void              TearDown() override { fs::remove(file); }
+  void write(const std::string &bytes) const { std::ofstream(file, std::ios::binary) << bytes; }
 
-  void        write(const std::string &bytes) const { std::ofstream(file, std::ios::binary) << bytes; }
-  std::string bytes() const
-  {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  const tests::Folder folder{"sizes"};
+  const std::string   file = (folder / "bytes").string();
 };
 
 const Eigen::MatrixXd small = (Eigen::MatrixXd(2, 3) << 1., 0., -2., 0., 0., 0.5).finished();
@@ -105,9 +97,9 @@ TEST_F(AnnouncedSizes, ProductsDoNotOverflow)
 TEST_F(AnnouncedSizes, OfPetscAreJudgedByTheFile)
 {
   write_petsc_matrix(file, small);
-  const std::string dense = bytes();
+  const std::string dense = tests::read(file);
   write_petsc_matrix(file, Eigen::SparseMatrix<double>(small.sparseView()));
-  for (const std::string &valid : {dense, bytes()})
+  for (const std::string &valid : {dense, tests::read(file)})
     claim_everywhere(valid, Order::big, 4,
                      [&](const std::string &forged)
                      {

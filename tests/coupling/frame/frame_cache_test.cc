@@ -76,21 +76,6 @@ TEST_F(FrameCache, MakesAFrameOnceAndAnewWhereTheKeptOneIsDamaged)
   EXPECT_FALSE(fs::exists(cache_file(content_key(coarse.recipe))));
 }
 
-TEST_F(FrameCache, ADamagedFileIsToldAndReplaced)
-{
-  std::string       note;
-  const std::string key = content_key(fine.recipe);
-  coupling::keep_in_cache(some_frame(), fine);
-  fs::resize_file(cache_file(key), 1000);
-  EXPECT_FALSE(coupling::find_in_cache(key, note));
-  EXPECT_NE(note.find("reduced anew"), std::string::npos) << note;
-
-  EXPECT_EQ(coupling::keep_in_cache(some_frame(), fine), "");
-  note.clear();
-  EXPECT_TRUE(coupling::find_in_cache(key, note));
-  EXPECT_EQ(note, "");
-}
-
 TEST_F(FrameCache, ThatCannotBeWrittenIsToldAndDoesNoHarm)
 {
   std::ofstream(folder / "file") << "no folder";

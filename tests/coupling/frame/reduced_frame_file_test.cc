@@ -13,6 +13,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace gestell
@@ -38,40 +39,25 @@ TEST_F(ReducedFrameFile, ComesBackBitByBit)
   coupling::write_reduced_frame(file, frame);
   const ReducedFrame back = coupling::read_reduced_frame(file);
 
-  EXPECT_EQ(back.M, frame.M);
-  EXPECT_EQ(back.B, frame.B);
-  EXPECT_EQ(back.C, frame.C);
-  EXPECT_EQ(back.n_interface, frame.n_interface);
-  EXPECT_EQ(back.omega0, frame.omega0);
   ASSERT_EQ(back.interfaces.size(), 1u);
-  EXPECT_EQ(back.interfaces[0].name, "crown");
-  EXPECT_EQ(back.interfaces[0].position, frame.interfaces[0].position);
-  EXPECT_EQ(back.interfaces[0].coordinate, frame.interfaces[0].coordinate);
-  EXPECT_EQ(back.interfaces[0].sign, frame.interfaces[0].sign);
-  EXPECT_EQ(back.translations_load, frame.translations_load);
   ASSERT_EQ(back.outputs.size(), 1u);
-  EXPECT_EQ(back.outputs[0].name, "support.feet.z");
-  EXPECT_EQ(back.outputs[0].unit, "N");
-  EXPECT_EQ(back.outputs[0].on_q, frame.outputs[0].on_q);
-  EXPECT_EQ(back.outputs[0].on_v, frame.outputs[0].on_v);
-  EXPECT_EQ(back.outputs[0].under_acceleration, frame.outputs[0].under_acceleration);
-  EXPECT_EQ(back.points, frame.points);
-  EXPECT_EQ(back.triangles, frame.triangles);
-  EXPECT_EQ(back.displacement, frame.displacement);
-  EXPECT_EQ(back.stress.point, frame.stress.point);
-  EXPECT_EQ(back.stress.triangles, frame.stress.triangles);
-  EXPECT_EQ(back.stress.rigid, frame.stress.rigid);
-  EXPECT_EQ(back.stress.nearby, frame.stress.nearby);
-  EXPECT_EQ(back.stress.mean, frame.stress.mean);
-  EXPECT_EQ(back.stress.deviation, frame.stress.deviation);
-  EXPECT_EQ(back.n_full, frame.n_full);
-  EXPECT_EQ(back.n_cells, frame.n_cells);
-  EXPECT_EQ(back.mass, frame.mass);
-  EXPECT_EQ(back.frequencies_hz, frame.frequencies_hz);
-  EXPECT_EQ(back.frequency_error, frame.frequency_error);
-  EXPECT_EQ(back.static_residual, frame.static_residual);
-  EXPECT_EQ(back.notes, frame.notes);
-  EXPECT_EQ(back.statements, frame.statements);
+  const auto top = [](const ReducedFrame &f)
+  {
+    return std::tie(f.M, f.B, f.C, f.n_interface, f.omega0, f.translations_load, f.points, f.triangles, f.displacement,
+                    f.n_full, f.n_cells, f.mass, f.frequencies_hz, f.frequency_error, f.static_residual, f.notes,
+                    f.statements);
+  };
+  const auto inner = [](const ReducedFrame &f)
+  {
+    const auto &interface = f.interfaces[0];
+    const auto &output    = f.outputs[0];
+    const auto &s         = f.stress;
+    return std::tie(interface.name, interface.position, interface.coordinate, interface.sign, output.name, output.unit,
+                    output.on_q, output.on_v, output.under_acceleration, s.point, s.triangles, s.rigid, s.nearby,
+                    s.mean, s.deviation);
+  };
+  EXPECT_TRUE(top(back) == top(frame));
+  EXPECT_TRUE(inner(back) == inner(frame));
 }
 
 TEST_F(ReducedFrameFile, IsTheSameFileWhenWrittenAgain)
@@ -82,7 +68,8 @@ TEST_F(ReducedFrameFile, IsTheSameFileWhenWrittenAgain)
   EXPECT_EQ(coupling::text_of(stored.origin.recipe), coupling::text_of(origin.recipe));
   EXPECT_EQ(stored.origin.scene, "press.toml");
   coupling::write_reduced_frame(file + ".again", stored.frame, stored.origin);
-  EXPECT_EQ(bytes(file + ".again"), bytes(file)); // every part came back
+  EXPECT_EQ(bytes(file + ".again"), bytes(file));                            // every part came back
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "below"), {}), 2); // nothing is left beside them
 }
 
 TEST_F(ReducedFrameFile, EveryChangedByteIsNoticed)
@@ -114,16 +101,6 @@ TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreToldApart)
   };
   says(other, "another version");
   says("\x89HDF\r\n\x1a\n", "foreign file, or one of an early version");
-}
-
-TEST_F(ReducedFrameFile, EqualFramesGiveEqualFiles)
-{
-  const ReducedFrame frame = some_frame();
-  coupling::write_reduced_frame(file, frame, {{{"mesh.size", "0.08"}}, "press.toml", "press.step"});
-  const std::string first = bytes(file);
-  coupling::write_reduced_frame(file, frame, {{{"mesh.size", "0.08"}}, "press.toml", "press.step"});
-  EXPECT_EQ(bytes(file), first);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "below"), {}), 1); // nothing is left beside it
 }
 
 TEST_F(ReducedFrameFile, DamagedFilesAreRefused)
