@@ -70,14 +70,7 @@ TEST(FrfCommand, RefusesOddInputWithTheWayOut)
   const auto   refused = [&](const std::string &options, const std::vector<std::string> &words)
   { expect_answer(gestell(press + options + folder.option()), 2, words); };
   refused("--to slide", {"--from is missing"});
-  refused("--from slide", {"--to is missing"});
-  refused("--from slid --to slide", {"--from", "slide"});
-  refused("--from rod.force --to slide", {"no displacement or angle"});
   refused("--from slide --to slide --kind compliance", {"--kind"});
-  refused("--from slide --to slide --at rest", {"--at"});
-  refused("--from slide --to slide --points 0", {"--points"});
-  refused("--from slide --to slide --lowest '10 Hz' --highest '1 Hz'", {"--lowest is 10 Hz, --highest 1 Hz"});
-  refused("--from slide --to slide --lowest 'ten Hz'", {"--lowest"});
   refused("--from slide --to slide --measured nowhere.csv", {"nowhere.csv", "cannot be read"});
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "summary.json"));
 }

@@ -70,18 +70,6 @@ TEST(Press, StandsWithItsWeightOnTheFoundationWhenItStarts)
   EXPECT_GT(column("x1"), 0.);
 }
 
-TEST(Press, SecondRunFindsTheReducedFrame)
-{
-  const Folder      cache("press_cache");
-  const std::string command = "GESTELL_CACHE='" + (cache / "own").string() +
-                              "' '" GESTELL_BINARY_DIR "/bin/gestell' reduce --quiet " + scene("press.toml") + coarse;
-  const Answer first = shell(command);
-  ASSERT_EQ(first.exit_code, 0) << first.text;
-  EXPECT_FALSE(first.says("from the cache"));
-  EXPECT_TRUE(shell(command).says("from the cache"));
-  EXPECT_FALSE(shell(command + "--set frame.damping.ratio=0.0241").says("from the cache"));
-}
-
 TEST(Press, FrameAThousandTimesStifferChangesTheReboundPeak)
 {
   const Folder soft("press_soft"), stiff("press_stiff");

@@ -89,39 +89,6 @@ TEST(Program, EveryCommandHelpsWithAnExample)
   EXPECT_TRUE(gestell("--version").says("gestell "));
 }
 
-struct Wrong
-{
-  std::string name, arguments, message;
-};
-
-std::ostream &operator<<(std::ostream &out, const Wrong &wrong)
-{
-  return out << wrong.name;
-}
-
-using WrongInput = ::testing::TestWithParam<Wrong>;
-
-TEST_P(WrongInput, IsToldWithPlaceAndRemedyAndLeavesNothing)
-{
-  const Folder folder("wrong");
-  expect_answer(gestell("run " + scene("press_minimal.toml") + folder.option() + GetParam().arguments), 2,
-                {GetParam().message});
-  EXPECT_FALSE(std::filesystem::exists(folder.results()));
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    All, WrongInput,
-    ::testing::Values(Wrong{"unknown_key", "--set element.rod.clearence='\"1 mm\"'", "clearance"},
-                      Wrong{"end_at_start", "--set run.end='\"-1 us\"'", "got -1e-06 s"},
-                      Wrong{"negative_damping", "--set frame.damping='[[-1e6, 0], [0, -1e6]]'", "frame.damping"},
-                      Wrong{"ratio_in_percent", "--set frame.damping='{ ratio = 5 }'", "ratio"},
-                      Wrong{"signal_twice", "--set output.signals='[\"rod.force\", \"rod.force\"]'", "twice"},
-                      Wrong{"endless_steps", "--set run.step=1e-13", "run.step"},
-                      Wrong{"unstable_newmark", "--set run.method=newmark --set run.beta=0 --set run.step=1e-2",
-                            "unstable"},
-                      Wrong{"bad_parameter", "--set parameters.c_el='\"1000 kN/mm\"'", "elastic_stiffness"}),
-    [](const auto &information) { return information.param.name; });
-
 TEST(Program, LengthsOnTheCommandLineTakeUnitsAndSayWhatIsWrong)
 {
   for (const char *wrong : {"3kg", "0", "x", "-1"})
@@ -141,23 +108,6 @@ TEST(Program, MoreMemoryThanThereIsIsToldWithWhatHelps)
       shell("ulimit -v 2000000; '" GESTELL_BINARY_DIR "/bin/gestell' run " + scene("press_minimal.toml") +
             folder.option() + "--set run.step=1e-9 --set output.allow_large=true");
   expect_answer(answer, 2, {"would take ", " of memory; available are 1.", "output.step"});
-}
-
-TEST(Program, MissingSceneIsWrongInput)
-{
-  expect_answer(gestell("run no_such_scene.toml"), 2, {"no_such_scene.toml"});
-  EXPECT_EQ(gestell("run").exit_code, 2);
-  EXPECT_EQ(gestell("dance").exit_code, 2);
-}
-
-TEST(Program, ASlipOnTheCommandLineIsAnsweredWithTheNearestWord)
-{
-  const auto expect = [](const std::string &arguments, const std::string &message)
-  { expect_answer(gestell(arguments), 2, {message}); };
-  expect("chekc a.toml", "there is no command 'chekc'; did you mean 'check'?");
-  expect("foo", "there is no command 'foo'; valid: 'run', 'modes'");
-  expect("check --qiuet a.toml", "there is no option --qiuet; did you mean '--quiet'?");
-  expect("check a.toml b.toml", "'b.toml' is one input too many");
 }
 
 /// The text behind "name": in the object that `of` opens.
@@ -189,13 +139,6 @@ TEST(Program, SummaryTellsWhatWasAskedAndWhatWasRun)
   EXPECT_EQ(member(json, "outcome", "complete"), "true,");
   EXPECT_EQ(member(json, "outcome", "failure"), "null");
   EXPECT_NE(json.find("\n  \"commit\": "), std::string::npos);
-}
-
-TEST(Program, FolderThatCannotBeWrittenIsToldBeforeComputing)
-{
-  const Folder      folder("unwritable");
-  const std::string file = folder.file("a_file", "not a folder");
-  expect_answer(gestell("run " + scene("press_minimal.toml") + " -o " + file), 2, {"-o"});
 }
 
 TEST(Program, WrongInputLosesNoEarlierResult)
