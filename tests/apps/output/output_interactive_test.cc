@@ -2,6 +2,7 @@
 #include "apps/output/interactive/machine_animation.h"
 #include "apps/output/interactive/page_scripts.h"
 #include "apps/output/interactive/short_motion.h"
+#include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"

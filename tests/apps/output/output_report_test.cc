@@ -1,5 +1,8 @@
+#include "apps/output/faces/faces_page.h"
 #include "apps/output/interactive/page_scripts.h"
 #include "apps/output/report/report.h"
+#include "apps/output/report/stress_report.h"
+#include "apps/output/tables/summary_json.h"
 #include "tests/support/output_example.h"
 
 #include <gtest/gtest.h>
@@ -56,9 +59,9 @@ std::string without_scripts(std::string html)
   return html;
 }
 
-std::size_t place(const std::string &html, const std::string &text)
+bool holds(const std::string &text, const std::string &part)
 {
-  return html.find(text);
+  return text.find(part) != std::string::npos;
 }
 
 } // namespace
@@ -94,9 +97,9 @@ TEST(Report, WarnsFirstThenAnswersThenExplains)
   for (const char *text : {"press &quot;example&quot; &lt;1&gt;", "The mesh is coarse.", "1056.6", "id=\"forces\"",
                            "id=\"motion\"", "id=\"events\"", "id=\"energy\"", "id=\"modes\"", "id=\"numerics\""})
   {
-    ASSERT_NE(place(html, text), std::string::npos) << text;
-    EXPECT_GT(place(html, text), reached) << text;
-    reached = place(html, text);
+    ASSERT_NE(html.find(text), std::string::npos) << text;
+    EXPECT_GT(html.find(text), reached) << text;
+    reached = html.find(text);
   }
 }
 
@@ -125,11 +128,11 @@ TEST(Report, TellsInTwoSentencesWhatWasComputedBeforeItWarns)
   Result result          = example_result();
   result.run->method     = "BDF 2";
   const std::string html = make_report(result).html;
-  const std::string said = html.substr(place(html, "id=\"computed\""), 600);
+  const std::string said = html.substr(html.find("id=\"computed\""), 600);
   for (const char *part : {"from 0 to 0.45 s was computed by BDF 2 in 45000 steps with 4 coordinates",
                            "F_P reaches 1057 kN at 0.2341 s", "there are 3 events", "closes to 0.023 %"})
     EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
-  EXPECT_LT(place(html, "id=\"computed\""), place(html, "The mesh is coarse."));
+  EXPECT_LT(html.find("id=\"computed\""), html.find("The mesh is coarse."));
 }
 
 TEST(Report, ShowsNoiseAsZeroAndTurnsPerMinuteBesideRadiansPerSecond)
@@ -140,7 +143,7 @@ TEST(Report, ShowsNoiseAsZeroAndTurnsPerMinuteBesideRadiansPerSecond)
   const std::string html = without_scripts(make_report(result).html);
   std::smatch       small;
   EXPECT_FALSE(std::regex_search(html, small, std::regex("[0-9]e-1[0-9]"))) << small.str();
-  const auto row = html.substr(place(html, "<td>1/min</td>"), 80);
+  const auto row = html.substr(html.find("<td>1/min</td>"), 80);
   EXPECT_NE(row.find(">300<"), std::string::npos) << row;
 }
 
@@ -206,4 +209,63 @@ TEST(Report, NamesPicturesThatItsViewHas)
     EXPECT_NE(html.find("\"id\":\"" + show + "\""), std::string::npos) << show;
   }
   EXPECT_EQ(n, 2u + result.coupled_modes.size() + 5u + 1u); // the start and the peak, modes, an instant of stress
+}
+
+TEST(StressOutput, StandsInTheSummaryOnlyWhereItWasAskedFor)
+{
+  const Result result = with_stress(example_result());
+  const auto   json   = summary_json(result);
+  EXPECT_TRUE(holds(json, "\"label\": \"largest F_P\""));
+  EXPECT_TRUE(holds(json, "\"beside\": \"support feet\""));
+  EXPECT_FALSE(holds(summary_json(example_result()), "\"stress\""));
+  EXPECT_FALSE(holds(make_report(example_result()).html, "id=\"stress\""));
+}
+
+TEST(StressOutput, TellsBothPlacesAndTheDoubtInTheReport)
+{
+  const Report report = make_report(with_stress(example_result()));
+  EXPECT_TRUE(holds(report.html, "<section id=\"stress\""));
+  EXPECT_TRUE(holds(report.html, "href=\"#stress\""));
+  EXPECT_TRUE(holds(report.html, "beside support feet"));
+  EXPECT_TRUE(holds(report.html, "largest F_P"));
+  EXPECT_TRUE(holds(report.html, "<th class=\"n\">elements disagree"));
+  EXPECT_TRUE(holds(report.html, "too coarse")) << "the disagreement is above 10 %";
+  EXPECT_TRUE(holds(report.html, "data-show=\"stress-1\"")) << "a picture of the instant";
+  EXPECT_TRUE(holds(report.html, "\"mark\":7")) << "the peak, at the last corner, is ringed";
+  EXPECT_TRUE(holds(report.html, "stress 0 to 80 MPa")) << "colours end at the largest value away from rigid surfaces";
+}
+
+TEST(FacesPage, HoldsFiveHundredFacesOfAFineMeshInFiveMegabytes)
+{
+  const std::string page = faces_page(chequered(23, 8), "plate.step", "0"); // 529 faces, 67 712 triangles
+  EXPECT_LT(page.size(), 5000000u);
+  EXPECT_NE(page.find("529 faces"), std::string::npos);
+  EXPECT_NE(page.find("\"tag\":529"), std::string::npos);
+}
+
+TEST(FacesPage, GivesLengthsInTheUnitOfTheFileAndInMetres)
+{
+  const std::string page = faces_page(chequered(2, 1), "plate.step", "0");
+  EXPECT_NE(page.find("250000 mm² = 0.25 m²"), std::string::npos);
+  EXPECT_NE(page.find("(1000, 1000, 0) mm = (1, 1, 0) m"), std::string::npos);
+}
+
+TEST(FacesPage, IsNotBrokenByANameThatEndsAScript)
+{
+  const std::string page = faces_page(chequered(2, 1), "plate.step", "0");
+  std::size_t       ends = 0;
+  for (std::size_t at = page.find("</script>"); at != std::string::npos; at = page.find("</script>", at + 1))
+    ++ends;
+  EXPECT_EQ(ends, 1u);
+}
+
+/// "<!--<script>" would let the page's end tag end nothing.
+TEST(FacesPage, IsNotBrokenByANameThatOpensAComment)
+{
+  coupling::MeshReport report = chequered(2, 1);
+  report.surfaces[0].name     = "<!--<script>";
+  const std::string page      = faces_page(report, "plate.step", "0");
+  const std::size_t data      = page.find("const frame = ");
+  ASSERT_NE(data, std::string::npos);
+  EXPECT_EQ(page.substr(data, page.find('\n', data) - data).find('<'), std::string::npos);
 }

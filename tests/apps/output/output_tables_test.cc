@@ -3,12 +3,15 @@
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/text/change_text.h"
 #include "apps/output/text/csv.h"
 #include "apps/output/text/json.h"
 #include "apps/output/text/write_file.h"
 #include "coupling/frame/atomic_file.h"
 #include "fem/values/number_text.h"
 #include "tests/support/output_example.h"
+#include "tests/support/program.h"
+#include "tests/support/refusal.h"
 
 #include <gtest/gtest.h>
 
@@ -32,27 +35,12 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// A folder of its own for each test, gone afterwards.
+/// A folder of its own for each test.
 class ResultFolder : public ::testing::Test
 {
 protected:
-  void SetUp() override
-  {
-    const auto *test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder           = fs::path(GESTELL_BINARY_DIR) / "test-output" / test->name();
-    fs::remove_all(folder);
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  std::string read(const std::string &name) const
-  {
-    std::ifstream     file(folder / name, std::ios::binary);
-    std::stringstream content;
-    content << file.rdbuf();
-    return content.str();
-  }
-
-  fs::path folder;
+  const tests::Folder vanishing{"results"};
+  const fs::path      folder = vanishing / "own";
 };
 
 std::vector<std::string> lines_of(const std::string &text)
@@ -62,19 +50,6 @@ std::vector<std::string> lines_of(const std::string &text)
   for (std::string line; std::getline(stream, line);)
     lines.push_back(line);
   return lines;
-}
-
-std::string refusal(const fs::path &folder)
-{
-  try
-  {
-    prepare_folder(folder);
-  }
-  catch (const std::invalid_argument &error)
-  {
-    return error.what();
-  }
-  return "";
 }
 
 } // namespace
@@ -134,6 +109,7 @@ TEST(Tables, ModesOfFrameAndMachineAreNumberedSeparately)
   result.coupled_modes[0].damping_ratio = std::nan("");
   result.frame_modes[1].refined_hz      = 84.5;
   const auto lines                      = lines_of(modes_csv(result));
+  EXPECT_EQ(Json::parse(summary_json(result))["frame_refined_frequencies_hz"].dump(), "[null,84.5]");
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0], "mode,frequency [Hz],damped frequency [Hz],damping ratio,effective mass x [kg],effective mass y "
                       "[kg],effective mass z [kg],kind,growth [1/s],refined frequency [Hz]");
@@ -142,25 +118,6 @@ TEST(Tables, ModesOfFrameAndMachineAreNumberedSeparately)
   EXPECT_EQ(lines[2].substr(lines[2].rfind(',')), ",84.5");
   EXPECT_EQ(lines[3].substr(lines[3].rfind(',')), ",nan") << "of the coupled machine none is known";
   EXPECT_NE(lines[3].find(",nan,100,0,0.6666666666666666,coupled"), std::string::npos);
-}
-
-TEST(Tables, SummaryHasEveryMemberOfTheContractEvenWithoutARun)
-{
-  Result result = example_result();
-  result.run.reset();
-  const std::string json = summary_json(result);
-  for (const char *member : {"scene", "version", "commit", "asked", "model", "frequencies_hz", "signals", "events",
-                             "method", "accuracy", "work", "wall_s", "energy", "warnings"})
-    EXPECT_NE(json.find("\n  \"" + std::string(member) + "\": "), std::string::npos) << member;
-}
-
-TEST(Tables, RefinedFrequenciesStandBesideTheReducedOnes)
-{
-  Result result                    = example_result();
-  result.frame_modes[1].refined_hz = 84.5;
-  const std::string json           = summary_json(result);
-  EXPECT_NE(json.find("\"frame_frequencies_hz\": [\n    20.0,\n    85.0\n  ]"), std::string::npos);
-  EXPECT_NE(json.find("\"frame_refined_frequencies_hz\": [\n    null,\n    84.5\n  ]"), std::string::npos);
 }
 
 TEST(Tables, WarningsTellTheEarlyEndFirstAndNothingTwice)
@@ -197,7 +154,7 @@ TEST_F(ResultFolder, ThatCannotBeWrittenIsRefusedWithPathReasonAndRemedy)
   std::ofstream(folder / "file") << "in the way";
   for (const fs::path &bad : {folder / "file", folder / "file" / "below", fs::path("/proc/gestell"), fs::path()})
   {
-    const std::string message = refusal(bad);
+    const std::string message = tests::refusal([&] { prepare_folder(bad); });
     EXPECT_NE(message.find(bad.string()), std::string::npos) << message;
     EXPECT_NE(message.find("-o DIR"), std::string::npos) << message;
   }
@@ -208,24 +165,13 @@ TEST_F(ResultFolder, IsTestedWithoutLeavingATrace)
   fs::create_directories(folder);
   std::ofstream(folder / "summary.json") << "old";
   require_writable(folder);
-  EXPECT_EQ(read("summary.json"), "old");
+  EXPECT_EQ(tests::read(folder / "summary.json"), "old");
   require_writable(folder / "deep" / "er" / "");
   EXPECT_FALSE(fs::exists(folder / "deep"));
   fs::current_path(folder);
   require_writable("results/press");
   EXPECT_FALSE(fs::exists(folder / "results"));
   fs::current_path(GESTELL_BINARY_DIR);
-}
-
-TEST_F(ResultFolder, HoldsEveryFileOfTheContractAfterARun)
-{
-  prepare_folder(folder);
-  const auto names = write_results(folder, example_result());
-  for (const std::string &name : names)
-    EXPECT_GT(fs::file_size(folder / name), 0u) << name;
-  for (const char *name : {"summary.json", "history.csv", "modes.csv", "report.html"})
-    EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
-  EXPECT_FALSE(fs::is_empty(folder / "charts"));
 }
 
 /// Wherever the disk becomes full, files are whole or missing, and the summary tells which, if there is room for it.
@@ -263,7 +209,7 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
     EXPECT_EQ(status, 0) << most;
     if (fs::exists(cut / "summary.json"))
     {
-      EXPECT_NE(read("cut/summary.json").find("cannot be written"), std::string::npos) << most;
+      EXPECT_NE(tests::read(folder / "cut/summary.json").find("cannot be written"), std::string::npos) << most;
     }
     for (const auto &entry : fs::recursive_directory_iterator(cut))
       if (entry.is_regular_file() && entry.path().filename() != "summary.json" &&
@@ -275,12 +221,6 @@ TEST_F(ResultFolder, OnAFullDiskHoldsWholeFilesOnlyAndTellsWhatIsMissing)
   std::ofstream(cut / "history.csv") << "t [s]\n";
   fs::remove(cut / "summary.json");
   EXPECT_TRUE(incomplete(cut));
-}
-
-TEST_F(ResultFolder, ReportsAFileThatCannotBeWritten)
-{
-  fs::create_directories(folder / "summary.json");
-  EXPECT_THROW(write_file(folder / "summary.json", "{}"), std::runtime_error);
 }
 
 TEST(CsvField, IsQuotedWhereItMustBeWithItsQuotesDoubled)
@@ -312,4 +252,22 @@ TEST(StoryTable, SaysWhatIsNotKnown)
   result.story = story;
   reported     = Json::parse(summary_json(result))["story"]["loads"][0];
   EXPECT_TRUE(reported["t_modes"].is_null());
+}
+
+// A pull that grows is larger, whatever its sign.
+TEST(ChangeText, IsThatOfTheMagnitude)
+{
+  EXPECT_EQ(change_text(-100., -110.), "10 % larger");
+  EXPECT_EQ(change_text(100., 110.), "10 % larger");
+  EXPECT_EQ(change_text(-100., -90.), "10 % smaller");
+  EXPECT_EQ(change_text(100., 0.), "100 % smaller");
+}
+
+TEST(ChangeText, IsNoPercentageWhereNoneTells)
+{
+  EXPECT_EQ(change_text(-100., 90.), "of the other sign");
+  EXPECT_EQ(change_text(3., 3. * (1. + 1e-12)), "the same");
+  EXPECT_EQ(change_text(0., 0.), "the same");
+  EXPECT_EQ(change_text(0., 5.), "");
+  EXPECT_EQ(change_text(1., std::nan("")), "");
 }
