@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/periodic/continuation.h"
 #include "coupling/periodic/periodic_problem.h"
 #include "tests/support/cubic_system.h"
 
@@ -100,6 +101,16 @@ inline coupling::PeriodicProblem problem_of_period(coupling::SecondOrderSystem &
   problem.period = period;
   problem.turn   = Eigen::VectorXd::Zero(system.linear().size());
   return problem;
+}
+
+/// A branch from one value of its parameter to another.
+inline coupling::ContinuationOptions branch_options(double from, double to, int points)
+{
+  coupling::ContinuationOptions options;
+  options.from   = from;
+  options.to     = to;
+  options.points = points;
+  return options;
 }
 
 } // namespace gestell::tests

@@ -68,11 +68,8 @@ void expect_same_ends(const TwoBranches &branches, double tolerance)
 
 TEST(CollocationBranch, GoesRoundTheFoldsOfDuffingsOscillator)
 {
-  ContinuationOptions options;
-  options.from        = 1.;
-  options.to          = 2.;
-  options.points      = 12;
-  const auto branches = follow(
+  ContinuationOptions options  = branch_options(1., 2., 12);
+  const auto          branches = follow(
       [](double Omega)
       {
         DuffingCase given = duffing_cases.at("duffing1");
@@ -87,11 +84,8 @@ TEST(CollocationBranch, GoesRoundTheFoldsOfDuffingsOscillator)
 /// Events move along the branch, and the mesh with them; where they begin it grazes.
 TEST(CollocationBranch, FollowsTheEventsOfPlay)
 {
-  ContinuationOptions options;
-  options.from        = 1.;
-  options.to          = 0.2;
-  options.points      = 8;
-  const auto branches = follow(
+  ContinuationOptions options  = branch_options(1., 0.2, 8);
+  const auto          branches = follow(
       [](double F)
       {
         ClearanceCase given = clearance_cases.at("clearance1");
@@ -105,11 +99,8 @@ TEST(CollocationBranch, FollowsTheEventsOfPlay)
 /// The amplitude of the load rises from zero: a branch that begins at rest has no size at first.
 TEST(CollocationBranch, BeginsAtRest)
 {
-  ContinuationOptions options;
-  options.from        = 0.;
-  options.to          = 0.3;
-  options.points      = 6;
-  const auto branches = follow(
+  ContinuationOptions options  = branch_options(0., 0.3, 6);
+  const auto          branches = follow(
       [](double F)
       {
         DuffingCase given = duffing_cases.at("duffing1");
@@ -124,11 +115,8 @@ TEST(CollocationBranch, BeginsAtRest)
 /// The period changes along the branch and is an unknown of it.
 TEST(CollocationBranch, FollowsALimitCycle)
 {
-  ContinuationOptions options;
-  options.from        = 0.5;
-  options.to          = 3.;
-  options.points      = 10;
-  const auto branches = follow([](double eps) { return member_of<SmallSystem>(van_der_pol(eps), 6.5, 0); },
+  ContinuationOptions options  = branch_options(0.5, 3., 10);
+  const auto          branches = follow([](double eps) { return member_of<SmallSystem>(van_der_pol(eps), 6.5, 0); },
                                {VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5}, options);
   expect_same_ends(branches, 1e-7);
   EXPECT_NEAR(branches.by_collocation.points.back().solution.period, 8.85909550, 1e-6); // Andersen and Geer 1982
@@ -144,11 +132,8 @@ TEST(CollocationBranch, LeavesAtAPeriodDoubling)
     system.loads().add_harmonic(0, 1., B, 0.);
     return member_of<CubicSystem>(system, 2. * M_PI);
   };
-  ContinuationOptions options;
-  options.from        = 5.1;
-  options.to          = 5.6;
-  options.points      = 4;
-  const auto branches = follow(family, {VectorXd::Constant(1, 1.5), VectorXd::Zero(1), 0.}, options);
+  ContinuationOptions options  = branch_options(5.1, 5.6, 4);
+  const auto          branches = follow(family, {VectorXd::Constant(1, 1.5), VectorXd::Zero(1), 0.}, options);
   expect_same_ends(branches, 1e-6);
   ASSERT_FALSE(branches.by_collocation.special.empty());
   SpecialMotion doubled = branches.by_collocation.special[0];

@@ -5,7 +5,7 @@
 #include "coupling/periodic/followed_equations.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/trace_orbit.h"
-#include "tests/support/small_system.h"
+#include "tests/support/periodic_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -24,19 +24,9 @@ FamilyMember cubic_oscillator(double B)
 {
   const MatrixXd one    = MatrixXd::Identity(1, 1);
   auto           system = std::make_shared<SmallSystem>(one, 0.2 * one, 0. * one);
-  system->set_law(VectorXd::Ones(1),
-                  [](double u, double, double &p, double &dp_du, double &dp_dv)
-                  {
-                    p     = -u * u * u;
-                    dp_du = -3. * u * u;
-                    dp_dv = 0.;
-                  });
+  system->set_law(VectorXd::Ones(1), law_of([](double u) { return -u * u * u; }, [](double u) { return -3. * u * u; }));
   system->loads().add_harmonic(0, 1., B, 0.);
-  PeriodicProblem problem;
-  problem.system = system.get();
-  problem.period = 2. * M_PI;
-  problem.turn   = VectorXd::Zero(1);
-  return {problem, system};
+  return {problem_of_period(*system, 2. * M_PI), system};
 }
 
 /// x'' + x' = x (lambda - x - x^2) at rest, beside a linear oscillator that moves.
@@ -44,19 +34,10 @@ FamilyMember buckling_oscillator(double lambda)
 {
   const MatrixXd one    = MatrixXd::Identity(2, 2);
   auto           system = std::make_shared<SmallSystem>(one, one, one);
-  system->set_law(VectorXd::Unit(2, 0),
-                  [lambda](double u, double, double &p, double &dp_du, double &dp_dv)
-                  {
-                    p     = u * (1. + lambda - u - u * u);
-                    dp_du = 1. + lambda - 2. * u - 3. * u * u;
-                    dp_dv = 0.;
-                  });
+  system->set_law(VectorXd::Unit(2, 0), law_of([lambda](double u) { return u * (1. + lambda - u - u * u); },
+                                               [lambda](double u) { return 1. + lambda - 2. * u - 3. * u * u; }));
   system->loads().add_harmonic(1, 1., 1., 0.);
-  PeriodicProblem problem;
-  problem.system = system.get();
-  problem.period = 2. * M_PI;
-  problem.turn   = VectorXd::Zero(2);
-  return {problem, system};
+  return {problem_of_period(*system, 2. * M_PI), system};
 }
 
 /// From a motion to which the oscillator settles from `x` at rest.
@@ -158,12 +139,9 @@ TEST(Branch, IsFollowedOnceWhereItsSidesAreMirrorImages)
 /// x (1 + x) = lambda leaves x = 0 at lambda = 0 to both sides, which are unlike.
 TEST(Branch, IsFollowedToBothSidesWhereTheyAreUnlike)
 {
-  ContinuationOptions options;
-  options.from               = -0.2;
-  options.to                 = 0.2;
-  options.points             = 20;
-  const FamilyMember   first = buckling_oscillator(options.from);
-  const auto           rest  = shooting_method().solve(first.problem, {VectorXd::Zero(2), VectorXd::Zero(2), 0.}, {});
+  ContinuationOptions  options = branch_options(-0.2, 0.2, 20);
+  const FamilyMember   first   = buckling_oscillator(options.from);
+  const auto           rest    = shooting_method().solve(first.problem, {VectorXd::Zero(2), VectorXd::Zero(2), 0.}, {});
   const auto           equations = shooting_branch(buckling_oscillator, {}, 1.);
   const Branch         straight  = follow_branch(*equations, rest.at(0), options);
   const SpecialMotion *special   = found(straight, "branch");
@@ -193,11 +171,8 @@ TEST(Branch, FindsTheModesOfTheBaseOnce)
   const FamilyMember first = cubic_oscillator(2.2);
   const auto         solution =
       shooting_method().solve(first.problem, {VectorXd::Constant(1, 0.1), VectorXd::Zero(1), 0.}, settled);
-  ContinuationOptions options;
-  options.from         = 2.2;
-  options.to           = 2.4;
-  options.points       = 5;
-  const auto equations = shooting_branch(cubic_oscillator, shared, 1.);
+  ContinuationOptions options   = branch_options(2.2, 2.4, 5);
+  const auto          equations = shooting_branch(cubic_oscillator, shared, 1.);
   EXPECT_GT(follow_branch(*equations, solution.at(0), options).points.size(), 3u);
   EXPECT_EQ(shared.integration.modes->found(), 1);
 }

@@ -3,10 +3,12 @@
 #include "coupling/periodic/deflation.h"
 #include "coupling/periodic/minimising.h"
 #include "tests/support/periodic_cases.h"
+#include "tests/support/reference_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 namespace gestell::tests
 {
@@ -70,6 +72,22 @@ TEST(Minimising, TellsTheShortestPeriodOfAMotion)
   for (const int starts : {2, 4})
     for (const PeriodicSolution &solution : motions("duffing2", starts))
       EXPECT_EQ(solution.ratio, 1) << starts;
+}
+
+/// All motions of the table, from no more than the machine at rest.
+TEST(Minimising, FindsTheMotionsOfDuffingsOscillator)
+{
+  std::map<std::string, std::vector<PeriodicSolution>> found;
+  for (const auto &entry : duffing_cases)
+    found[entry.first] = motions(entry.first, 24);
+  for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
+  {
+    double nearest = 1.;
+    for (const PeriodicSolution &solution : found.at(row["case"]))
+      if (solution.ratio == 1)
+        nearest = std::min(nearest, std::hypot(solution.q[0] - row.number("x(0)"), solution.v[0] - row.number("v(0)")));
+    EXPECT_LT(nearest, 1e-8) << row["case"] << row["solution"];
+  }
 }
 
 } // namespace gestell::tests

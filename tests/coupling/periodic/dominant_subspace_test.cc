@@ -1,7 +1,7 @@
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/shooting.h"
 #include "coupling/periodic/shooting/shooting_method.h"
-#include "tests/support/small_system.h"
+#include "tests/support/periodic_cases.h"
 
 #include <gtest/gtest.h>
 
@@ -31,24 +31,15 @@ SmallSystem chain(double beta)
   }
   const MatrixXd M = MatrixXd::Identity(n_masses, n_masses);
   SmallSystem    system(M, 0.06 * C + 0.01 * M, C);
-  system.set_law(VectorXd::Unit(n_masses, n_masses - 1),
-                 [beta](double u, double, double &p, double &dp_du, double &dp_dv)
-                 {
-                   p     = -beta * u * u * u;
-                   dp_du = -3. * beta * u * u;
-                   dp_dv = 0.;
-                 });
+  system.set_law(VectorXd::Unit(n_masses, n_masses - 1), law_of([beta](double u) { return -beta * u * u * u; },
+                                                                [beta](double u) { return -3. * beta * u * u; }));
   system.loads().add_harmonic(n_masses - 1, drive, 0.9, 0.);
   return system;
 }
 
 PeriodicProblem slow_problem_of(SmallSystem &system)
 {
-  PeriodicProblem problem;
-  problem.system = &system;
-  problem.period = 2. * M_PI / drive;
-  problem.turn   = VectorXd::Zero(n_masses);
-  return problem;
+  return problem_of_period(system, 2. * M_PI / drive);
 }
 
 } // namespace

@@ -184,33 +184,6 @@ TEST(HarmonicBalance, HasPeakAndFoldsOfThePublishedDuffingOscillator)
 namespace
 {
 
-/// Rotor, free, with bearing damping, driven by a motor M_0 - c phi' against the weight k sin phi of an eccentric mass.
-struct Rotor
-{
-  double      M_0, c, k;
-  SmallSystem system = SmallSystem(MatrixXd::Constant(1, 1, 2.), MatrixXd::Constant(1, 1, 0.3), MatrixXd::Zero(1, 1));
-
-  Rotor(double torque, double slope, double weight) : M_0(torque), c(slope), k(weight)
-  {
-    system.set_law(VectorXd::Ones(1),
-                   [this](double u, double v, double &p, double &dp_du, double &dp_dv)
-                   {
-                     p     = M_0 - c * v - k * std::sin(u);
-                     dp_du = -k * std::cos(u);
-                     dp_dv = -c;
-                   });
-  }
-  PeriodicProblem problem(double period)
-  {
-    PeriodicProblem problem = problem_of_period(system, period);
-    problem.begin           = 0.7;
-    problem.turn            = VectorXd::Constant(1, 2. * M_PI);
-    problem.phase           = 0;
-    problem.phase_value     = 0.2;
-    return problem;
-  }
-};
-
 /// Largest |M q'' + B q' + C q - f - p| at instants that are no samples, against the largest inertia force.
 double unbalanced(SmallSystem &system, const FourierSeries &series)
 {
@@ -231,37 +204,6 @@ double unbalanced(SmallSystem &system, const FourierSeries &series)
 }
 
 } // namespace
-
-/// With bearing damping the free motion has a zero and a decaying eigenvalue, without two zeros.
-TEST(HarmonicBalance, FindsTheSpeedOfARotorThatNothingHolds)
-{
-  for (const double bearing : {0.3, 0.})
-  {
-    Rotor rotor(9., 1.2, 4.);
-    rotor.system.B(0, 0)          = bearing;
-    const PeriodicProblem problem = rotor.problem(1.);
-    const auto found = harmonic_balance_method().solve(problem, {VectorXd::Zero(1), VectorXd::Zero(1), 1.}, {});
-    ASSERT_EQ(found.size(), 1u);
-    EXPECT_LT(unbalanced(rotor.system, *found[0].series), 1e-8);
-    EXPECT_NEAR(motion_at(*found[0].series, 0, problem.begin)[0], problem.phase_value, 1e-10);
-    EXPECT_NEAR(found[0].q[0], problem.phase_value, 1e-10);
-    EXPECT_NEAR(found[0].v[0], motion_at(*found[0].series, 0, problem.begin)[1], 1e-10);
-    // mean torque M_0 - (c + b) mean speed - k mean(sin) = 0, and the mean weight slows the rotor
-    EXPECT_LT(2. * M_PI / found[0].period, 9. / (1.2 + bearing));
-  }
-}
-
-/// x'' + x = (1 - x^2) x':  period and amplitude of the limit cycle to all digits (Andersen and Geer 1982).
-TEST(HarmonicBalance, FindsTheLimitCycleOfVanDerPol)
-{
-  SmallSystem     system  = van_der_pol(1.);
-  PeriodicProblem problem = problem_of_period(system, 6.5);
-  problem.phase           = 0;
-  const auto found = harmonic_balance_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5}, {});
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_NEAR(found[0].period, 6.66328685932313, 1e-8);
-  EXPECT_LT(unbalanced(system, *found[0].series), 1e-6);
-}
 
 /// dr/dz and dr/dT against central quotients, of a law of two measures with u', in a base with a damped free motion, an
 /// undamped one and a spring.

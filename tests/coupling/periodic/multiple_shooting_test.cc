@@ -6,8 +6,6 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/trace_orbit.h"
 #include "tests/support/periodic_cases.h"
-#include "tests/support/play_system.h"
-#include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
 
 #include <gmock/gmock.h>
@@ -106,53 +104,6 @@ TEST(CyclicSystem, KeepsTheDigitsThatTheProductOfItsBlocksLoses)
   EXPECT_LT((CyclicSystem(A, MatrixXd(2, 0), -1).solve(r) - x).norm(), 1e-12 * x.norm());
 }
 
-/// Every motion of the table, unstable ones too, is the same in one segment, five or sixteen.
-TEST(MultipleShooting, MeetsTheTableOfDuffingsOscillator)
-{
-  int rows = 0;
-  for (const ReferenceRow &row : read_reference("periodic/duffing_shooting.csv"))
-  {
-    const DuffingCase    &given   = duffing_cases.at(row["case"]);
-    CubicSystem           system  = duffing_system(given);
-    const PeriodicProblem problem = problem_of_period(system, 2. * M_PI / given.Omega);
-    const VectorXd        q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
-    const std::complex<double> mu(row.number("mu1_re"), row.number("mu1_im"));
-    for (const int segments : {1, 5, 16})
-    {
-      const auto found = shooting_method().solve(problem, {1.001 * q, 0.999 * v, 0.}, in_segments(segments)).at(0);
-      EXPECT_NEAR(found.q[0], q[0], 1e-10) << row["case"] << row["solution"];
-      EXPECT_NEAR(found.v[0], v[0], 1e-10) << row["case"] << row["solution"];
-      EXPECT_LT((found.multipliers.array() - mu).abs().minCoeff(), 1e-8) << row["case"] << row["solution"];
-      EXPECT_EQ(found.stable(), row["stability"] == "stable");
-    }
-    ++rows;
-  }
-  EXPECT_GT(rows, 8);
-}
-
-/// Segments end within branches of the play and within the play; the events between them are those of the table.
-TEST(MultipleShooting, MeetsTheTableOfPlayThroughItsEvents)
-{
-  int rows = 0;
-  for (const ReferenceRow &row : read_reference("periodic/clearance_periodic.csv"))
-  {
-    const ClearanceCase &given = clearance_cases.at(row["case"]);
-    const int            ratio = int(row.number("period_in_forcing_periods"));
-    PlaySystem           system(clearance_system(given));
-    PeriodicProblem      problem = problem_of_period(system, ratio * 2. * M_PI / given.Omega);
-    problem.ratio                = ratio;
-    const VectorXd q = VectorXd::Constant(1, row.number("x(0)")), v = VectorXd::Constant(1, row.number("v(0)"));
-    const auto     found = shooting_method().solve(problem, {1.001 * q, 0.999 * v, 0.}, in_segments(7)).at(0);
-    EXPECT_NEAR(found.q[0], q[0], 1e-10) << row["case"] << row["solution"];
-    EXPECT_NEAR(found.v[0], v[0], 1e-10) << row["case"] << row["solution"];
-    const std::complex<double> mu(row.number("mu1_re"), row.number("mu1_im"));
-    EXPECT_LT((found.multipliers.array() - mu).abs().minCoeff(), 1e-8) << row["case"] << row["solution"];
-    EXPECT_EQ(double(found.events.size()), row.number("crossings"));
-    ++rows;
-  }
-  EXPECT_EQ(rows, 6);
-}
-
 /// What is balanced on a hilltop parts by 10^7 and 10^17 in a period.  From a start off by some percent one
 /// passage leaves the hill; segments stay, and find the motion that harmonic balance finds, which follows nothing.
 TEST(MultipleShooting, ClosesAMotionTooUnstableToBeFollowedForAPeriod)
@@ -181,25 +132,6 @@ TEST(MultipleShooting, ClosesAMotionTooUnstableToBeFollowedForAPeriod)
     const auto in_smaller = shooting_method().solve(problem, guess, options).at(0);
     EXPECT_NEAR(in_smaller.largest_multiplier() / found.largest_multiplier(), 1., 1e-9);
   }
-}
-
-/// x'' + x = (1 - x^2) x':  period of the limit cycle to all digits (Andersen and Geer 1982), the motion of one
-/// segment.
-TEST(MultipleShooting, MeetsTheLimitCycleOfVanDerPol)
-{
-  SmallSystem     system  = van_der_pol(1.);
-  PeriodicProblem problem = problem_of_period(system, 6.5);
-  problem.phase           = 0;
-  const PeriodicGuess guess{VectorXd::Zero(1), VectorXd::Constant(1, 2.), 6.5};
-  const auto          one_segment = shooting_method().solve(problem, guess, in_segments(0)).at(0);
-  const auto          many        = shooting_method().solve(problem, guess, in_segments(9)).at(0);
-  EXPECT_NEAR(many.period, 6.66328685932313, 1e-10);
-  EXPECT_NEAR(many.period, one_segment.period, 1e-10);
-  EXPECT_NEAR(many.q[0], 0., 1e-12);
-  EXPECT_NEAR(many.v[0], one_segment.v[0], 1e-10);
-  ASSERT_EQ(many.multipliers.size(), 2);
-  EXPECT_LT((many.multipliers - one_segment.multipliers).norm(), 1e-8);
-  EXPECT_TRUE(many.stable());
 }
 
 TEST(MultipleShooting, RefusesElementsThatRememberMoreThanTheirBranch)
