@@ -6,6 +6,7 @@
 #include "apps/session/checkpoint/run_checkpoints.h"
 #include "apps/session/session.h"
 #include "coupling/simulation/resumable_run.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
 
 #include <gmock/gmock.h>
@@ -192,15 +193,7 @@ class CheckpointFile : public testing::Test
 protected:
   std::string message(const std::vector<apps::KeyPart> &key) const
   {
-    try
-    {
-      apps::read_checkpoint(file, key);
-    }
-    catch (const std::invalid_argument &error)
-    {
-      return error.what();
-    }
-    return "";
+    return tests::refusal([&] { apps::read_checkpoint(file, key); });
   }
 
   const test::SceneFolder          folder;

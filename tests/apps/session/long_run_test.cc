@@ -1,9 +1,7 @@
 // What scenes do in the long run, and the pictures of their motions, against what must hold of them.
 
-#include "apps/session/session.h"
+#include "tests/apps/session/periodic_scenes.h"
 #include "tests/support/refusal.h"
-#include "tests/support/scene_parts.h"
-#include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -13,11 +11,6 @@ namespace gestell::tests
 {
 namespace
 {
-
-using apps::PeriodicEntry;
-using apps::PeriodicRequest;
-using apps::PeriodicResult;
-using apps::Session;
 
 /// x'' + b x' + c x + beta x^3 = F cos(Omega t)
 std::string cubic_slide(double b, double c, double beta, double F, const std::string &frequency)
@@ -39,12 +32,6 @@ std::string hertz(double Omega)
   return number(Omega / (2. * M_PI)) + " Hz";
 }
 
-PeriodicResult motions_of(const std::string &text, const PeriodicRequest &request)
-{
-  const test::SceneFolder folder;
-  return *Session(folder.write("scene.toml", text)).periodic(request).periodic;
-}
-
 PeriodicRequest request_by(const std::string &method)
 {
   PeriodicRequest request;
@@ -60,8 +47,8 @@ PeriodicRequest request_by(const std::string &method)
 TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
 {
   PeriodicRequest request     = request_by("minimise");
-  request.own["starts"]       = 1;
-  const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request);
+  request.own["starts"]              = 1;
+  const PeriodicResult result = periodic_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request);
   EXPECT_EQ(result.failure, "");
   ASSERT_TRUE(result.long_run);
   const auto &run = *result.long_run;
@@ -85,7 +72,7 @@ TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
 TEST(LongRun, FindsTheSubharmonicMotionToWhichAMachineSettles)
 {
   const std::string    start  = test::quoted("[start]\nv = { slide = 4 }\n");
-  const PeriodicResult result = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request_by("settling"));
+  const PeriodicResult result = periodic_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request_by("settling"));
   EXPECT_EQ(result.failure, "");
   ASSERT_TRUE(result.long_run);
   EXPECT_EQ(result.long_run->motion.kind, "sub-harmonic");
@@ -102,7 +89,7 @@ TEST(LongRun, FindsTheSubharmonicMotionToWhichAMachineSettles)
 /// One unstable motion may be all that was asked for: the way to the rest is told.
 TEST(LongRun, IsOfferedWhereTheOnlyMotionIsUnstable)
 {
-  const PeriodicResult result = motions_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request_by("shooting"));
+  const PeriodicResult result = periodic_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request_by("shooting"));
   ASSERT_EQ(result.entries.size(), 1u) << result.failure;
   EXPECT_FALSE(result.long_run);
   ASSERT_EQ(result.notes.size(), 1u);
@@ -112,9 +99,9 @@ TEST(LongRun, IsOfferedWhereTheOnlyMotionIsUnstable)
 TEST(LongRun, IsToldWhereItIsAskedFor)
 {
   PeriodicRequest request = request_by("shooting");
-  EXPECT_FALSE(motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request).long_run);
+  EXPECT_FALSE(periodic_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request).long_run);
   request.section             = 80;
-  const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request);
+  const PeriodicResult result = periodic_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request);
   ASSERT_TRUE(result.long_run);
   EXPECT_EQ(result.long_run->motion.kind, "periodic");
   EXPECT_EQ(result.long_run->motion.section.cols(), 80);
@@ -122,10 +109,10 @@ TEST(LongRun, IsToldWhereItIsAskedFor)
   request.along = "parameters.x";
   request.from = request.to = "1";
   const std::string named   = test::quoted("gravity = [0, 0, 'x']\n[parameters]\nx = 1\n");
-  expect_refusal([&] { motions_of(named + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "one motion");
+  expect_refusal([&] { periodic_of(named + cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "one motion");
   request.along   = "";
   request.section = 10;
-  expect_refusal([&] { motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "at least 64");
+  expect_refusal([&] { periodic_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request); }, "at least 64");
 }
 
 /// A motion of three periods is computed a second way as one of three periods, too.
@@ -133,17 +120,17 @@ TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
 {
   const std::string start = test::quoted("[start]\nv = { slide = 4 }\n");
   PeriodicRequest   request;
-  request.method         = "shooting";
-  request.ratio          = 3;
+  request.method  = "shooting";
+  request.ratio   = 3;
   request.own["lead-in"] = 30;
-  request.check          = "harmonic-balance";
-  auto result            = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
+  request.check   = "harmonic-balance";
+  auto result     = periodic_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
   ASSERT_EQ(result.checks.size(), 1u);
   EXPECT_EQ(result.checks[0].failure, "");
   EXPECT_LT(result.checks[0].distances[0].second, 1e-8);
   request       = request_by("settling");
   request.check = "shooting";
-  result        = motions_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
+  result        = periodic_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
   ASSERT_EQ(result.checks.size(), 1u);
   EXPECT_LT(result.checks[0].distances[0].second, 1e-8) << result.checks[0].failure;
 }
@@ -151,7 +138,7 @@ TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
 /// x = a cos(Omega t) is an ellipse in its plane: x^2 + (x'/Omega)^2 = a^2.
 TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
 {
-  const PeriodicResult result = motions_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request_by("shooting"));
+  const PeriodicResult result = periodic_of(cubic_slide(0.1, 1., 0., 1., hertz(1.4)), request_by("shooting"));
   const double         a      = 1. / std::hypot(1. - 1.4 * 1.4, 0.1 * 1.4);
   ASSERT_EQ(result.planes.size(), 1u) << "velocities and forces have no exact rate";
   EXPECT_EQ(result.planes[0].name, "x");
@@ -166,11 +153,11 @@ TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
 TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
 {
   PeriodicRequest request     = request_by("minimise");
-  request.own["starts"]       = 12;
+  request.own["starts"]              = 12;
   request.basins              = "slide, slide'";
   request.basin_points        = 6;
   const std::string    scene  = cubic_slide(0.1, 1., 0.5, 0.3, hertz(1.4));
-  const PeriodicResult result = motions_of(scene, request);
+  const PeriodicResult result = periodic_of(scene, request);
   ASSERT_EQ(result.entries.size(), 3u);
   ASSERT_TRUE(result.basins);
   const coupling::Basins &basins = result.basins->basins;
@@ -194,13 +181,13 @@ TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
   EXPECT_EQ(sum, 1.);
 
   request.basins    = "slide from -10 mm to 1 m, slide' from 0 to 2";
-  const auto &plane = motions_of(scene, request).basins->basins.plane;
+  const auto &plane = periodic_of(scene, request).basins->basins.plane;
   EXPECT_EQ(plane.x_begin, -0.01);
   EXPECT_EQ(plane.y_end, 2.);
   const auto words = [&](const std::string &text)
   {
     request.basins = text;
-    return refusal([&] { motions_of(scene, request); });
+    return refusal([&] { periodic_of(scene, request); });
   };
   EXPECT_THAT(words("slid, slide'"), testing::HasSubstr("'slide'"));
   EXPECT_THAT(words("slide"), testing::HasSubstr("two sides"));
@@ -219,7 +206,7 @@ TEST(Backbone, OfACubicSpringIsItsFormula)
   request.points          = 30;
   const std::string text =
       test::quoted("[parameters]\nOmega = 0.8\n") + cubic_slide(0.1, 1., 0.5, 0.3, "Omega/(2*pi) * 1 Hz");
-  const PeriodicResult result = motions_of(text, request);
+  const PeriodicResult result = periodic_of(text, request);
   ASSERT_GT(result.backbone.size(), 20u);
   double largest = 0.;
   for (const PeriodicEntry &entry : result.backbone)

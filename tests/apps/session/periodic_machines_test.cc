@@ -1,10 +1,18 @@
-// Periodic motions of geared drives are those to which a run settles; names of coordinates mean their motions.
+// Periodic motions of kinds of machines: geared drives come to that to which a run settles, and names of coordinates mean
+// their motions; of linear laws alone no method has a nonlinear measure to solve for; under a load that turns with its body
+// multipliers of small vibrations are those of the linear machine.
 
+#include "apps/session/session.h"
 #include "tests/apps/session/periodic_scenes.h"
+#include "tests/support/follower_plate.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scene_parts.h"
+#include "tests/support/scene_run.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gestell::tests
@@ -193,6 +201,132 @@ TEST(NamesOfCoordinates, MeanTheMotionWhereAFrameHasItsOppositeSign)
   ASSERT_EQ(again.entries.size(), 1u) << again.failure;
   EXPECT_EQ(again.entries[0].solution.work.iterations, 0);
   EXPECT_LT((again.entries[0].solution.q - entry.solution.q).norm(), 1e-12);
+}
+
+namespace
+{
+
+using apps::PeriodicRequest;
+
+std::string load(const std::string &harmonics)
+{
+  return element("load", "force",
+                 {{"from", "slide"}, {"to", "ground"}, {"direction", "[1, 0, 0]"}, {"harmonics", harmonics}});
+}
+
+const std::string five_hertz = "[{ amplitude = '10 N', frequency = '5 Hz' }]";
+
+std::string spring(const std::string &to)
+{
+  return element("spring", "spring-damper",
+                 {{"from", "slide"}, {"to", to}, {"stiffness", "1000"}, {"damping", "1"}, {"direction", "[1, 0, 0]"}});
+}
+
+std::string slide()
+{
+  return slider_body("slide", "1", "[1, 0, 0]");
+}
+
+struct Kind
+{
+  const char *name;
+  std::string scene;
+};
+
+std::vector<Kind> kinds()
+{
+  const std::string signal = test::quoted("[output.signals]\nx = 'slide.displacement'\n");
+  return {{"held and pushed", slide() + spring("ground") + load(five_hertz) + signal},
+          {"held by a spring without a damper",
+           slide() + element("spring", "spring-damper", {{"from", "slide"}, {"stiffness", "1000"}}) + load(five_hertz) +
+               signal},
+          {"held at rest", slide() + spring("ground") + signal},
+          {"free and pushed", slide() + load(five_hertz) + signal},
+          {"two, held by each other",
+           slide() + slider_body("other", "2", "[1, 0, 0]") + spring("other") + load(five_hertz) + signal}};
+}
+
+} // namespace
+
+/// What is held and pushed swings by |F / (c - m w^2 + i w b)| with every method (averaging to the second order of
+/// small forces); of the others each method finds a motion, tells where the long run led, or fails in words.
+TEST(LinearMotions, AreFoundOrRefusedByEveryMethod)
+{
+  const double w = 10. * M_PI, amplitude = 10. / std::hypot(1000. - w * w, w);
+  for (const Kind &kind : kinds())
+    for (const std::string method :
+         {"shooting", "collocation", "harmonic-balance", "settling", "minimise", "averaging"})
+    {
+      SCOPED_TRACE(std::string(kind.name) + ", " + method);
+      const test::SceneFolder folder;
+      PeriodicRequest         request;
+      request.method      = method;
+      request.period      = "0.2 s";
+      request.own["starts"]      = method == "minimise" ? 2 : 0;
+      const bool is_held  = std::string(kind.name).rfind("held", 0) == 0;
+      const auto scene    = folder.write("scene.toml", test::quoted(kind.scene));
+      const auto answered = [&](const apps::PeriodicResult &result)
+      {
+        EXPECT_TRUE(!result.entries.empty() || result.long_run || result.failure.size() > 20u);
+        if (std::string(kind.name) != "held and pushed")
+          return;
+        ASSERT_FALSE(result.entries.empty()) << result.failure;
+        EXPECT_NEAR(result.entries[0].signals.at(0).max, amplitude, (method == "averaging" ? 1e-2 : 1e-4) * amplitude);
+      };
+      try
+      {
+        answered(*apps::Session(scene).periodic(request).periodic);
+      }
+      catch (const std::invalid_argument &refusal)
+      {
+        EXPECT_FALSE(is_held && method != "averaging" && method != "minimise") << refusal.what();
+        EXPECT_THAT(refusal.what(), testing::HasSubstr(method == "harmonic-balance" ? "harmonic balance" : method));
+      }
+    }
+}
+
+namespace
+{
+
+constexpr double Omega = 7.3;
+
+/// The plate under a load so small that it stays linear: angles of 1e-4 change multipliers by their squares.
+PeriodicResult vibrations(const std::string &method, double P)
+{
+  PeriodicRequest request;
+  request.method = method;
+  if (method == "shooting" || method == "collocation") // a flutter leaves the motion before
+    request.own["lead-in"] = 0;
+  return periodic_of(follower_plate(P, 2e-3) + cosine_load("plate", 0.05, Omega) +
+                         test::quoted("[start]\nrule = 'static'\n[output.signals]\nx = 'plate.ux'\n"),
+                     request);
+}
+
+} // namespace
+
+TEST(FollowerOrbits, HaveTheMultipliersOfTheLinearMachine)
+{
+  for (const double P : {-200., -400.})
+    for (const std::string method : {"shooting", "collocation", "harmonic-balance"})
+    {
+      const PeriodicResult result = vibrations(method, P);
+      ASSERT_EQ(result.entries.size(), 1u) << method << result.failure;
+      const auto &solution = result.entries[0].solution;
+      EXPECT_EQ(solution.stable(), P > -300.) << method;
+      for (const std::complex<double> &s : plate_roots(P, 2e-3))
+      {
+        const std::complex<double> expected = std::exp(s * 2. * M_PI / Omega);
+        double                     nearest  = 1e9;
+        for (const std::complex<double> &mu : solution.multipliers)
+          nearest = std::min(nearest, std::abs(mu - expected));
+        EXPECT_LT(nearest, 1e-6 * std::max(1., std::abs(expected))) << method << ' ' << P << ' ' << expected;
+      }
+    }
+}
+
+TEST(FollowerOrbits, AreNotAveraged)
+{
+  expect_refusal([] { vibrations("averaging", -200.); }, "forces follow the motion");
 }
 
 } // namespace gestell::tests

@@ -23,26 +23,6 @@ std::string play(double zeta, double F0, double F, double Omega)
          cosine_load("slide", F, Omega, F0) + test::quoted(output_x);
 }
 
-/// M q'' + B q' + C q + sum beta w (w^T q)^3 = F cos(Omega t) of the reference.
-std::string two_masses(const std::string &name, double Omega)
-{
-  const bool        first = name == "two_dof1";
-  const std::string frame = first ? "mass = [[1.0, 0.0], [0.0, 0.05]]\ndamping = [[0.015, -0.013], [-0.013, 0.013]]\n"
-                                    "stiffness = [[1.0453, -0.0453], [-0.0453, 0.0453]]\n"
-                                  : "mass = [[2.0, 0.0], [0.0, 1.0]]\ndamping = [[0.06, -0.02], [-0.02, 0.04]]\n"
-                                    "stiffness = [[3.0, -1.0], [-1.0, 2.0]]\n";
-  std::string       text =
-      "[frame]\n" + frame + table("frame.interface.one", {{"rows", "{ ux = 1 }"}, {"position", "[0, 0, 0]"}}) +
-      table("frame.interface.two", {{"rows", "{ ux = 2 }"}, {"position", "[1, 0, 0]"}}) +
-      element("cubic", "cubic spring",
-              {{"from", "frame.one"}, {"to", "ground"}, {"direction", "[1, 0, 0]"}, {"cubic", first ? "1.0" : "0.5"}});
-  if (first)
-    text += element("between", "cubic spring",
-                    {{"from", "frame.one"}, {"to", "frame.two"}, {"direction", "[1, 0, 0]"}, {"cubic", "0.0042"}});
-  return text + cosine_load("frame.one", first ? 0.11 : 0.8, Omega) +
-         test::quoted("[output.signals]\nq1 = 'frame.one.ux'\nq2 = 'frame.two.ux'\n");
-}
-
 /// The first signal at a share of the period, by the cubic through the four rows about it.
 double signal_at(const PeriodicEntry &entry, double share)
 {
@@ -109,7 +89,7 @@ TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
   const double zeta[] = {0.05, 0.05, 0.05, 0.1}, F0[] = {0.3, 0.3, 0.1, 0.3}, F[] = {1., 0.5, 2., 1.},
                Omega[] = {0.7, 1.8, 1.8, 1.8};
   PeriodicRequest request;
-  request.method        = "minimise";
+  request.method = "minimise";
   request.own["starts"] = 40;
   for (int i = 0; i < 4; ++i)
   {
@@ -130,58 +110,12 @@ TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
   }
 }
 
-/// Two masses with cubic springs: every motion of the table, its start and multipliers.
-TEST(PeriodicScene, TwoMassesMeetTheReference)
-{
-  for (const ReferenceRow &row : read_reference("periodic/two_dof_shooting.csv"))
-  {
-    PeriodicRequest request;
-    request.method         = "shooting";
-    request.own["lead-in"] = 0;
-    const std::string start =
-        test::quoted("[start]\nq = { 'frame.one.ux' = " + row["q1(0)"] + ", 'frame.two.ux' = " + row["q2(0)"] +
-                     " }\nv = { 'frame.one.ux' = " + row["v1(0)"] + ", 'frame.two.ux' = " + row["v2(0)"] + " }\n");
-    const PeriodicResult result = periodic_of(two_masses(row["case"], row.number("Omega")) + start, request);
-    ASSERT_EQ(result.entries.size(), 1u) << result.failure;
-    const auto &solution = result.entries[0].solution;
-    // The table has 14 digits of a start that is of order one, and residuals of 1e-18.
-    EXPECT_NEAR(solution.q[0], row.number("q1(0)"), 1e-10);
-    EXPECT_NEAR(solution.q[1], row.number("q2(0)"), 1e-10);
-    for (int k = 0; k < 4; ++k)
-      EXPECT_NEAR(std::abs(solution.multipliers[k]), row.number("|mu" + std::to_string(k + 1) + "|"), 1e-8);
-    EXPECT_NEAR(result.entries[0].signals[0].amplitude[0], row.number("harmonic1_q1"), 1e-9);
-    EXPECT_EQ(solution.stable(), row["stability"] == "stable");
-  }
-}
-
-/// The product of all multipliers is exp(-int tr(M^-1 B) dt), whatever the springs do (Liouville).
-TEST(PeriodicScene, MultipliersHaveTheProductThatDampingGives)
-{
-  const PeriodicResult result = periodic_of(play(0.05, 0.3, 1., 0.7));
-  ASSERT_FALSE(result.entries.empty());
-  for (const PeriodicEntry &entry : result.entries)
-    EXPECT_NEAR(std::abs(entry.solution.multipliers.prod()), std::exp(-0.1 * entry.solution.period), 1e-9);
-}
-
-/// Two unrelated methods.
-TEST(PeriodicScene, HarmonicBalanceAndShootingAgree)
-{
-  PeriodicRequest request;
-  request.method              = "harmonic-balance";
-  request.check               = "shooting";
-  const PeriodicResult result = periodic_of(duffing(0.05, 1., 0.8, 0.45), request);
-  ASSERT_EQ(result.entries.size(), 1u);
-  ASSERT_EQ(result.checks.size(), 1u);
-  EXPECT_EQ(result.checks[0].failure, "");
-  EXPECT_LT(result.checks[0].distances[0].second, 1e-8);
-}
-
 /// Folds of the one-harmonic equations are those of the closed formula, six digits in the table.
 TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
 {
   PeriodicRequest request;
   request.method              = "harmonic-balance";
-  request.own["harmonics"]    = 1;
+  request.own["harmonics"]           = 1;
   request.along               = "parameters.Omega";
   request.from                = "1.0";
   request.to                  = "1.7";

@@ -4,7 +4,7 @@
 #include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
 #include "tests/support/refusal.h"
-#include "tests/support/scene_text.h"
+#include "tests/support/scene_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,32 +24,12 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// x = x_0 exp(-delta t) cos(omega t) but for terms of delta/omega; omega = 20 1/s, delta = 1 1/s.
-const char *const fading = R"(
-name = 'fading'
-[parameters]
-c   = '800 N/m'
-t_1 = '0.7 s'
-[body.mass]
-type = 'slider'
-axis = [1, 0, 0]
-mass = '2 kg'
-[element.spring]
-type      = 'spring-damper'
-from      = 'mass'
-stiffness = 'c'
-damping   = '4 N s/m'
-[start]
-q = { mass = '10 mm' }
-[run]
-method    = 'bdf'
-tolerance = 1e-10
-end       = '2 s'
-[output]
-step = '5 ms'
-[output.signals]
-x = 'mass.displacement'
-F = 'spring.force'
-)";
+const std::string fading =
+    "name = 'fading'\n" + table("parameters", {{"c", "800 N/m"}, {"t_1", "0.7 s"}}) +
+    slider_body("mass", "2 kg", "[1, 0, 0]") +
+    element("spring", "spring-damper", {{"from", "mass"}, {"stiffness", "c"}, {"damping", "4 N s/m"}}) +
+    start("q = { mass = '10 mm' }") + table("run", {{"method", "bdf"}, {"tolerance", "1e-10"}, {"end", "2 s"}}) +
+    "[output]\nstep = '5 ms'\n[output.signals]\nx = 'mass.displacement'\nF = 'spring.force'\n";
 
 class Window : public ::testing::Test
 {

@@ -1,9 +1,7 @@
 // Machines that nothing tells the time: what they do by themselves, and planar bodies that turn.
 
-#include "apps/session/session.h"
+#include "tests/apps/session/periodic_scenes.h"
 #include "tests/support/refusal.h"
-#include "tests/support/scene_parts.h"
-#include "tests/support/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -14,17 +12,11 @@ namespace gestell::tests
 namespace
 {
 
-using apps::PeriodicEntry;
-using apps::PeriodicRequest;
-using apps::PeriodicResult;
-using apps::Session;
-
 PeriodicResult steady(const std::string &text, const std::string &method = "")
 {
-  const test::SceneFolder folder;
-  PeriodicRequest         request;
+  PeriodicRequest request;
   request.method = method;
-  return *Session(folder.write("scene.toml", text)).periodic(request).periodic;
+  return periodic_of(text, request);
 }
 
 /// x'' - mu (1 - x^2) x' + x = 0
@@ -39,20 +31,18 @@ std::string van_der_pol(const std::string &force)
 /// A crank as planar body on a pin, driven by a torque that falls with its speed, with rod and ram.
 std::string planar_crank(double torque, double rpm)
 {
-  return test::quoted("gravity = [0, 0, '-9.81 m/s^2']\n"
-                      "[body.crank]\ntype = 'planar'\nnormal = [0, 1, 0]\nposition = ['0.05 m', 0, 0]\nmass = '2 kg'\n"
-                      "inertia = '0.5 kg m^2'\n"
-                      "[body.rod]\ntype = 'planar'\nnormal = [0, 1, 0]\nposition = ['0.4 m', 0, 0]\nmass = '1 kg'\n"
-                      "inertia = '0.02 kg m^2'\n"
-                      "[body.ram]\ntype = 'slider'\naxis = [1, 0, 0]\nmass = '3 kg'\nposition = ['0.7 m', 0, 0]\n"
-                      "[joint.O]\ntype = 'revolute'\nfrom = 'ground'\nto = 'crank'\nat = [0, 0, 0]\n"
-                      "[joint.A]\ntype = 'revolute'\nfrom = 'crank'\nto = 'rod'\nat = ['0.1 m', 0, 0]\n"
-                      "[joint.B]\ntype = 'revolute'\nfrom = 'rod'\nto = 'ram'\nat = ['0.7 m', 0, 0]\n"
-                      "[element.motor]\ntype = 'formula force'\nfrom = 'crank'\nto = 'ground'\nabout = [0, 1, 0]\n"
-                      "force = '" +
-                      number(torque) + " N*m - 2 N*m*s/rad*v'\n[start]\nv = { 'crank.angle' = '" + number(rpm) +
-                      " rpm' }\n[run]\nmethod = 'bdf'\nstep = '0.5 ms'\nend = '1 s'\n"
-                      "[output.signals]\nx = 'ram.displacement'\n");
+  return "gravity = [0, 0, -9.81]\n" + planar_body("crank", "2", "0.5", "[0.05, 0, 0]") +
+         planar_body("rod", "1", "0.02", "[0.4, 0, 0]") +
+         slider_body("ram", "3", "[1, 0, 0]", {{"position", "[0.7, 0, 0]"}}) +
+         revolute("O", "ground", "crank", "[0, 0, 0]") + revolute("A", "crank", "rod", "[0.1, 0, 0]") +
+         revolute("B", "rod", "ram", "[0.7, 0, 0]") +
+         element("motor", "formula force",
+                 {{"from", "crank"},
+                  {"to", "ground"},
+                  {"about", "[0, 1, 0]"},
+                  {"force", number(torque) + " N*m - 2 N*m*s/rad*v"}}) +
+         start("v = { 'crank.angle' = '" + number(rpm) + " rpm' }") + steps("0.5 ms", "1 s", {{"method", "bdf"}}) +
+         "[output.signals]\nx = \"ram.displacement\"\n";
 }
 
 } // namespace
@@ -63,20 +53,19 @@ TEST(SelfExcitedScene, HarmonicsAreAddedAlongABranch)
 {
   const std::string text = "[parameters]\nmu = 0.2\n" + van_der_pol("mu*(1 N*s/m - 1 N*s/m^3*u^2)*v");
   PeriodicRequest   request;
-  request.method = "harmonic-balance";
-  request.along  = "parameters.mu";
-  request.from   = "0.2";
-  request.to     = "4";
-  request.points = 10;
-  const test::SceneFolder folder;
-  const PeriodicResult    along = *Session(folder.write("scene.toml", text)).periodic(request).periodic;
+  request.method             = "harmonic-balance";
+  request.along              = "parameters.mu";
+  request.from               = "0.2";
+  request.to                 = "4";
+  request.points             = 10;
+  const PeriodicResult along = periodic_of(text, request);
   ASSERT_EQ(along.failure, "");
   const PeriodicEntry &first = along.entries.front(), &last = along.entries.back();
   EXPECT_GT(last.solution.series->harmonics(), first.solution.series->harmonics());
   EXPECT_DOUBLE_EQ(last.parameter, 4.);
   PeriodicRequest shot;
   shot.method               = "shooting";
-  const PeriodicResult here = *Session(folder.write("scene.toml", text), {"parameters.mu=4"}).periodic(shot).periodic;
+  const PeriodicResult here = periodic_of(text, shot, {"parameters.mu=4"});
   ASSERT_EQ(here.entries.size(), 1u) << here.failure;
   EXPECT_NEAR(last.solution.period, here.entries[0].solution.period, 1e-8);
   EXPECT_NEAR(last.signals[0].max, here.entries[0].signals[0].max, 1e-7);
@@ -122,8 +111,6 @@ TEST(SelfExcitedScene, StickAndSlipOnABeltIsItsClosedSolutionAlongABranch)
       element("belt", "dry friction",
               {{"from", "slide"}, {"kinetic_force", "2"}, {"static_force", "3"}, {"speed", "vb*(1 m/s)"}}) +
       test::quoted("[output.signals]\nx = 'slide.displacement'\n");
-  const test::SceneFolder folder;
-  const std::string       scene = folder.write("scene.toml", text);
   struct Case
   {
     std::string along, from, to;
@@ -136,7 +123,7 @@ TEST(SelfExcitedScene, StickAndSlipOnABeltIsItsClosedSolutionAlongABranch)
     request.from                = one.from;
     request.to                  = one.to;
     request.points              = 10;
-    const PeriodicResult result = *Session(scene).periodic(request).periodic;
+    const PeriodicResult result = periodic_of(text, request);
     EXPECT_EQ(result.failure, "");
     EXPECT_TRUE(result.special_points.empty()) << one.along;
     EXPECT_NEAR(result.entries.back().parameter, std::stod(one.to), 1e-12);

@@ -12,9 +12,7 @@ namespace gestell::tests
 namespace
 {
 
-class OfShippedScenes : public ::testing::TestWithParam<ComparedScene>
-{
-};
+using OfShippedScenes = ::testing::TestWithParam<ComparedScene>;
 
 TEST_P(OfShippedScenes, AreDifferencesOfConvergedRuns)
 {

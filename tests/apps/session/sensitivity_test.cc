@@ -3,7 +3,7 @@
 #include "apps/session/sensitivity/output_gradients.h"
 #include "apps/session/session.h"
 #include "tests/support/refusal.h"
-#include "tests/support/scene_text.h"
+#include "tests/support/scene_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,40 +21,25 @@ using apps::SensitivityResult;
 using apps::Session;
 
 /// A mass flies to a stop and back, m = 3 kg, omega = 40 /s in the stop.
-const char *const flight = R"(
-name = 'flight'
-[parameters]
-m_1   = '3 kg'
-c     = '4.8 kN/m'
-gap   = '200 mm'
-v_0   = '0.8 m/s'
-idle  = '1 m'
-twice = '2*gap'
-none  = 0
-[body.mass]
-type = 'slider'
-axis = [1, 0, 0]
-mass = 'm_1'
-[element.stop]
-type      = 'stop'
-from      = 'mass'
-to        = 'ground'
-direction = [1, 0, 0]
-side      = 'above'
-gap       = 'gap'
-stiffness = 'c'
-[start]
-rule = 'given'
-q    = { mass = 0 }
-v    = { mass = 'v_0' }
-[run]
-method    = 'bdf'
-tolerance = 1e-10
-end       = '0.5 s'
-[output.signals]
-q = 'mass.displacement'
-F = 'stop.force'
-)";
+const std::string flight = "name = 'flight'\n" +
+                           table("parameters", {{"m_1", "3 kg"},
+                                                {"c", "4.8 kN/m"},
+                                                {"gap", "200 mm"},
+                                                {"v_0", "0.8 m/s"},
+                                                {"idle", "1 m"},
+                                                {"twice", "2*gap"},
+                                                {"none", "0"}}) +
+                           slider_body("mass", "m_1", "[1, 0, 0]") +
+                           element("stop", "stop",
+                                   {{"from", "mass"},
+                                    {"to", "ground"},
+                                    {"direction", "[1, 0, 0]"},
+                                    {"side", "above"},
+                                    {"gap", "gap"},
+                                    {"stiffness", "c"}}) +
+                           start("rule = 'given'\nq = { mass = 0 }\nv = { mass = 'v_0' }") +
+                           table("run", {{"method", "bdf"}, {"tolerance", "1e-10"}, {"end", "0.5 s"}}) +
+                           "[output.signals]\nq = 'mass.displacement'\nF = 'stop.force'\n";
 
 class OfFlight : public ::testing::Test
 {
@@ -149,7 +134,7 @@ TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)
   // Thrown up against gravity, the mass turns at the stop.
   const std::string grazing =
       test::with(test::with(test::quoted(flight), "name = 'flight'", "name = 'flight'\ngravity = [-1.6, 0, 0]"),
-                 "end       = '0.5 s'", "end = '1 s'");
+                 "end = '0.5 s'", "end = '1 s'");
   const std::string path    = folder_.write("grazing.toml", grazing);
   int               refused = 0; // rounding decides which of these speeds meets the stop at all
   for (const char *speed : {"0.8000000000001", "0.8000000000003", "0.8000000000005", "0.800000000001"})
@@ -185,50 +170,17 @@ double quotient(const std::string &path, std::vector<std::string> overrides, con
 }
 
 /// A cam at a given speed lifts a follower by h sin(phi) through a stiff spring.
-const char *const stiff_cam = R"(
-name = 'stiff_cam'
-[parameters]
-w = '10 rad/s'
-h = '20 mm'
-[body.cam]
-type    = 'rotor'
-axis    = [0, 1, 0]
-inertia = '0.02 kg m^2'
-[body.follower]
-type = 'slider'
-axis = [0, 0, 1]
-mass = '2 kg'
-[measure.height]
-type      = 'along'
-from      = 'follower'
-to        = 'ground'
-at_to     = [0, 0, 0]
-direction = [0, 0, 1]
-[measure.gap]
-type     = 'position function'
-from     = 'cam.angle'
-to       = 'height'
-function = 'h*sin(x)'
-[element.contact]
-type      = 'spring-damper'
-on        = 'gap'
-stiffness = '20 kN/mm'
-damping   = '100 N s/m'
-[joint.drive]
-type   = 'prescribed motion'
-on     = 'cam.angle'
-motion = { speed = 'w' }
-[start]
-rule = 'given'
-v    = { cam = 'w', follower = 'h*w' }
-[run]
-method    = 'bdf'
-tolerance = 1e-9
-end       = '0.53 s'
-[output.signals]
-F = 'contact.force'
-M = 'drive.torque'
-)";
+const std::string stiff_cam =
+    "name = 'stiff_cam'\n" + table("parameters", {{"w", "10 rad/s"}, {"h", "20 mm"}}) +
+    rotor_body("cam", "0.02 kg m^2", "[0, 1, 0]") + slider_body("follower", "2 kg", "[0, 0, 1]") +
+    measure("height", "along",
+            {{"from", "follower"}, {"to", "ground"}, {"at_to", "[0, 0, 0]"}, {"direction", "[0, 0, 1]"}}) +
+    measure("gap", "position function", {{"from", "cam.angle"}, {"to", "height"}, {"function", "h*sin(x)"}}) +
+    element("contact", "spring-damper", {{"on", "gap"}, {"stiffness", "20 kN/mm"}, {"damping", "100 N s/m"}}) +
+    joint("drive", "prescribed motion", {{"on", "cam.angle"}, {"motion", "{ speed = 'w' }"}}) +
+    start("rule = 'given'\nv = { cam = 'w', follower = 'h*w' }") +
+    table("run", {{"method", "bdf"}, {"tolerance", "1e-9"}, {"end", "0.53 s"}}) +
+    "[output.signals]\nF = 'contact.force'\nM = 'drive.torque'\n";
 
 TEST(Sensitivities, OfAStiffElementOnAMeasureThatTurnsHoldAcrossItToo)
 {

@@ -4,8 +4,8 @@
 #include "apps/session/story/load_duration.h"
 #include "apps/session/story/run_facts.h"
 #include "apps/session/story/turning_points.h"
+#include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
-#include "tests/support/scene_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -106,32 +106,13 @@ TEST(TurningPoints, LieHalfAPeriodApart)
   EXPECT_EQ(apps::half_period_at({0., 1.}, {0., 1.}, 0.5), 0.);
 }
 
-const char *const bead = R"(
-name = "bead"
-[body.bead]
-type = "slider"
-axis = [1, 0, 0]
-mass = "1 kg"
-[element.stops]
-type      = "clearance"
-from      = "bead"
-direction = [1, 0, 0]
-gap       = "1 mm"
-stiffness = "10 N/mm"
-[start]
-rule = "given"
-q    = { bead = "3 mm" }
-[modes]
-at = { bead = "3 mm" }
-[run]
-method = "bdf"
-order  = 2
-step   = "20 us"
-end    = "0.6 s"
-[output.signals]
-x = "stops.displacement"
-F = "stops.force"
-)";
+const std::string bead =
+    "name = \"bead\"\n" + slider_body("bead", "1 kg", "[1, 0, 0]") +
+    element("stops", "clearance",
+            {{"from", "bead"}, {"direction", "[1, 0, 0]"}, {"gap", "1 mm"}, {"stiffness", "10 N/mm"}}) +
+    start("rule = 'given'\nq = { bead = '3 mm' }") + table("modes", {{"at", "{ bead = '3 mm' }"}}) +
+    steps("20 us", "0.6 s", {{"method", "bdf"}, {"order", "2"}}) +
+    "[output.signals]\nx = \"stops.displacement\"\nF = \"stops.force\"\n";
 
 // Through a play of gap b and amplitude A the period is T_0 + 4 b/(omega (A - b)): f/f_0 = 1/(1 + 1/pi) for A = 3 b.
 // The describing function, k_eq = k [1 - (2/pi) (asin s + s sqrt(1 - s^2))], s = 1/3, is 0.7 % above.
