@@ -1,6 +1,5 @@
 #include "coupling/reduction/reduce_frame.h"
 
-#include "coupling/integration/system/second_order_system.h"
 #include "tests/support/lattice.h"
 #include "tests/support/refusal.h"
 
@@ -136,16 +135,6 @@ TEST(BadReduction, IsRefusedWithTheNumberNeeded)
   auto sizes = frame;
   sizes.B.resize(3, 3);
   EXPECT_TRUE(holds(message_of(sizes), "3 x 3"));
-}
-
-TEST(BadReduction, AskingForMoreModesThanThereAreMassesFails)
-{
-  auto frame                 = frame_of(Lattice());
-  frame.M                    = 0. * frame.M;
-  frame.M.coeffRef(100, 100) = 1.;
-  coupling::ReductionOptions options;
-  options.n_modes = 2;
-  EXPECT_THROW(reduce_frame(frame, options), coupling::ConvergenceFailure);
 }
 
 } // namespace

@@ -149,13 +149,6 @@ TEST(CraigBampton, RowsOfOutputsPicturesAndGravityAreTheFullOnesTimesT)
             1e-12 * reduced.translations_load.norm());
 }
 
-TEST(CraigBampton, ReceptancesAreReciprocal)
-{
-  const auto reduced = reduce_frame(frame_of(Lattice()), with_modes(10));
-  const auto H       = receptance(reduced.M, reduced.B, reduced.C, 300., first(reduced.n_interface));
-  EXPECT_LT((H - H.transpose()).norm(), 1e-10 * H.norm());
-}
-
 /// However many modes are asked for: up to the limit no frequency is wrong by more than the tolerance (a tenth of it
 /// for the estimate), and none is missing.
 TEST(CraigBampton, OfANumberOfModesHoldsUpToItsLimit)

@@ -134,26 +134,6 @@ TEST(BlockLanczos, GoesOnToAGapAndTellsWhatLiesBelow)
   EXPECT_NEAR(gap.high, exact[4], 1e-2);
 }
 
-TEST(BlockLanczos, FindsTheModeThatIsMissingAmongThoseKnown)
-{
-  const Structure s = lattice();
-  BlockLanczos    search(s.M, s.inverse(), blocks_of(4));
-  search.find(15);
-  const LowestModes all = search.modes(15);
-  for (const int missing : {0, 7, 14})
-  {
-    LowestModes known{VectorXd(14), MatrixXd(all.V.rows(), 14), VectorXd(14)};
-    for (int j = 0; j < 14; ++j)
-    {
-      known.omega(j) = all.omega(j + (j >= missing));
-      known.V.col(j) = all.V.col(j + (j >= missing));
-    }
-    BlockLanczos again(s.M, s.inverse(), blocks_of(4), known);
-    again.find(15);
-    EXPECT_LT((again.modes(15).omega - all.omega).cwiseQuotient(all.omega).cwiseAbs().maxCoeff(), 1e-10) << missing;
-  }
-}
-
 TEST(BlockLanczos, UsesUpAllCoordinatesThereAre)
 {
   const Structure s     = cube(3); // 27, with six-fold frequencies: blocks break down
@@ -194,12 +174,18 @@ TEST(BlockLanczos, OfNoModesIsEmpty)
   EXPECT_THROW(BlockLanczos(s.M, s.inverse(), blocks_of(0)), std::invalid_argument);
 }
 
+fem::FrameMatrices cube_frame()
+{
+  fem::FrameMatrices frame;
+  frame.C = test::cube_stiffness(9);
+  frame.M = test::unit_mass(729);
+  return frame;
+}
+
 /// Single vectors pass over repeated frequencies; the inertia tells.
 TEST(FixedInterfaceModes, PassedOverAreCountedSearchedForAndFound)
 {
-  fem::FrameMatrices frame;
-  frame.C            = test::cube_stiffness(9);
-  frame.M            = test::unit_mass(729);
+  const auto frame   = cube_frame();
   const auto exact   = test::cube_frequencies(9);
   const auto largest = [&](const VectorXd &omega)
   {
@@ -223,9 +209,7 @@ TEST(FixedInterfaceModes, PassedOverAreCountedSearchedForAndFound)
 
 TEST(FixedInterfaceModes, AreAllFoundInOneCall)
 {
-  fem::FrameMatrices frame;
-  frame.C          = test::cube_stiffness(9);
-  frame.M          = test::unit_mass(729);
+  const auto frame = cube_frame();
   const auto exact = test::cube_frequencies(9);
 
   coupling::FixedInterfaceFrame held(frame, {});
@@ -238,9 +222,7 @@ TEST(FixedInterfaceModes, AreAllFoundInOneCall)
 
 TEST(FixedInterfaceModes, AllFoundAreConfirmedAtOnce)
 {
-  fem::FrameMatrices frame;
-  frame.C = test::cube_stiffness(9);
-  frame.M = test::unit_mass(729);
+  const auto                    frame = cube_frame();
   coupling::FixedInterfaceFrame held(frame, {});
   FixedInterfaceModes           modes(held, frame, {});
   modes.find(20);

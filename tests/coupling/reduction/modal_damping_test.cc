@@ -34,41 +34,28 @@ fem::FrameMatrices without_dampers(Lattice lattice)
   return frame_of(lattice);
 }
 
-TEST(ModalDamping, GivesEveryModeOfTheFullFrameItsRatio)
-{
-  auto frame                = without_dampers(Lattice());
-  frame.modal_damping_ratio = 0.03;
-  coupling::add_modal_damping(frame, 15);
-  const auto modes = dense_modes(frame.C, frame.M);
-  const auto ratio = [&](int j)
-  {
-    const VectorXd z = frame.modal_damping.Z.transpose() * modes.V.col(j);
-    return z.dot(frame.modal_damping.d.asDiagonal() * z) / (2. * modes.omega(j));
-  };
-  for (int j = 0; j < 15; ++j)
-    EXPECT_NEAR(ratio(j), 0.03, 1e-10);
-  EXPECT_NEAR(ratio(15), 0., 1e-10); // orthogonality: no mode above feels it
-}
-
-TEST(ModalDamping, ByModeOrByFrequencyGivesEachModeItsOwnRatio)
+TEST(ModalDamping, GivesEachModeOfTheFullFrameItsRatioAndNoneAboveAny)
 {
   auto             frame = without_dampers(Lattice());
   const auto       modes = dense_modes(frame.C, frame.M);
-  fem::ModalRatios list, table;
-  list.by_mode     = {0.01, 0.03, 0.02};
+  fem::ModalRatios one   = 0.03, list, table;
+  list.by_mode           = {0.01, 0.03, 0.02};
   const double low = modes.omega(2) / (2. * M_PI), high = modes.omega(8) / (2. * M_PI);
   table.by_frequency = {{low, 0.01}, {high, 0.04}};
-  for (const auto &[ratios, by_list] : {std::pair(list, true), std::pair(table, false)})
+  for (const fem::ModalRatios *ratios : {&one, &list, &table})
   {
-    frame.modal_damping_ratio = ratios;
+    frame.modal_damping_ratio = *ratios;
     coupling::add_modal_damping(frame, 15);
-    for (int j = 0; j < 15; ++j)
+    for (int j = 0; j < 16; ++j)
     {
-      const VectorXd z     = frame.modal_damping.Z.transpose() * modes.V.col(j);
-      const double   hz    = modes.omega(j) / (2. * M_PI);
-      const double   share = std::clamp((hz - low) / (high - low), 0., 1.);
-      EXPECT_NEAR(z.dot(frame.modal_damping.d.asDiagonal() * z) / (2. * modes.omega(j)),
-                  by_list ? list.by_mode[std::min(j, 2)] : 0.01 + 0.03 * share, 1e-9)
+      const VectorXd z        = frame.modal_damping.Z.transpose() * modes.V.col(j);
+      const double   hz       = modes.omega(j) / (2. * M_PI);
+      const double   share    = std::clamp((hz - low) / (high - low), 0., 1.);
+      const double   expected = j == 15           ? 0. // orthogonality
+                                : ratios == &one  ? 0.03
+                                : ratios == &list ? list.by_mode[std::min(j, 2)]
+                                                  : 0.01 + 0.03 * share;
+      EXPECT_NEAR(z.dot(frame.modal_damping.d.asDiagonal() * z) / (2. * modes.omega(j)), expected, 1e-10)
           << "mode " << j;
     }
   }
@@ -150,19 +137,6 @@ TEST(ModalDamping, LeavesRigidMotionsOfAFloatingFrameAlone)
   EXPECT_LT((R.transpose() * reduced.C * R).norm(), 1e-12 * reduced.C.norm() * R.squaredNorm());
   EXPECT_EQ(reduced.frequencies_hz.head(6).norm(), 0.);
   EXPECT_GT(reduced.frequencies_hz(6), 1.);
-}
-
-TEST(ErrorEstimate, ComesCloseToTheTrueErrorOfTheFrequencies)
-{
-  const auto     frame   = frame_of(Lattice());
-  const VectorXd exact   = dense_modes(frame.C, frame.M).omega;
-  const auto     reduced = reduce_frame(frame, with_modes(12));
-  for (int j = 0; j < 10; ++j)
-  {
-    const double error = reduced.frequencies_hz(j) * 2. * M_PI / exact(j) - 1.;
-    EXPECT_LE(reduced.frequency_error(j), error * (1. + 1e-6) + 1e-10); // the refined ones come from above too
-    EXPECT_GE(reduced.frequency_error(j), 0.5 * error - 1e-10);
-  }
 }
 
 TEST(ErrorEstimate, GivesRefinedFrequenciesBetweenThoseOfTheFullFrameAndTheReducedOnes)
