@@ -88,56 +88,43 @@ void for_all_pairs(const Check &check)
         check(joint(first, second), Motion(first.n_measures() + second.n_measures()));
 }
 
-// At rest p follows from an energy, and with the geometric stiffness the tangent is whole.
+// At rest p follows from an energy; in motion a rate turns with the axis it is taken along, too.  p depends on v
+// linearly.
 TEST(CompliantJoint, TangentAndGeometricStiffnessAreTheDerivativeOfTheForce)
 {
   constexpr double h = 1e-5;
   for_all_pairs(
       [&](const CompliantJoint &joint, Motion motion)
       {
-        motion.v.setZero();
         const int n = joint.n_measures();
         VectorXd  p(n);
-        MatrixXd  dp(n, n), geometric(n, n), dp_du(n, n), dp_dv(n, n), K(n, n), D(n, n);
-        joint.tangent(motion.local(), nullptr, {1., 0., 0.}, p.data(), dp.data());
-        mechanism::geometric(joint, motion.local(), nullptr, geometric.data());
-        joint.derivatives(motion.local(), nullptr, p.data(), dp_du.data(), dp_dv.data());
-        joint.engaged(motion.u.data(), K.data(), D.data());
-        const MatrixXd whole = dp - geometric;
-        const double   size  = whole.cwiseAbs().maxCoeff();
-        for (int j = 0; j < n; ++j)
+        MatrixXd  dp(n, n), by_rates(n, n), geometric(n, n), dp_du(n, n), dp_dv(n, n), K(n, n), D(n, n);
+        for (const bool moves : {true, false})
         {
-          const VectorXd step   = h * VectorXd::Unit(n, j);
-          const VectorXd change = force(joint, motion.u + step, motion.v) - force(joint, motion.u - step, motion.v);
-          // Central quotients: h^2/6 of the third derivative, and epsilon/h of rounding.
-          EXPECT_LT((whole.col(j) - change / (2. * h)).cwiseAbs().maxCoeff(), 1e-8 * size) << j;
+          if (!moves)
+            motion.v.setZero();
+          joint.tangent(motion.local(), nullptr, {1., 0., 0.}, p.data(), dp.data());
+          joint.tangent(motion.local(), nullptr, {0., 1., 0.}, p.data(), by_rates.data());
+          mechanism::geometric(joint, motion.local(), nullptr, geometric.data());
+          joint.derivatives(motion.local(), nullptr, p.data(), dp_du.data(), dp_dv.data());
+          joint.engaged(motion.u.data(), K.data(), D.data());
+          const MatrixXd whole = dp - geometric;
+          const double   size  = whole.cwiseAbs().maxCoeff();
+          for (int j = 0; j < n; ++j)
+          {
+            const VectorXd step   = h * VectorXd::Unit(n, j);
+            const VectorXd change = force(joint, motion.u + step, motion.v) - force(joint, motion.u - step, motion.v);
+            // Central quotients: h^2/6 of the third derivative, and epsilon/h of rounding.
+            EXPECT_LT((whole.col(j) - change / (2. * h)).cwiseAbs().maxCoeff(), 1e-8 * size) << j << moves;
+            EXPECT_LT((by_rates.col(j) - (force(joint, motion.u, motion.v + VectorXd::Unit(n, j)) - p)).norm(),
+                      1e-12 * (by_rates.norm() + p.norm()));
+          }
+          EXPECT_EQ((dp - dp_du).cwiseAbs().maxCoeff(), 0.);
         }
-        EXPECT_LT((whole - whole.transpose()).cwiseAbs().maxCoeff(), 1e-13 * size);
-        EXPECT_EQ((dp - dp_du).cwiseAbs().maxCoeff(), 0.);
+        const MatrixXd whole = dp - geometric; // of rest
+        EXPECT_LT((whole - whole.transpose()).cwiseAbs().maxCoeff(), 1e-13 * whole.cwiseAbs().maxCoeff());
         EXPECT_EQ((K + dp_du).cwiseAbs().maxCoeff(), 0.);
         EXPECT_EQ((D + dp_dv).cwiseAbs().maxCoeff(), 0.);
-      });
-}
-
-// In motion a rate turns with the axis it is taken along, too.
-TEST(CompliantJoint, InMotionBothAreTheDerivativeOfTheForce)
-{
-  constexpr double h = 1e-5;
-  for_all_pairs(
-      [&](const CompliantJoint &joint, const Motion &motion)
-      {
-        const int n = joint.n_measures();
-        VectorXd  p(n);
-        MatrixXd  dp_du(n, n), dp_dv(n, n), geometric(n, n);
-        joint.derivatives(motion.local(), nullptr, p.data(), dp_du.data(), dp_dv.data());
-        mechanism::geometric(joint, motion.local(), nullptr, geometric.data());
-        const MatrixXd whole = dp_du - geometric;
-        for (int j = 0; j < n; ++j)
-        {
-          const VectorXd step   = h * VectorXd::Unit(n, j);
-          const VectorXd change = force(joint, motion.u + step, motion.v) - force(joint, motion.u - step, motion.v);
-          EXPECT_LT((whole.col(j) - change / (2. * h)).cwiseAbs().maxCoeff(), 1e-8 * whole.cwiseAbs().maxCoeff()) << j;
-        }
       });
 }
 
@@ -176,22 +163,6 @@ TEST(CompliantJoint, OnAxesOfTheFirstBodyBrakesNothingThatTurnsAsAWhole)
   EXPECT_GT((force(fixed, motion.u, motion.v + whole) - p).norm(), 1e-3 * p.norm()); // those of axes fixed in space do
   for (const int x : {0, 1})
     EXPECT_NEAR(p[x] + p[3 + x], 0., 1e-13 * p.norm());
-}
-
-// p depends on v linearly: the quotient is exact but for rounding.
-TEST(CompliantJoint, DampingIsTheDerivativeByTheRates)
-{
-  for_all_pairs(
-      [&](const CompliantJoint &joint, const Motion &motion)
-      {
-        const int n = joint.n_measures();
-        VectorXd  p(n);
-        MatrixXd  dp(n, n);
-        joint.tangent(motion.local(), nullptr, {0., 1., 0.}, p.data(), dp.data());
-        for (int j = 0; j < n; ++j)
-          EXPECT_LT((dp.col(j) - (force(joint, motion.u, motion.v + VectorXd::Unit(n, j)) - p)).norm(),
-                    1e-12 * (dp.norm() + p.norm()));
-      });
 }
 
 // p . u' = -(1/2 k s^2)' - d s'^2, and lambda = -k s - d s' is what the signals tell.

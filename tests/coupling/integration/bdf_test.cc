@@ -69,20 +69,6 @@ TEST_P(BdfOrder, ErrorFallsWithThePowerOfTheStep)
 }
 INSTANTIATE_TEST_SUITE_P(Orders, BdfOrder, ::testing::Values(1, 2, 3, 4, 5, 6));
 
-TEST_P(BdfOrder, FormulaIsExactForPolynomialsOfItsDegree)
-{
-  const int         p       = GetParam();
-  const BdfFormula &formula = bdf_formulas[p - 1];
-  for (int degree = 0; degree <= p; ++degree)
-  {
-    // y = x^degree at x = 0, -1, ..., h = 1:  beta0 y'(0) = y(0) + sum alpha_i y(-i)
-    double sum = degree == 0 ? 1. : 0.;
-    for (int i = 1; i <= p; ++i)
-      sum += formula.alpha[i - 1] * std::pow(-static_cast<double>(i), degree);
-    EXPECT_NEAR(sum, degree == 1 ? formula.beta0 : 0., 1e-12 * std::pow(p, degree));
-  }
-}
-
 /// Cubic spring on the second mass.
 void stiffening(double u, double, double &p, double &dp_du, double &dp_dv)
 {

@@ -160,29 +160,5 @@ TEST(OrderTable, ErrorsAreThoseOfTheReferenceToSixDigits)
     EXPECT_EQ(count, 6) << method;
 }
 
-using Order = ::testing::TestWithParam<std::pair<const char *, double>>;
-
-/// From steps that resolve the faster mode (73 rad/s) well, and errors above rounding: 0.1, but for BDF6, which meets
-/// rounding (1e-12) before it has come closer than 0.104.
-TEST_P(Order, ErrorsOfDisplacementAndVelocityFallWithThePowerOfTheStep)
-{
-  const auto &[method, order] = GetParam();
-  const LinearPair pair;
-  const int        n      = order > 4. ? 1600 : 3200;
-  const Errors     coarse = errors(pair, method, n), fine = errors(pair, method, 2 * n);
-  const double     near = order > 5. ? 0.12 : 0.1;
-  EXPECT_NEAR(std::log2(coarse.q / fine.q), order, near);
-  EXPECT_NEAR(std::log2(coarse.v / fine.v), order, near);
-}
-
-INSTANTIATE_TEST_SUITE_P(Methods, Order,
-                         ::testing::Values(std::pair{"bdf1", 1.}, std::pair{"bdf2", 2.}, std::pair{"bdf3", 3.},
-                                           std::pair{"bdf4", 4.}, std::pair{"bdf5", 5.}, std::pair{"bdf6", 6.},
-                                           std::pair{"newmark_average", 2.}, std::pair{"newmark_linear", 2.},
-                                           std::pair{"newmark_g0.6_b0.3025", 1.}, std::pair{"hht_-0.1", 2.},
-                                           std::pair{"galpha_0.8", 2.}, std::pair{"galpha_0.5", 2.},
-                                           std::pair{"galpha_0", 2.}, std::pair{"wilson_1.4", 2.},
-                                           std::pair{"central_difference", 2.}));
-
 } // namespace
 } // namespace gestell::tests
