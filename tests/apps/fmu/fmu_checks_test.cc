@@ -1,6 +1,7 @@
 // Runs inside an FMU are checked as those of `gestell run`: the same findings, by the logger of the importer.
 
 #include "tests/apps/fmu/exported_fmu.h"
+#include "tests/support/scene_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -70,114 +71,43 @@ std::string run_of(const std::string &method, const std::string &step, const std
          "\n[output]\npicture_step = 0\n";
 }
 
-const char *const oscillation = R"toml(
-[body.mass]
-type = "slider"
-axis = [1, 0, 0]
-mass = "1 kg"
-[body.block]
-type = "slider"
-axis = [1, 0, 0]
-mass = "1 t"
-[element.spring]
-type = "spring-damper"
-from = "mass"
-stiffness = "39.478 N/m"
-[element.push]
-type = "formula force"
-from = "block"
-force = "10 N*sin(2*pi*10 Hz*t + 1)"
-[switch.far]
-when = "mass.displacement"
-above = "5 m"
-tell = "push"
-order = "off"
-[start]
-rule = "given"
-q = { mass = "1 m" }
-[output.signals]
-x = "mass.displacement"
-)toml";
+const std::string oscillation =
+    slider_body("mass", "1 kg", "[1, 0, 0]") + slider_body("block", "1 t", "[1, 0, 0]") +
+    element("spring", "spring-damper", {{"from", "mass"}, {"stiffness", "39.478 N/m"}}) +
+    element("push", "formula force", {{"from", "block"}, {"force", "10 N*sin(2*pi*10 Hz*t + 1)"}}) +
+    table("switch.far", {{"when", "mass.displacement"}, {"above", "5 m"}, {"tell", "push"}, {"order", "off"}}) +
+    start("rule = 'given'\nq = { mass = '1 m' }") + "[output.signals]\nx = \"mass.displacement\"\n";
 
-const char *const cylinder = R"(
-[body.slide]
-type = "slider"
-axis = [1, 0, 0]
-mass = "200 kg"
-[element.cylinder]
-type = "hydraulic cylinder"
-from = "slide"
-area_a = "20 cm^2"
-area_b = "12 cm^2"
-volume_a = "400 cm^3"
-volume_b = "500 cm^3"
-pressure_a = "10 bar"
-pressure_b = "200 bar"
-flow = 0
-[element.weight]
-type = "force"
-from = "slide"
-constant = "22 kN"
-[start]
-rule = "given"
-v = { slide = "80 mm/s" }
-[output.signals]
-x = "slide.displacement"
-)";
+const std::string cylinder = slider_body("slide", "200 kg", "[1, 0, 0]") +
+                             element("cylinder", "hydraulic cylinder",
+                                     {{"from", "slide"},
+                                      {"area_a", "20 cm^2"},
+                                      {"area_b", "12 cm^2"},
+                                      {"volume_a", "400 cm^3"},
+                                      {"volume_b", "500 cm^3"},
+                                      {"pressure_a", "10 bar"},
+                                      {"pressure_b", "200 bar"},
+                                      {"flow", "0"}}) +
+                             element("weight", "force", {{"from", "slide"}, {"constant", "22 kN"}}) +
+                             start("rule = 'given'\nv = { slide = '80 mm/s' }") +
+                             "[output.signals]\nx = \"slide.displacement\"\n";
 
-const char *const wheel = R"(
-[frame]
-mass = [[1, 0], [0, 1]]
-stiffness = [[1e4, 0], [0, 1e4]]
-[frame.interface.seat]
-rows = { rx = 1, rz = 2 }
-[body.wheel]
-type = "rotor"
-axis = [0, 1, 0]
-on = "frame.seat"
-inertia = 0.5
-[start]
-v = { wheel = "50 rad/s" }
-[output.signals]
-w = "wheel.speed"
-)";
+const std::string wheel = table("frame", {{"mass", "[[1, 0], [0, 1]]"}, {"stiffness", "[[1e4, 0], [0, 1e4]]"}}) +
+                          table("frame.interface.seat", {{"rows", "{ rx = 1, rz = 2 }"}}) +
+                          rotor_body("wheel", "0.5", "[0, 1, 0]", {{"on", "frame.seat"}}) +
+                          start("v = { wheel = '50 rad/s' }") + "[output.signals]\nw = \"wheel.speed\"\n";
 
 /// A mass between two stops: where steps go over the switch of stiffness, its energy comes from nowhere.
-const char *const rattle = R"(
-[body.mass]
-type = "slider"
-axis = [1, 0, 0]
-mass = "1 kg"
-[element.stops]
-type = "clearance"
-from = "mass"
-gap = "3.7 m"
-stiffness = "9 N/m"
-[start]
-rule = "given"
-v = { mass = "1 m/s" }
-[output.signals]
-x = "mass.displacement"
-)";
+const std::string rattle = slider_body("mass", "1 kg", "[1, 0, 0]") +
+                           element("stops", "clearance", {{"from", "mass"}, {"gap", "3.7 m"}, {"stiffness", "9 N/m"}}) +
+                           start("rule = 'given'\nv = { mass = '1 m/s' }") +
+                           "[output.signals]\nx = \"mass.displacement\"\n";
 
 /// A ball that meets a wall after Hertz, which becomes too stiff for the step.
-const char *const wall = R"(
-[body.ball]
-type = "slider"
-axis = [1, 0, 0]
-mass = "1 kg"
-[element.wall]
-type = "stop"
-from = "ball"
-gap = "0.1 m"
-stiffness = 1e10
-exponent = 1.5
-[start]
-rule = "given"
-v = { ball = "10 m/s" }
-[output.signals]
-x = "ball.displacement"
-)";
+const std::string wall =
+    slider_body("ball", "1 kg", "[1, 0, 0]") +
+    element("wall", "stop", {{"from", "ball"}, {"gap", "0.1 m"}, {"stiffness", "1e10"}, {"exponent", "1.5"}}) +
+    start("rule = 'given'\nv = { ball = '10 m/s' }") + "[output.signals]\nx = \"ball.displacement\"\n";
 
 } // namespace
 

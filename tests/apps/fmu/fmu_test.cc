@@ -1,6 +1,7 @@
 // Machines as FMUs, stepped by a master of our own: the same motion as that of a run, and the error of a coupling.
 
 #include "tests/apps/fmu/exported_fmu.h"
+#include "tests/support/scene_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,41 +17,13 @@ namespace
 {
 
 /// Both, with the spring between them that the master computes in the tests.
-const char *const both = R"(
-[body.one]
-type = "slider"
-axis = [1, 0, 0]
-mass = "2 kg"
-[body.two]
-type = "slider"
-axis = [1, 0, 0]
-mass = "3 kg"
-[element.first]
-type = "spring-damper"
-from = "one"
-stiffness = "800 N/m"
-damping = "2 N s/m"
-[element.second]
-type = "spring-damper"
-from = "two"
-stiffness = "500 N/m"
-damping = "2 N s/m"
-[element.between]
-type = "spring-damper"
-from = "one"
-to = "two"
-stiffness = "600 N/m"
-[start]
-rule = "given"
-q = { one = "10 mm" }
-[run]
-method = "newmark"
-step = "0.05 ms"
-end = "0.4 s"
-[output.signals]
-x1 = "one.displacement"
-x2 = "two.displacement"
-)";
+const std::string both =
+    slider_body("one", "2 kg", "[1, 0, 0]") + slider_body("two", "3 kg", "[1, 0, 0]") +
+    element("first", "spring-damper", {{"from", "one"}, {"stiffness", "800 N/m"}, {"damping", "2 N s/m"}}) +
+    element("second", "spring-damper", {{"from", "two"}, {"stiffness", "500 N/m"}, {"damping", "2 N s/m"}}) +
+    element("between", "spring-damper", {{"from", "one"}, {"to", "two"}, {"stiffness", "600 N/m"}}) +
+    start("rule = 'given'\nq = { one = '10 mm' }") + steps("0.05 ms", "0.4 s", {{"method", "newmark"}}) +
+    "[output.signals]\nx1 = \"one.displacement\"\nx2 = \"two.displacement\"\n";
 
 constexpr double between = 600.; // N/m
 
