@@ -87,9 +87,7 @@ const std::vector<LongInput> &long_inputs()
   return all;
 }
 
-class Long : public ::testing::TestWithParam<LongInput>
-{
-};
+using Long = ::testing::TestWithParam<LongInput>;
 
 TEST_P(Long, EndsInAMessageOrIsRead)
 {

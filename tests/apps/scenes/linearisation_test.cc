@@ -155,9 +155,7 @@ void expect_exact(const apps::Scene &scene, const std::string &name, bool moves)
   }
 }
 
-class LinearisedScene : public ::testing::TestWithParam<const char *>
-{
-};
+using LinearisedScene = ::testing::TestWithParam<const char *>;
 
 TEST_P(LinearisedScene, HasTheDerivativesOfItsForces)
 {

@@ -10,9 +10,7 @@ namespace gestell::tests
 namespace
 {
 
-class OtherUnits : public ::testing::TestWithParam<JointedMachine>
-{
-};
+using OtherUnits = ::testing::TestWithParam<JointedMachine>;
 
 TEST_P(OtherUnits, DoNotChangeWhatAMachineDoes)
 {

@@ -158,12 +158,6 @@ TEST(PressMinimal, LightVariantMeetsItsReference)
   EXPECT_NEAR(press.signal("F_P").min, reference_peak("peaks_light.csv", "F_P_min"), 5e-5 * 501089.);
 }
 
-TEST(PressMinimal, EqualInputGivesEqualOutput)
-{
-  const SceneRun first("press_minimal.toml", {"run.end=0.25"}), second("press_minimal.toml", {"run.end=0.25"});
-  EXPECT_EQ(first.result.rows, second.result.rows);
-}
-
 TEST(PressMinimal, StiffnessOfTheFrameMattersToTheReboundPeak)
 {
   const SceneRun soft("press_minimal.toml"), stiff("press_minimal.toml", {"parameters.c_G=\"3200000 kN/mm\""});

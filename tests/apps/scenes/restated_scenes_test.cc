@@ -136,9 +136,7 @@ private:
   std::map<std::string, std::string> renamed_;
 };
 
-class RestatedScene : public ::testing::TestWithParam<ShortRun>
-{
-};
+using RestatedScene = ::testing::TestWithParam<ShortRun>;
 
 // A name takes part in no number.
 TEST_P(RestatedScene, UnderOtherNamesIsTheSameToTheBit)

@@ -10,9 +10,7 @@ namespace gestell::tests
 namespace
 {
 
-class TiltedPlanes : public ::testing::TestWithParam<JointedMachine>
-{
-};
+using TiltedPlanes = ::testing::TestWithParam<JointedMachine>;
 
 TEST_P(TiltedPlanes, DoNotChangeWhatAMachineDoes)
 {

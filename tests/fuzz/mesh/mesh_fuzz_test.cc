@@ -17,9 +17,7 @@ namespace files = std::filesystem;
 
 constexpr std::uint64_t n_executions = 16; ///< of a target
 
-class Meshes : public ::testing::TestWithParam<std::string>
-{
-};
+using Meshes = ::testing::TestWithParam<std::string>;
 
 TEST_P(Meshes, OfSeedsAreSound)
 {
