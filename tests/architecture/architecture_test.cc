@@ -1,11 +1,7 @@
 // The shape of the house (README, docs/architecture.md) as theorems about its source text.
 
 #include "tests/architecture/source_tree.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <fstream>
+#include "tests/support/test.h"
 
 namespace
 {

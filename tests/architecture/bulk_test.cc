@@ -1,12 +1,7 @@
 // How large the house is: numbers that may only fall (bulk.txt).
 
 #include "tests/architecture/source_tree.h"
-
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <map>
-#include <sstream>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

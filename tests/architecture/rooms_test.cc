@@ -1,11 +1,7 @@
 // Folders are rooms of a house: who may go where, and how many stand side by side.
 
 #include "tests/architecture/room_graph.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -3,10 +3,8 @@
 
 #include "tests/fuzz/mutation.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <exception>
 
 namespace gestell::fuzz

@@ -2,8 +2,7 @@
 // time by powers of it.  Mutations of small seeds do not get here.
 
 #include "tests/fuzz/target.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <exception>
 

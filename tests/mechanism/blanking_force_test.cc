@@ -1,7 +1,6 @@
 #include "mechanism/elements/blanking_force.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,12 +1,7 @@
 // Motions that are braked by an order: every family against what its speed says.
 
 #include "mechanism/joints/motion_law.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <utility>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

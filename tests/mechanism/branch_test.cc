@@ -11,12 +11,7 @@
 #include "mechanism/elements/table_force.h"
 #include "tests/support/branch_samples.h"
 #include "tests/support/prescribed_path.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <memory>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

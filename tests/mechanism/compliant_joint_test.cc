@@ -2,12 +2,9 @@
 
 #include "mechanism/facets.h"
 #include "mechanism/joints/compliant_joint.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 namespace gestell::tests
 {

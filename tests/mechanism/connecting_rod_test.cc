@@ -1,9 +1,6 @@
 #include "mechanism/elements/connecting_rod.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,11 +1,6 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -7,12 +7,7 @@
 #include "mechanism/functions/commanded_profile.h"
 #include "mechanism/joints/motion_law.h"
 #include "mechanism/switched_element.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

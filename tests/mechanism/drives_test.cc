@@ -14,11 +14,7 @@
 #include "mechanism/functions/profile.h"
 #include "tests/support/prescribed_path.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -20,12 +20,8 @@
 #include "mechanism/elements/unbalance.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <ostream>
 #include <random>
 
 namespace gestell::tests

@@ -11,12 +11,7 @@
 #include "mechanism/transmitted_element.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/linear_joint.h"
-
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

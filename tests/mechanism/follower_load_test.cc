@@ -2,10 +2,7 @@
 
 #include "mechanism/elements/follower_load.h"
 #include "mechanism/elements/profile_force.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,11 +2,7 @@
 
 #include "mechanism/elements/cubic_spring.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

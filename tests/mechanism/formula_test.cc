@@ -1,13 +1,6 @@
 #include "mechanism/functions/formula.h"
 #include "tests/support/allocation_counter.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <ostream>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

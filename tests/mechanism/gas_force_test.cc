@@ -3,11 +3,7 @@
 #include "mechanism/elements/gas_force.h"
 #include "tests/support/prescribed_path.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,10 +2,7 @@
 
 #include "mechanism/elements/hydraulic_cylinder.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

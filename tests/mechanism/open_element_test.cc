@@ -6,12 +6,7 @@
 #include "mechanism/elements/wheel.h"
 #include "mechanism/switched_element.h"
 #include "tests/support/branch_samples.h"
-
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,13 +3,9 @@
 #include "mechanism/facets.h"
 #include "mechanism/joints/orthonormal_directors.h"
 #include "mechanism/measures/relative_measure.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <vector>
 
 namespace gestell::tests
 {

@@ -8,11 +8,7 @@
 #include "mechanism/joints/joint_friction.h"
 #include "mechanism/transmitted_element.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

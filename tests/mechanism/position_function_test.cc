@@ -4,11 +4,7 @@
 #include "mechanism/measures/combined_measure.h"
 
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

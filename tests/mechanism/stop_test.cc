@@ -2,11 +2,7 @@
 
 #include "mechanism/elements/clearance.h"
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,12 +1,7 @@
 #include "mechanism/elements/table_force.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

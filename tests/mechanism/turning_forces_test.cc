@@ -5,12 +5,7 @@
 #include "mechanism/elements/spring_damper.h"
 #include "mechanism/facets.h"
 #include "mechanism/transmitted_element.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,8 +3,7 @@
 
 #include "apps/peers/first_order_form.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

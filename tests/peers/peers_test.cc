@@ -5,10 +5,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::peers
 {

@@ -2,7 +2,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 /// @return whether it loses energy

@@ -1,8 +1,7 @@
 // Machines at random that found something wrong, which has been cured: docs/random_machines.md.
 
 #include "tests/random_machines/findings_of.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,7 +4,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 

@@ -2,7 +2,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 void stribeck(Draft &draft, const Link &link, FrictionFact &fact)

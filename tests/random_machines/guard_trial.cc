@@ -8,7 +8,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 

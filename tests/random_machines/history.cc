@@ -6,7 +6,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 constexpr double finest = 1e-8; ///< tolerance to which anything is judged

@@ -4,7 +4,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 std::string begin(Draft &draft, const std::string &entries, const std::string &letter, const std::string &type)

@@ -4,7 +4,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 /// A number with its unit: of lengths and angles, of forces and torques.

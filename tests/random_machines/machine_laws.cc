@@ -2,7 +2,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 void motor_keys(Draft &draft, const Link &link)

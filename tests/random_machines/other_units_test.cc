@@ -1,8 +1,7 @@
 // Machines at random do the same in other units of length, mass and time: docs/random_machines.md.
 
 #include "tests/random_machines/other_units.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <unistd.h>
 

@@ -5,7 +5,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 

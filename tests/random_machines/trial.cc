@@ -10,7 +10,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 double cpu_seconds()

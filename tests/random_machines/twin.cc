@@ -13,7 +13,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 constexpr long most_steps = 300000; ///< some ten seconds of CPU time

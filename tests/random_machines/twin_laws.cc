@@ -7,7 +7,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 

@@ -2,10 +2,8 @@
 
 #include "tests/random_machines/judge.h"
 #include "tests/random_machines/twin.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <unistd.h>
 
 namespace gestell::tests

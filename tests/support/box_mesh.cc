@@ -6,7 +6,6 @@
 
 namespace gestell::test
 {
-
 namespace
 {
 

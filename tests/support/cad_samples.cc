@@ -4,16 +4,11 @@
 
 #include "fem/geometry/gmsh_session.h"
 #include "fem/mesh/mesher.h"
+#include "tests/support/test.h"
 
 #include <gmsh.h>
-#include <gtest/gtest.h>
 
 #include <Interface_Static.hxx>
-
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 
 namespace gestell::fem::test
 {

@@ -1,14 +1,7 @@
 #pragma once
 
 #include "coupling/frame/reduced_frame.h"
-
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
+#include "tests/support/test.h"
 
 #include <unistd.h>
 

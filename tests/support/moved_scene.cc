@@ -15,7 +15,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 

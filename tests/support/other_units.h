@@ -2,14 +2,8 @@
 
 #include "apps/scene/file/scene_file.h"
 #include "tests/support/rescaled_scene.h"
+#include "tests/support/test.h"
 #include "tests/support/tilted_planes.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
 
 namespace gestell::tests
 {

@@ -1,15 +1,7 @@
 #pragma once
 
 #include "tests/support/element_probe.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <ostream>
-#include <set>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,17 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
-#include <array>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <vector>
 
 namespace gestell::tests
 {

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

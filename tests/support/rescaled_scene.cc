@@ -13,7 +13,6 @@
 
 namespace gestell::tests
 {
-
 namespace
 {
 

@@ -12,7 +12,6 @@
 
 namespace gestell::test
 {
-
 namespace
 {
 

@@ -4,12 +4,7 @@
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,13 +1,7 @@
 #include "tests/support/scene_text.h"
 
 #include "apps/scene/build/build_machine.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

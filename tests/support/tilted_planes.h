@@ -4,15 +4,9 @@
 #include "tests/support/moved_scene.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
 #include <random>
-#include <string>
-#include <vector>
 
 namespace gestell::tests
 {

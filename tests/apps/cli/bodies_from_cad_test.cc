@@ -3,13 +3,9 @@
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
 
 namespace gestell::test
 {

@@ -1,8 +1,7 @@
 // A case per process of a launcher: nothing is taken for the work of a team that is not.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -13,10 +13,7 @@
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // The table of commands: what `gestell --help` and the command line are made from.
 
 #include "apps/cli/commands.h"
-
-#include <gtest/gtest.h>
-
-#include <set>
+#include "tests/support/test.h"
 
 using namespace gestell::apps;
 

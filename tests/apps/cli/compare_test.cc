@@ -1,8 +1,7 @@
 // Scenes beside each other, and the story of a run, by the program.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,8 +1,7 @@
 // What shells and man are told of the command line.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

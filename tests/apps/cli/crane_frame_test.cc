@@ -3,12 +3,7 @@
 
 #include "tests/support/csv_table.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

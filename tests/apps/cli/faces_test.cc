@@ -5,11 +5,7 @@
 #include "coupling/plugin/frame_service_loader.h"
 #include "coupling/plugin/mesh_report.h"
 #include "tests/support/program.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

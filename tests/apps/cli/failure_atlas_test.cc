@@ -2,10 +2,7 @@
 
 #include "apps/atlas/atlas.h"
 #include "apps/atlas/trials.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

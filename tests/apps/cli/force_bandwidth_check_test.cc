@@ -3,11 +3,7 @@
 #include "tests/support/csv_table.h"
 #include "tests/support/program.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdlib>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,8 +4,7 @@
 #include "coupling/frame/frame_cache.h"
 #include "tests/support/cached_frame.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

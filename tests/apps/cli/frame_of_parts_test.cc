@@ -1,10 +1,7 @@
 // Frames of parts, by the program: the tie rod press.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

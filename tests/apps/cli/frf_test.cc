@@ -1,8 +1,7 @@
 // The command `gestell frf`: its files, and what it says of odd input.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

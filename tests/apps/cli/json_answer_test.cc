@@ -2,8 +2,8 @@
 // and its errors.
 
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace gestell::tests

@@ -6,10 +6,7 @@
 #include "tests/support/cached_frame.h"
 #include "tests/support/program.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <fstream>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -2,11 +2,9 @@
 // by a warning where it might be meant.  press_minimal.toml or a scene to start from, with one thing wrong.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <regex>
-#include <utility>
 
 namespace gestell::tests
 {

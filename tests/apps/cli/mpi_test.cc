@@ -3,11 +3,7 @@
 #include "coupling/frame/reduced_frame_file.h"
 #include "tests/support/cached_frame.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

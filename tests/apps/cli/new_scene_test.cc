@@ -2,8 +2,7 @@
 
 #include "apps/templates/scene_templates.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -5,8 +5,7 @@
 #include "coupling/reduction/dense_frame.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -1,12 +1,7 @@
 // The FE press from its STEP file, on a coarse mesh, through the program.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,12 +2,7 @@
 
 #include "tests/support/program.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <ostream>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,8 +1,7 @@
 // The macro beside motion.pvd, run by ParaView itself.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

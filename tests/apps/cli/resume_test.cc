@@ -1,8 +1,8 @@
 // A run that was killed goes on from its last checkpoint and leaves what it would have left.
 
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>

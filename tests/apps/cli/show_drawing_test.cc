@@ -1,8 +1,7 @@
 // Pictures and films of a result, drawn by VTK on Xvfb.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

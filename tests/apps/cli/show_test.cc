@@ -1,8 +1,7 @@
 // Pictures of results without ParaView, by the program.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

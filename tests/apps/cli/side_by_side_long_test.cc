@@ -3,10 +3,7 @@
 
 #include "tests/support/cached_frame.h"
 #include "tests/support/side_by_side.h"
-
-#include <gtest/gtest.h>
-
-#include <iostream>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,8 +1,7 @@
 // Runs at the same time: whatever they share, each is whole or refused with a message.
 
 #include "tests/support/side_by_side.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,10 +2,7 @@
 
 #include "tests/support/csv_table.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

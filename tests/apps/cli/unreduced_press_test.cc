@@ -1,10 +1,7 @@
 // The reduced press against the unreduced one, same integrator, over one cutting shock.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,15 +3,7 @@
 #include "tests/apps/fmu/fmu_master.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <memory>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

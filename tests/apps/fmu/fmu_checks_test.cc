@@ -2,9 +2,8 @@
 
 #include "tests/apps/fmu/exported_fmu.h"
 #include "tests/support/scene_parts.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace gestell::tests

@@ -1,8 +1,7 @@
 // FMUs of machines with joints, switches and a frame of finite elements: their motion is that of a run.
 
 #include "tests/apps/fmu/exported_fmu.h"
-
-#include <gmock/gmock.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

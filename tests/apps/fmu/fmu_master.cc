@@ -1,15 +1,13 @@
 #include "tests/apps/fmu/fmu_master.h"
 
 #include "tests/support/program.h"
+#include "tests/support/test.h"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
-#include <gtest/gtest.h>
 
 #include <cstdarg>
-#include <cstdlib>
 #include <dlfcn.h>
-#include <stdexcept>
 
 namespace gestell::tests
 {

@@ -1,11 +1,7 @@
 // What an FMU and its export refuse, and what they say.
 
 #include "tests/apps/fmu/exported_fmu.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

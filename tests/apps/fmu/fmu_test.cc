@@ -2,14 +2,7 @@
 
 #include "tests/apps/fmu/exported_fmu.h"
 #include "tests/support/scene_parts.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <set>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

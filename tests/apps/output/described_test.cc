@@ -5,12 +5,7 @@
 #include "apps/output/describe/described_table.h"
 #include "apps/output/tables/summary_json.h"
 #include "tests/support/output_example.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <set>
+#include "tests/support/test.h"
 
 namespace gestell::apps
 {

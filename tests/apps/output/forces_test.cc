@@ -4,8 +4,8 @@
 #include "apps/session/forces/acting_forces.h"
 #include "apps/session/session.h"
 #include "tests/support/scene_run.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
@@ -13,10 +13,6 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <Eigen/Geometry>
-
-#include <algorithm>
-#include <filesystem>
-#include <map>
 
 namespace gestell::tests
 {

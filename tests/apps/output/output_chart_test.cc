@@ -1,12 +1,7 @@
 #include "apps/output/charts/chart.h"
 #include "apps/output/charts/signal_charts.h"
 #include "tests/support/output_example.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <sstream>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 using namespace gestell;
 using namespace gestell::apps;

@@ -7,11 +7,7 @@
 #include "apps/output/text/base64.h"
 #include "apps/output/text/html.h"
 #include "tests/support/output_example.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 using namespace gestell;
 using namespace gestell::apps;

@@ -2,8 +2,8 @@
 #include "tests/support/output_example.h"
 
 #include "apps/output/paraview/face_surface.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -13,9 +13,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include <fstream>
 #include <regex>
-#include <sstream>
 
 using namespace gestell::apps;
 namespace fs = std::filesystem;

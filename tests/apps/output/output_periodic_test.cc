@@ -6,9 +6,7 @@
 #include "apps/output/tables/summary_json.h"
 #include "apps/output/text/json.h"
 #include "apps/output/values/periodic_description.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::apps
 {

@@ -5,12 +5,9 @@
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "apps/output/pictures/skin.h"
 #include "tests/support/output_example.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 using namespace gestell;
 using namespace gestell::apps;

@@ -4,11 +4,9 @@
 #include "apps/output/report/stress_report.h"
 #include "apps/output/tables/summary_json.h"
 #include "tests/support/output_example.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <regex>
-#include <set>
 
 using namespace gestell::apps;
 

@@ -12,8 +12,7 @@
 #include "tests/support/output_example.h"
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -21,12 +20,7 @@
 
 #include <csignal>
 
-#include <cmath>
-#include <cstring>
-#include <fstream>
-#include <limits>
 #include <random>
-#include <sstream>
 
 using namespace gestell;
 using namespace gestell::apps;

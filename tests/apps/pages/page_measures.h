@@ -1,8 +1,7 @@
 #pragma once
 
 #include "tests/support/browser.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 /// A browser is a dependency of the tests: without one they fail and say what to install.
 #define GESTELL_NEEDS_BROWSER()                                                                                        \

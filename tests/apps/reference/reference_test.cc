@@ -10,16 +10,7 @@
 #include "apps/scene/scene.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <set>
-#include <sstream>
+#include "tests/support/test.h"
 
 namespace
 {

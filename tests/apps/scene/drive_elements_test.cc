@@ -1,12 +1,7 @@
 // Drives, motors, brakes and clutches: from the scene to the motion, against solutions by hand.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <iterator>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // Ropes, contacts after Hertz, sliding friction and gas: from the scene to the motion, against solutions by hand.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // The element "force": external loads from the scene to the motion.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

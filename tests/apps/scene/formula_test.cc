@@ -3,12 +3,7 @@
 #include "apps/scene/language/parse_quantity.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

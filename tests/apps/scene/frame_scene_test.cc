@@ -1,14 +1,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <string>
-#include <utility>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

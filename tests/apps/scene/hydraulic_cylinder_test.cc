@@ -3,8 +3,7 @@
 #include "mechanism/elements/hydraulic_cylinder.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,12 +4,7 @@
 #include "tests/support/lumped_frame.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
-#include <utility>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell
 {

@@ -4,10 +4,7 @@
 #include "coupling/simulation/simulation.h"
 #include "fem/values/number_text.h"
 #include "tests/apps/scene/imported_frame.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

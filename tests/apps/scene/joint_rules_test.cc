@@ -3,8 +3,7 @@
 #include "tests/support/scene_motion.h"
 
 #include "apps/scene/build/carried_bodies.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

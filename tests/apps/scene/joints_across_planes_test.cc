@@ -1,10 +1,7 @@
 // Joints hold in all directions that they claim, whatever the bodies are that they join, or the scene is refused.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

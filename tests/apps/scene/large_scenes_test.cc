@@ -4,10 +4,7 @@
 #include "apps/scene/scene.h"
 #include "tests/support/limited_memory.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::apps
 {

@@ -3,10 +3,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "coupling/modes/modes.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

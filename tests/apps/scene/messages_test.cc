@@ -2,8 +2,7 @@
 
 #include "apps/scene/file/written_text.h"
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

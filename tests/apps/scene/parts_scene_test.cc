@@ -3,10 +3,7 @@
 #include "apps/scene/build/build_machine.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

@@ -1,8 +1,7 @@
 // Elements, drives and signals on points and directions of bodies that turn.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

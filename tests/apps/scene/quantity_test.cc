@@ -2,13 +2,7 @@
 
 #include "apps/scene/language/parse_quantity.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <ostream>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace
 {

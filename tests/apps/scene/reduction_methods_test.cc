@@ -1,10 +1,7 @@
 #include "apps/scene/scene.h"
 #include "coupling/reduction/reductions.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <map>
+#include "tests/support/test.h"
 
 namespace
 {

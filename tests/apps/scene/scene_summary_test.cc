@@ -2,8 +2,7 @@
 
 #include "apps/scene/build/scene_summary.h"
 #include "apps/scene/scene.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

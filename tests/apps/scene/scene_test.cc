@@ -5,12 +5,7 @@
 #include "fem/values/nearest_name.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <ostream>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -1,10 +1,7 @@
 // What cannot start is found by `gestell check`, in words that name what is to be changed.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,8 +3,7 @@
 #include "apps/scene/scene.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

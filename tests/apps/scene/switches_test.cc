@@ -1,10 +1,7 @@
 // Switches: what they tell, when, and that the balance stays closed, against solutions by hand.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // Accelerations as signals, against closed forms: bodies, places, measures, interfaces; every method; at jumps.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,8 +1,7 @@
 // Where alpha methods find the instants of switches that watch the force of a joint.
 
 #include "tests/support/scene_run.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // The benchmark of the integrators over its whole 2 s.
 
 #include "tests/support/benchmark_error.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

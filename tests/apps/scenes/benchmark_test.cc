@@ -1,8 +1,7 @@
 // The benchmark of the integrators against its reference solution (tests/reference/numerics/benchmark).
 
 #include "tests/support/benchmark_error.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,12 +1,8 @@
 // Ideal joints with controlled steps: errors follow the tolerance.
 
 #include "tests/support/scene_motion.h"
+#include "tests/support/test.h"
 #include "tests/support/tilted_planes.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
 
 namespace gestell::tests
 {

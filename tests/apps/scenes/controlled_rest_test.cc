@@ -1,10 +1,7 @@
 // Controlled steps where a motion begins from rest in directions that rounding alone moves, or has come to rest.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,11 +4,7 @@
 #include "coupling/modes/modes.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/scene_run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

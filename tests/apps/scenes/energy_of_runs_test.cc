@@ -2,10 +2,7 @@
 // residual.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -9,12 +9,7 @@
 #include "coupling/sensitivity/frequency_sensitivities.h"
 #include "coupling/simulation/checks/stability_guard.h"
 #include "tests/support/scene_parts.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

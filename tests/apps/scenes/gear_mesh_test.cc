@@ -1,11 +1,7 @@
 // Wheels whose teeth are in mesh, wherever their centres go: ratios, forces and what is conserved.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

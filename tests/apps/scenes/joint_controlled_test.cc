@@ -2,10 +2,7 @@
 // and dry friction has dead points to pass.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

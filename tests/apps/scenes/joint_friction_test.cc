@@ -1,10 +1,7 @@
 // Friction in ideal joints: motions by hand, and the order of the method.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,13 +2,7 @@
 
 #include "apps/output/pictures/mechanism_shapes.h"
 #include "tests/support/scene_run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <filesystem>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // Ideal joints that stick: events, rest, limits and energy by hand.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

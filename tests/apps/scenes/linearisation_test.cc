@@ -8,14 +8,9 @@
 #include "coupling/sensitivity/frequency_sensitivities.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
-#include <vector>
 
 namespace gestell::tests
 {

@@ -2,10 +2,7 @@
 // forms; and what is refused.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,10 +4,7 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "coupling/modes/modes.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,8 +2,7 @@
 // decides.
 
 #include "tests/support/other_units.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

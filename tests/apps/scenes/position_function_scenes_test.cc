@@ -1,10 +1,7 @@
 // The example scenes with position functions: a Geneva drive against exact kinematics, a cam follower that bounces.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,10 +3,7 @@
 
 #include "tests/support/reference_table.h"
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

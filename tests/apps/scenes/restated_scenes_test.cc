@@ -4,15 +4,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "tests/support/restated_scene.h"
 #include "tests/support/scene_run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,17 +2,14 @@
 // units, each of them alone and all at once.
 
 #include "tests/support/other_units.h"
-
-#include <gtest/gtest.h>
-
-#include <iostream>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {
 namespace
 {
 
-using TwoHundredPlanes = ::testing::TestWithParam<JointedMachine>;
+using TwoHundredPlanes    = ::testing::TestWithParam<JointedMachine>;
 using SevenSystemsOfUnits = ::testing::TestWithParam<JointedMachine>;
 
 TEST_P(TwoHundredPlanes, DoNotChangeWhatAMachineDoes)

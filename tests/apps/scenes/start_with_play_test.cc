@@ -1,12 +1,7 @@
 // Machines with play that turn from the first instant: plays closed by weight and inertia, no impact of the start.
 
 #include "tests/support/scene_motion.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,10 +4,7 @@
 #include "tests/support/scene_motion.h"
 
 #include "apps/scene/build/build_machine.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 // Machines with joints that turn from the first instant: nothing drops, nothing rings.
 
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

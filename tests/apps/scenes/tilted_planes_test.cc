@@ -1,9 +1,8 @@
 // A machine does the same wherever it stands in space: seen turned, moved and in a mirror.
 
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 #include "tests/support/tilted_planes.h"
-
-#include <gtest/gtest.h>
 
 namespace gestell::tests
 {

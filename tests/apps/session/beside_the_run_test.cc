@@ -3,11 +3,7 @@
 #include "apps/session/session.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -8,13 +8,9 @@
 #include "coupling/simulation/resumable_run.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <atomic>
-#include <fstream>
-#include <iterator>
 
 namespace
 {

@@ -1,9 +1,7 @@
 // All typical mistakes of magnitude by runs, and the runs of all scenes; those with a mesh where meshes can be made.
 
 #include "tests/apps/session/magnitude_cases.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

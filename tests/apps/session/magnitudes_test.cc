@@ -1,9 +1,7 @@
 // Warnings of values that machines hardly have: typical mistakes lead to one, the scenes that are shipped to none.
 
 #include "tests/apps/session/magnitude_cases.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

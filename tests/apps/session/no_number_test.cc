@@ -5,11 +5,7 @@
 #include "coupling/simulation/simulation.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,10 +3,7 @@
 #include "apps/session/spectra/order_tracking.h"
 #include "apps/session/spectra/waterfall.h"
 #include "fem/values/two_pi.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,6 +1,6 @@
-// Periodic motions of kinds of machines: geared drives come to that to which a run settles, and names of coordinates mean
-// their motions; of linear laws alone no method has a nonlinear measure to solve for; under a load that turns with its body
-// multipliers of small vibrations are those of the linear machine.
+// Periodic motions of kinds of machines: geared drives come to that to which a run settles, and names of coordinates
+// mean their motions; of linear laws alone no method has a nonlinear measure to solve for; under a load that turns with
+// its body multipliers of small vibrations are those of the linear machine.
 
 #include "apps/session/session.h"
 #include "tests/apps/session/periodic_scenes.h"
@@ -8,12 +8,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,11 +3,7 @@
 #include "tests/apps/session/periodic_scenes.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

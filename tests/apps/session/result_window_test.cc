@@ -5,12 +5,7 @@
 #include "apps/session/session.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

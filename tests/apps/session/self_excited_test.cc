@@ -2,10 +2,7 @@
 
 #include "tests/apps/session/periodic_scenes.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -6,15 +6,8 @@
 #include "apps/session/session.h"
 #include "coupling/frame/frame_recipe.h"
 #include "fem/values/number_text.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <iostream>
-#include <limits>
-#include <map>
 #include <random>
 
 namespace gestell::tests

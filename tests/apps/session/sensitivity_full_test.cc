@@ -1,10 +1,7 @@
 // Derivatives of runs by entries of their FE frame, against runs on frames reduced anew.
 
 #include "apps/session/session.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

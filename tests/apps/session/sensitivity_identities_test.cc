@@ -11,12 +11,7 @@
 #include "tests/support/scaled_scene.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {
@@ -188,5 +183,4 @@ TEST(SensitivitiesOfShippedScenes, AreDifferencesOfConvergedRuns)
 }
 
 } // namespace
-
 } // namespace gestell::tests

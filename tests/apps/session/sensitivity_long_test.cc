@@ -1,10 +1,8 @@
 // Derivatives of all shipped scenes, by entries drawn at random, against converged differences of runs.
 
 #include "tests/apps/session/sensitivity_comparison.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
 
 namespace gestell::tests

@@ -4,12 +4,9 @@
 #include "apps/session/session.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <atomic>
-#include <cmath>
 
 namespace gestell::tests
 {

@@ -3,10 +3,7 @@
 #include "apps/session/session.h"
 #include "coupling/modes/modes.h"
 #include "tests/support/scene_text.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -6,11 +6,7 @@
 #include "tests/support/limited_memory.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_text.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell::apps
 {

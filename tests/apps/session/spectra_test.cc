@@ -1,9 +1,5 @@
 #include "apps/session/spectra/spectra.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 using namespace gestell;
 using namespace gestell::apps;

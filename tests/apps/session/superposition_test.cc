@@ -5,12 +5,7 @@
 #include "coupling/modes/superposition.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

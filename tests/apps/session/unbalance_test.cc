@@ -6,12 +6,9 @@
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
 #include <Eigen/LU>
-
-#include <cmath>
-#include <complex>
 
 namespace gestell::tests
 {

@@ -4,10 +4,7 @@
 #include "tests/support/frame_folder.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,11 +3,7 @@
 #include "apps/sizing/first_modes.h"
 #include "apps/sizing/size_laws.h"
 #include "coupling/plugin/frame_service_loader.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

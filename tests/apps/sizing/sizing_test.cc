@@ -8,12 +8,7 @@
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <map>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -6,11 +6,7 @@
 #include "apps/study/surface/least_squares.h"
 #include "apps/study/surface/surface_term.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -5,10 +5,7 @@
 #include "apps/study/optimum/robust.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

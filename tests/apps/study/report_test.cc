@@ -7,11 +7,7 @@
 #include "apps/study/report/scatter_matrix.h"
 #include "apps/study/report/study_report.h"
 #include "apps/study/report/study_tables.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

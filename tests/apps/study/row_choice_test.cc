@@ -1,8 +1,5 @@
 #include "apps/study/optimum/row_choice.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

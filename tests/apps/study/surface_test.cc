@@ -6,10 +6,7 @@
 #include "apps/study/surface/response_surface.h"
 #include "tests/support/csv_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -2,8 +2,7 @@
 
 #include "apps/verify/data_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,5 @@
 #include "coupling/algebra/multivector.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
+#include "tests/support/test.h"
 
 namespace gestell
 {

@@ -5,13 +5,9 @@
 #include "coupling/algebra/node_ordering.h"
 #include "tests/support/cube.h"
 #include "tests/support/lattice.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Cholesky>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
 
 namespace gestell
 {

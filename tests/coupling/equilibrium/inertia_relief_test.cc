@@ -2,8 +2,7 @@
 
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -7,11 +7,8 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/speed_drive.h"
 #include "tests/support/methods.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 #include <random>
 
 namespace gestell::tests

@@ -5,13 +5,10 @@
 #include "coupling/exchange/node_places.h"
 #include "coupling/exchange/row_table.h"
 #include "tests/support/lumped_frame.h"
+#include "tests/support/test.h"
 #include "tests/support/text_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <ctime>
-#include <sstream>
 
 namespace
 {

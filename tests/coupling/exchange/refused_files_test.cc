@@ -5,11 +5,9 @@
 #include "coupling/exchange/row_table.h"
 #include "tests/support/lumped_frame.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 #include "tests/support/text_folder.h"
 
-#include <gtest/gtest.h>
-
-#include <functional>
 #include <random>
 
 namespace

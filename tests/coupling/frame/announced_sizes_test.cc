@@ -7,12 +7,7 @@
 #include "coupling/integration/system/state_archive.h"
 #include "tests/support/limited_memory.h"
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <fstream>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::coupling
 {

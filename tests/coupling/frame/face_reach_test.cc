@@ -1,11 +1,9 @@
 // How far a point lies outside of the faces of an interface.
 
 #include "coupling/frame/face_reach.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace gestell::coupling
 {

@@ -5,14 +5,9 @@
 #include "fem/values/temporary_directory.h"
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -2,13 +2,9 @@
 #include "coupling/frame/frame_cache.h"
 
 #include "tests/support/frame_folder.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <string>
 
 #include <sys/resource.h>
 #include <sys/stat.h>

@@ -1,15 +1,9 @@
 #include "coupling/frame/frame_recipe.h"
 
 #include "tests/support/frame_folder.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <set>
-#include <string>
 #include <type_traits>
-#include <vector>
 
 namespace gestell
 {

@@ -7,15 +7,9 @@
 #include "coupling/frame/petsc_binary.h"
 #include "tests/support/program.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <clocale>
-#include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <limits>
-#include <string>
 
 namespace gestell::tests
 {

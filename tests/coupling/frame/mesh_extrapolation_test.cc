@@ -1,14 +1,10 @@
 #include "coupling/frame/mesh_extrapolation.h"
 
 #include "coupling/frame/mesh_convergence.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -179,5 +175,4 @@ TEST(MeshLevels, KeepByNameWhatAllOfThemHave)
 }
 
 } // namespace
-
 } // namespace gestell::test

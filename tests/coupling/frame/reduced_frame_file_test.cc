@@ -3,18 +3,10 @@
 #include "coupling/frame/sha256.h"
 #include "tests/support/frame_folder.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <string>
 #include <tuple>
-#include <vector>
 
 namespace gestell
 {

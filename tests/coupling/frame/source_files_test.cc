@@ -1,12 +1,7 @@
 #include "coupling/frame/frame_recipe.h"
 
 #include "tests/support/frame_folder.h"
-
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell
 {

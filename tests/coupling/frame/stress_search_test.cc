@@ -1,12 +1,9 @@
 // Invariants of a stress, and the search for the largest among many states.
 
 #include "coupling/frame/stress_search.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-
-#include <cmath>
 
 namespace gestell
 {

@@ -3,10 +3,7 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/small_system.h"
 #include "tests/support/step_map.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

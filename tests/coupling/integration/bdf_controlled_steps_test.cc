@@ -3,14 +3,7 @@
 #include "coupling/integration/bdf/bdf_controlled.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/modal_system.h"
-
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -4,18 +4,7 @@
 #include "coupling/integration/stability/stability.h"
 #include "tests/support/modal_system.h"
 #include "tests/support/reference_table.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <complex>
-#include <map>
-#include <memory>
-#include <set>
-#include <utility>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

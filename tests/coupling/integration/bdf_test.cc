@@ -1,10 +1,6 @@
 #include "coupling/integration/bdf/bdf.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

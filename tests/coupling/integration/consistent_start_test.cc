@@ -2,8 +2,7 @@
 #include "coupling/integration/newmark/newmark.h"
 #include "tests/support/refusal.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,10 +1,7 @@
 #include "coupling/integration/bdf/bdf.h"
 #include "coupling/integration/system/energy_balance.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

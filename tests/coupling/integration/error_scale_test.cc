@@ -1,8 +1,7 @@
 #include "coupling/integration/system/error_scale.h"
 
 #include "tests/support/modal_system.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,11 +1,6 @@
 #include "coupling/integration/events/event_detection.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <utility>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

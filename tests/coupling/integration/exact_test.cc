@@ -2,11 +2,7 @@
 #include "coupling/integration/propagation/modal_propagation.h"
 #include "tests/support/refusal.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -3,10 +3,7 @@
 #include "coupling/integration/step/load_breakpoints.h"
 
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

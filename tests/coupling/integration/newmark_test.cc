@@ -1,11 +1,7 @@
 #include "coupling/integration/newmark/newmark.h"
 #include "tests/support/refusal.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -5,11 +5,7 @@
 #include "coupling/integration/integration_methods.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

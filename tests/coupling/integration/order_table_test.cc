@@ -1,12 +1,7 @@
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
 #include "tests/support/step_map.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <complex>
-#include <map>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

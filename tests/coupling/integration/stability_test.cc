@@ -10,13 +10,9 @@
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
 #include "tests/support/step_map.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <set>
 
 namespace gestell::tests
 {

@@ -5,15 +5,9 @@
 
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <sstream>
 
 namespace gestell::tests
 {

@@ -1,10 +1,6 @@
 #include "coupling/integration/newmark/wilson.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

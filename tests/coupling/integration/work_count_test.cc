@@ -4,8 +4,7 @@
 #include "coupling/integration/propagation/force_rule.h"
 #include "tests/support/methods.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,9 +1,9 @@
 // A small frame given by matrices, as the machine gets it.
 
 #include "coupling/reduction/dense_frame.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
 
 namespace
 {

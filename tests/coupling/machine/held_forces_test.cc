@@ -6,10 +6,7 @@
 #include "mechanism/elements/formula_force.h"
 #include "mechanism/elements/spring_damper.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

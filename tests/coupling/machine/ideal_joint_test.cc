@@ -5,10 +5,7 @@
 #include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <functional>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

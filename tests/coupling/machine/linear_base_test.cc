@@ -2,13 +2,9 @@
 #include "coupling/machine/dense_base.h"
 #include "coupling/machine/sparse_base.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
-
-#include <cmath>
-#include <string>
 
 namespace gestell
 {

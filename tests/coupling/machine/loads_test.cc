@@ -2,10 +2,7 @@
 
 #include "coupling/frame/reduced_frame.h"
 #include "coupling/machine/machine.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

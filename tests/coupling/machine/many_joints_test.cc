@@ -8,8 +8,7 @@
 #include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

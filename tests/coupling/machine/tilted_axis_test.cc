@@ -1,10 +1,7 @@
 // What cancels leaves nothing, whatever direction an axis has: no motion of 1e-17 that a joint could take for one.
 
 #include "tests/support/jointed_machines.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

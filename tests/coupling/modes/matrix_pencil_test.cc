@@ -4,11 +4,7 @@
 
 #include "fem/values/two_pi.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,8 +1,7 @@
 // Modes of two machines matched by what both tell of them.
 
 #include "coupling/modes/mode_comparison.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,14 +1,9 @@
 // Assignment and tracking of modes on systems of two oscillators whose frequencies pass each other.
 
 #include "coupling/modes/mode_tracking.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Eigenvalues>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace gestell::tests
 {

@@ -1,6 +1,5 @@
 #include "coupling/modes/excitation_orders.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -4,10 +4,7 @@
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -6,10 +6,7 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

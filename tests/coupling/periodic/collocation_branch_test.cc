@@ -6,10 +6,7 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/play_system.h"
-
-#include <gtest/gtest.h>
-
-#include <memory>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -2,8 +2,7 @@
 #include "coupling/periodic/collocation/collocation_method.h"
 #include "tests/support/coupled_system.h"
 #include "tests/support/periodic_cases.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <random>
 

@@ -6,11 +6,7 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "coupling/periodic/trace_orbit.h"
 #include "tests/support/periodic_cases.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <memory>
+#include "tests/support/test.h"
 
 namespace
 {

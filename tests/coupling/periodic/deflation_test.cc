@@ -4,11 +4,7 @@
 #include "coupling/periodic/minimising.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

@@ -1,12 +1,7 @@
 #include "coupling/periodic/averaging/describing_function.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <optional>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

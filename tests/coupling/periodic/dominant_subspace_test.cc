@@ -2,8 +2,7 @@
 #include "coupling/periodic/shooting/shooting.h"
 #include "coupling/periodic/shooting/shooting_method.h"
 #include "tests/support/periodic_cases.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -6,10 +6,7 @@
 #include "tests/support/periodic_cases.h"
 #include "tests/support/play_system.h"
 #include "tests/support/reference_table.h"
-
-#include <gtest/gtest.h>
-
-#include <complex>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

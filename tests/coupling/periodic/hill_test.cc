@@ -1,10 +1,7 @@
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
 #include "coupling/periodic/harmonic/hill.h"
 #include "tests/support/periodic_cases.h"
-
-#include <gtest/gtest.h>
-
-#include <complex>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

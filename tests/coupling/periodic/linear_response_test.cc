@@ -4,12 +4,10 @@
 #include "coupling/periodic/response/response_peaks.h"
 #include "tests/support/linear_machine.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Dense>
 
-#include <cmath>
 #include <random>
 
 namespace gestell::tests

@@ -7,9 +7,7 @@
 #include "coupling/periodic/trace_orbit.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/refusal.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

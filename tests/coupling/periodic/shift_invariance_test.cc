@@ -5,11 +5,7 @@
 #include "coupling/periodic/turn_increments.h"
 #include "coupling/periodic/verified_orbit.h"
 #include "tests/support/small_system.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

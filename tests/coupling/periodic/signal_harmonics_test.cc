@@ -2,11 +2,7 @@
 
 #include "coupling/periodic/harmonic/signal_harmonics.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

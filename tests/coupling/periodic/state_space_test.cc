@@ -2,10 +2,7 @@
 
 #include "coupling/periodic/response/state_space.h"
 #include "tests/support/linear_machine.h"
-
-#include <gtest/gtest.h>
-
-#include <complex>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

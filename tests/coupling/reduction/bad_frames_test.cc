@@ -2,10 +2,7 @@
 
 #include "tests/support/lattice.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <string>
+#include "tests/support/test.h"
 
 namespace gestell
 {

@@ -3,9 +3,7 @@
 #include "coupling/plugin/frame/converge_mesh.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/refusal.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

@@ -4,13 +4,10 @@
 #include "fem/values/two_pi.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-
-#include <complex>
 
 namespace gestell
 {

@@ -7,8 +7,7 @@
 #include "fem/parallel/petsc_session.h"
 #include "tests/support/lattice.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell
 {

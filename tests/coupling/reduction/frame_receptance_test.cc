@@ -5,14 +5,10 @@
 #include "fem/recovery/discretisation.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
 #include <Eigen/UmfPackSupport>
-
-#include <gtest/gtest.h>
-
-#include <complex>
-#include <iostream>
 
 namespace gestell
 {

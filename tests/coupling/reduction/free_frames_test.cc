@@ -4,11 +4,7 @@
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell
 {

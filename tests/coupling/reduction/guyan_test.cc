@@ -5,10 +5,7 @@
 #include "fem/values/two_pi.h"
 #include "tests/support/lattice.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

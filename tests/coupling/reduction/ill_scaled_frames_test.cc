@@ -7,10 +7,7 @@
 #include "coupling/reduction/reduce_frame.h"
 #include "tests/support/lattice.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {

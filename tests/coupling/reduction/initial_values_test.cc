@@ -4,11 +4,9 @@
 #include "coupling/reduction/shapes/reduction_basis.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Cholesky>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace gestell
 {
@@ -106,5 +104,4 @@ TEST(RefinedModes, OfALargeFrameAreThoseOfTheDenseMatrices)
 }
 
 } // namespace
-
 } // namespace gestell

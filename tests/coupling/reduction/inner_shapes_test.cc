@@ -6,8 +6,7 @@
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/cube.h"
 #include "tests/support/lattice.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Cholesky>
 

@@ -5,8 +5,7 @@
 #include "coupling/reduction/shapes/fixed_interface_modes.h"
 #include "tests/support/cube.h"
 #include "tests/support/lattice.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell
 {

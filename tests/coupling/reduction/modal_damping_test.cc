@@ -8,12 +8,7 @@
 #include "coupling/reduction/shapes/fixed_interface_frame.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
+#include "tests/support/test.h"
 
 namespace gestell
 {

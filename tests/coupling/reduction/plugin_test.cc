@@ -1,8 +1,7 @@
 #include "coupling/integration/system/second_order_system.h"
 #include "coupling/plugin/frame_service_loader.h"
 #include "tests/support/lattice.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell
 {

@@ -6,14 +6,9 @@
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Eigenvalues>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 namespace gestell::test
 {

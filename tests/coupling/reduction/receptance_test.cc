@@ -3,13 +3,9 @@
 #include "fem/values/two_pi.h"
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/lattice.h"
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
-
-#include <gtest/gtest.h>
-
-#include <complex>
-#include <numeric>
 
 namespace gestell
 {

@@ -6,8 +6,7 @@
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
 #include <Eigen/SparseLU>

@@ -6,12 +6,9 @@
 #include "tests/coupling/reduction/basis_with_modes.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
-
-#include <algorithm>
 
 namespace gestell::test
 {

@@ -5,8 +5,7 @@
 #include "fem/mesh/mesher.h"
 #include "fem/recovery/discretisation.h"
 #include "tests/support/cad_samples.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell
 {

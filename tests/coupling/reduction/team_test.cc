@@ -1,8 +1,7 @@
 // Failures among ranks: none is left waiting.  What they find together: modes, and how many there are.
 
 #include "tests/support/program.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

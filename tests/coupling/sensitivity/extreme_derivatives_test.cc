@@ -1,11 +1,8 @@
 // Which extremes have derivatives, and which of the values about an event they are of.
 
 #include "coupling/sensitivity/extreme_derivatives.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <tuple>
 
 namespace

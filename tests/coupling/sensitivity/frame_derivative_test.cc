@@ -3,13 +3,10 @@
 
 #include "coupling/sensitivity/frame_derivative.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace
 {

@@ -2,11 +2,7 @@
 
 #include "coupling/sensitivity/frequency_sensitivities.h"
 #include "tests/support/linear_joint.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
+#include "tests/support/test.h"
 
 namespace
 {

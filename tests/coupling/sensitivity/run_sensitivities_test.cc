@@ -4,10 +4,7 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/dynamic_motor.h"
 #include "tests/coupling/sensitivity/twin_machines.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -1,11 +1,7 @@
 // The method that carries derivatives along a motion: its order.
 
 #include "coupling/sensitivity/variational_steps.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <utility>
+#include "tests/support/test.h"
 
 namespace
 {

@@ -5,10 +5,7 @@
 #include "coupling/simulation/simulation.h"
 #include "mechanism/elements/coulomb_friction.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

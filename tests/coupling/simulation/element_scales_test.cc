@@ -4,10 +4,7 @@
 #include "mechanism/elements/clearance.h"
 #include "mechanism/elements/connecting_rod.h"
 #include "mechanism/elements/spring_damper.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::coupling
 {

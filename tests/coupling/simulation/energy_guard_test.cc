@@ -3,11 +3,7 @@
 #include "coupling/simulation/energy_guard.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

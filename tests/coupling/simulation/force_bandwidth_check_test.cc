@@ -5,14 +5,9 @@
 #include "coupling/algebra/dense_modes.h"
 #include "mechanism/elements/table_force.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Cholesky>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
 
 namespace gestell::test
 {

@@ -7,10 +7,8 @@
 #include "mechanism/elements/spring_damper.h"
 #include "tests/support/linear_joint.h"
 #include "tests/support/methods.h"
+#include "tests/support/test.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <random>
 
 namespace gestell::tests

@@ -4,9 +4,7 @@
 #include "coupling/simulation/stepped_run.h"
 #include "tests/support/jointed_machines.h"
 #include "tests/support/methods.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

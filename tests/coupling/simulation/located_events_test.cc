@@ -7,10 +7,7 @@
 #include "tests/support/methods.h"
 #include "tests/support/reference_table.h"
 #include "tests/support/small_system.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

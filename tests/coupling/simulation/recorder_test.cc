@@ -1,10 +1,7 @@
 // What is told of a run: extremes between the steps, rows and pictures on grids of their own.
 
 #include "coupling/simulation/recorder.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

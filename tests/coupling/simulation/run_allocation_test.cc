@@ -2,11 +2,7 @@
 
 #include "mechanism/elements/cubic_spring.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
+#include "tests/support/test.h"
 
 namespace
 {

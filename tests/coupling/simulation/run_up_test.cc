@@ -4,10 +4,7 @@
 #include "mechanism/elements/coulomb_friction.h"
 #include "mechanism/elements/kloss_motor.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

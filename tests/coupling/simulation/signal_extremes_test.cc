@@ -1,10 +1,7 @@
 // Extremes between samples of a signal.
 
 #include "coupling/simulation/signal_extremes.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

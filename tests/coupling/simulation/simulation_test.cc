@@ -3,10 +3,7 @@
 #include "mechanism/elements/clearance.h"
 #include "tests/support/methods.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace
 {

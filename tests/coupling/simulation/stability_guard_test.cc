@@ -7,11 +7,9 @@
 #include "tests/support/linear_joint.h"
 #include "tests/support/methods.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace gestell::tests
 {

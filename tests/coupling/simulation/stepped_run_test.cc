@@ -5,10 +5,7 @@
 #include "mechanism/elements/clearance.h"
 #include "mechanism/elements/profile_force.h"
 #include "tests/support/methods.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {

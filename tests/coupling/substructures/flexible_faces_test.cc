@@ -1,15 +1,11 @@
 #include "coupling/algebra/dense_modes.h"
 #include "tests/coupling/substructures/pieces.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
 
-#include <cmath>
-
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -194,5 +190,4 @@ TEST(Contact, NeedsANormalAcrossItsFaces)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -1,16 +1,12 @@
 #include "coupling/algebra/dense_modes.h"
 #include "coupling/substructures/parts_recipe.h"
 #include "tests/coupling/substructures/pieces.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
 
-#include <cmath>
-
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -261,5 +257,4 @@ TEST(EqualParts, AreReducedOnceAndGiveTheNumbersOfTwoReductions)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -1,13 +1,9 @@
 #include "tests/coupling/substructures/pieces.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -257,5 +253,4 @@ TEST(Contacts, AreToldToOpenWhereNothingPressesThem)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -2,14 +2,10 @@
 #include "tests/support/box_mesh.h"
 #include "tests/support/lowest_modes.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -185,5 +181,4 @@ TEST(AttachedMass, OfImpossibleNumbersOrPlacesIsRefused)
 }
 
 } // namespace
-
 } // namespace gestell::test

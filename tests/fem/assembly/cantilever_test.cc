@@ -7,14 +7,10 @@
 #include "tests/support/cad_samples.h"
 #include "tests/support/lowest_modes.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -127,5 +123,4 @@ TEST(SweptPlate, TwistsAsFreeAsItsEdgesLet)
 }
 
 } // namespace
-
 } // namespace gestell::test

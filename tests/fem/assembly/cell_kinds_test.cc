@@ -11,16 +11,10 @@
 #include "tests/support/brick_mesh.h"
 #include "tests/support/lowest_modes.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-#include <set>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -323,5 +317,4 @@ TEST(MixedMeshes, OfCellsThatFoldAreRefused)
 }
 
 } // namespace
-
 } // namespace gestell::test

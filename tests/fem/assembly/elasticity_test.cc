@@ -5,15 +5,10 @@
 #include "fem/values/nearest_name.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/statics.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -177,5 +172,4 @@ TEST(AffineConstraints, ThatLeadBackToThemselvesAreRefused)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -7,18 +7,13 @@
 #include "tests/support/box_mesh.h"
 #include "tests/support/lowest_modes.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include <algorithm>
-#include <sstream>
-
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -403,5 +398,4 @@ TEST(Interfaces, OnASurfaceAsNarrowAsALineAreRefused)
 }
 
 } // namespace
-
 } // namespace gestell::test

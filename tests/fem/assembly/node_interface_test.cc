@@ -4,15 +4,10 @@
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <iterator>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -223,5 +218,4 @@ TEST(NodeInterfaces, RefuseWhatTheyCannotBe)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -3,14 +3,10 @@
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -389,5 +385,4 @@ TEST(SparseSum, OfMatricesThatAreNotCompressedIsTheirSum)
 }
 
 } // namespace
-
 } // namespace gestell::test

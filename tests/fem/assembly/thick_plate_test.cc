@@ -1,14 +1,10 @@
 #include "fem/recovery/discretisation.h"
 #include "tests/support/box_mesh.h"
 #include "tests/support/lowest_modes.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -88,5 +84,4 @@ TEST(ThickPlate, FrequenciesFallToTheExactOnesWithTheFourthPowerOfTheCellSize)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -5,11 +5,7 @@
 #include "fem/values/vector3.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/refusal.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
+#include "tests/support/test.h"
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

@@ -2,15 +2,9 @@
 
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <functional>
-
-#include <cstdlib>
-#include <iostream>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

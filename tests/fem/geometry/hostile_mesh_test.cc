@@ -5,15 +5,9 @@
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstring>
-#include <limits>
-#include <sstream>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

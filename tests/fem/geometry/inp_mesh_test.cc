@@ -6,13 +6,9 @@
 #include "fem/values/vector3.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/mesh_measures.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <sstream>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

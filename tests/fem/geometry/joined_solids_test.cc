@@ -6,12 +6,9 @@
 #include "tests/support/cad_samples.h"
 #include "tests/support/mesh_measures.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

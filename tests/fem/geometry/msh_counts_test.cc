@@ -2,14 +2,11 @@
 
 #include "fem/geometry/msh_counts.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 namespace gestell::fem
 {

@@ -2,14 +2,9 @@
 
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <ostream>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

@@ -3,13 +3,9 @@
 #include "fem/mesh/memory_estimate.h"
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

@@ -2,10 +2,9 @@
 
 #include "fem/mesh/mesher.h"
 #include "tests/support/cad_samples.h"
+#include "tests/support/test.h"
 
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <Interface_Static.hxx>
@@ -18,8 +17,6 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-
-#include <algorithm>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

@@ -7,17 +7,9 @@
 #include "fem/values/vector3.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/mesh_measures.h"
+#include "tests/support/test.h"
 
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <stdexcept>
-#include <utility>
-#include <vector>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

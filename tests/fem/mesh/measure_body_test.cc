@@ -4,14 +4,10 @@
 #include "fem/values/triangle_surface.h"
 #include "tests/support/cad_samples.h"
 #include "tests/support/refusal.h"
+#include "tests/support/test.h"
 
 #include <Eigen/Geometry>
-#include <gmock/gmock.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
 
 using namespace gestell::fem;
 using namespace gestell::fem::test;

@@ -1,12 +1,10 @@
 #include "fem/mesh/mesh_nodes.h"
 
 #include "fem/values/vector3.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <ctime>
 #include <random>
-#include <set>
 
 using namespace gestell::fem;
 

@@ -3,20 +3,12 @@
 
 #include "fem/process/child.h"
 #include "tests/support/refusal.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <sys/wait.h>
 
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <limits>
 #include <new>
-#include <stdexcept>
 #include <unistd.h>
 
 namespace gestell::fem
@@ -404,5 +396,4 @@ TEST(ReadingLimits, GrowWithTheFileAndAreRaisedByTheEnvironment)
 }
 
 } // namespace
-
 } // namespace gestell::fem

@@ -5,14 +5,10 @@
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
 #include "tests/support/lowest_modes.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -133,5 +129,4 @@ TEST(WallThickness, OfAPlateIsMeasuredThroughIt)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -2,8 +2,7 @@
 
 #include "fem/recovery/raised_matrices.h"
 #include "tests/support/box_mesh.h"
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 #include <Eigen/SparseCholesky>
 

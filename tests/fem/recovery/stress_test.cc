@@ -5,14 +5,10 @@
 #include "tests/support/box_mesh.h"
 #include "tests/support/brick_mesh.h"
 #include "tests/support/statics.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::test
 {
-
 namespace
 {
 
@@ -232,5 +228,4 @@ TEST(SkinStress, JumpsBetweenMaterialsAndIsNotAveragedThere)
 }
 
 } // namespace
-
 } // namespace gestell::test

@@ -2,11 +2,7 @@
 
 #include "fem/values/temporary_directory.h"
 #include "tests/fuzz/mesh/mesh_fuzz.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
+#include "tests/support/test.h"
 
 namespace gestell::fuzz
 {

@@ -10,7 +10,6 @@
 
 namespace gestell::fuzz
 {
-
 namespace
 {
 

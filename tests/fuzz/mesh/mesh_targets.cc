@@ -24,7 +24,6 @@
 
 namespace gestell::fuzz
 {
-
 namespace
 {
 
