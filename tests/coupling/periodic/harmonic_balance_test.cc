@@ -1,4 +1,5 @@
 #include "coupling/periodic/harmonic/harmonic_balance_method.h"
+#include "coupling/periodic/harmonic/hill.h"
 #include "tests/support/coupled_system.h"
 #include "tests/support/periodic_cases.h"
 #include "tests/support/reference_table.h"
@@ -301,6 +302,29 @@ TEST(HarmonicBalance, RefusesWhatItCannotBalance)
   CubicSystem other = duffing_system(duffing_cases.at("duffing1"));
   other.set_load([](double t) { return VectorXd::Constant(1, t); });
   EXPECT_THAT(harmonic_balance_method().refuses(problem_of_period(other, 1.)), testing::HasSubstr("sum of harmonics"));
+}
+
+/// Damped modes alone: mu = exp(s T), s = -delta +- i sqrt(omega_0^2 - delta^2).
+TEST(Hill, IsExactWhereTheSystemIsLinear)
+{
+  CubicSystem           system  = duffing_system({0.1, 0., 0.3, 0.8});
+  const double          T       = 2. * M_PI / 0.8;
+  const PeriodicProblem problem = problem_of_period(system, T);
+  HarmonicBalance       balance(problem, 1);
+  VectorXd              r;
+  MatrixXd              J;
+  balance.linearise(balance.linear_start(), r, J);
+  const Eigen::VectorXcd     mu       = hill_multipliers(problem, 0.8, 1, balance.derivatives()).multipliers;
+  const std::complex<double> expected = std::exp(std::complex<double>(-0.1, std::sqrt(1. - 0.01)) * T);
+  EXPECT_LT((mu.array() - expected).abs().minCoeff(), 1e-12);
+}
+
+TEST(Hill, IsChosenForSmallSystemsOnly)
+{
+  CubicSystem one  = duffing_system(duffing_cases.at("duffing1"));
+  SmallSystem many = SmallSystem(MatrixXd::Identity(50, 50), MatrixXd::Identity(50, 50), MatrixXd::Identity(50, 50));
+  EXPECT_EQ(floquet_way(problem_of_period(one, 1.), 16), FloquetWay::hill);
+  EXPECT_EQ(floquet_way(problem_of_period(many, 1.), 16), FloquetWay::shooting);
 }
 
 } // namespace gestell::tests
