@@ -82,7 +82,7 @@ TEST(Includes, OfScenesGoDownFromTheMachineToTheLanguage)
 
 TEST(Includes, OfOutputGoDownFromTheFolderToTheText)
 {
-  const std::vector<std::string> folders = {"text/",   "folder/", "values/", "tables/",   "pictures/",
+  const std::vector<std::string> folders = {"text/",   "folder/",      "values/", "tables/",   "pictures/",
                                             "charts/", "interactive/", "report/", "paraview/", "result_folder"};
   for (std::size_t i = 0; i < folders.size(); ++i)
     for (std::size_t j = i + 1; j < folders.size(); ++j)

@@ -44,7 +44,7 @@ PeriodicRequest request_by(const std::string &method)
 TEST(LongRun, OfUedasOscillatorIsToldAsChaos)
 {
   PeriodicRequest request     = request_by("minimise");
-  request.own["starts"]              = 1;
+  request.own["starts"]       = 1;
   const PeriodicResult result = periodic_of(cubic_slide(0.05, 0., 1., 7.5, hertz(1.)), request);
   EXPECT_EQ(result.failure, "");
   ASSERT_TRUE(result.long_run);
@@ -117,11 +117,11 @@ TEST(LongRun, ChecksASubharmonicMotionByItsOwnPeriod)
 {
   const std::string start = test::quoted("[start]\nv = { slide = 4 }\n");
   PeriodicRequest   request;
-  request.method  = "shooting";
-  request.ratio   = 3;
+  request.method         = "shooting";
+  request.ratio          = 3;
   request.own["lead-in"] = 30;
-  request.check   = "harmonic-balance";
-  auto result     = periodic_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
+  request.check          = "harmonic-balance";
+  auto result            = periodic_of(cubic_slide(0.05, 1., 0.5, 3., hertz(3.3)) + start, request);
   ASSERT_EQ(result.checks.size(), 1u);
   EXPECT_EQ(result.checks[0].failure, "");
   EXPECT_LT(result.checks[0].distances[0].second, 1e-8);
@@ -150,7 +150,7 @@ TEST(PhasePlane, OfALinearOscillatorIsAnEllipse)
 TEST(BasinScene, AsksForAPlaneByTheNamesOfTheStart)
 {
   PeriodicRequest request     = request_by("minimise");
-  request.own["starts"]              = 12;
+  request.own["starts"]       = 12;
   request.basins              = "slide, slide'";
   request.basin_points        = 6;
   const std::string    scene  = cubic_slide(0.1, 1., 0.5, 0.3, hertz(1.4));

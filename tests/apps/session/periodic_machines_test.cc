@@ -255,9 +255,10 @@ TEST(LinearMotions, AreFoundOrRefusedByEveryMethod)
       SCOPED_TRACE(std::string(kind.name) + ", " + method);
       const test::SceneFolder folder;
       PeriodicRequest         request;
-      request.method      = method;
-      request.period      = "0.2 s";
-      request.own["starts"]      = method == "minimise" ? 2 : 0;
+      request.method = method;
+      request.period = "0.2 s";
+      if (method == "minimise")
+        request.own["starts"] = 2;
       const bool is_held  = std::string(kind.name).rfind("held", 0) == 0;
       const auto scene    = folder.write("scene.toml", test::quoted(kind.scene));
       const auto answered = [&](const apps::PeriodicResult &result)

@@ -85,7 +85,7 @@ TEST(PeriodicScene, MotionsWithPlayAndTheirSubharmonicsMeetTheReference)
   const double zeta[] = {0.05, 0.05, 0.05, 0.1}, F0[] = {0.3, 0.3, 0.1, 0.3}, F[] = {1., 0.5, 2., 1.},
                Omega[] = {0.7, 1.8, 1.8, 1.8};
   PeriodicRequest request;
-  request.method = "minimise";
+  request.method        = "minimise";
   request.own["starts"] = 40;
   for (int i = 0; i < 4; ++i)
   {
@@ -111,7 +111,7 @@ TEST(PeriodicScene, BranchesTurnWhereTheReferenceSays)
 {
   PeriodicRequest request;
   request.method              = "harmonic-balance";
-  request.own["harmonics"]           = 1;
+  request.own["harmonics"]    = 1;
   request.along               = "parameters.Omega";
   request.from                = "1.0";
   request.to                  = "1.7";

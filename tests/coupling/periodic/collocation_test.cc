@@ -49,7 +49,7 @@ TEST(Collocation, FindsALimitCycleOfNearlyThePeriodOfTheBase)
   PeriodicProblem  problem = problem_of_period(system, 6.3);
   problem.phase            = 0;
   PeriodicOptions options;
-  options.own["lead-in"]  = 0;
+  options.own["lead-in"] = 0;
   const auto found = collocation_method().solve(problem, {VectorXd::Zero(1), VectorXd::Constant(1, 2.2), 6.3}, options);
   EXPECT_NEAR(found.at(0).period, 2. * M_PI * (1. + eps * eps / 16.), 1e-8);
   EXPECT_NEAR(found.at(0).v[0], 2., 1e-4);

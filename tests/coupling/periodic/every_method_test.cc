@@ -32,8 +32,8 @@ const Way by_one_segment = {&shooting_method(), 1, 1e-10}, by_five = {&shooting_
 PeriodicSolution solved(const Way &way, const PeriodicProblem &problem, const PeriodicGuess &guess)
 {
   PeriodicOptions options;
-  options.own["lead-in"]  = 0;
-  options.segments = way.segments;
+  options.own["lead-in"] = 0;
+  options.segments       = way.segments;
   if (way.method == &shooting_method())
     options.tolerance = 1e-12;
   const auto found = way.method->solve(problem, guess, options);
