@@ -241,12 +241,29 @@ void MachineEvents::transition(int i, const LocalState &state)
   accept_motion(parts_, state, active.element); // others may have come to rest with it
 }
 
+namespace
+{
+[[noreturn]] void throw_without_energy(const std::string &element, const LocalState &state, int measure)
+{
+  std::ostringstream message;
+  message << "\"" << element << "\" has no finite energy at t = " << state.t << ", u = " << state.u[measure]
+          << ", u' = " << state.v[measure] << " (SI units), as a gas whose piston has come to the end of its cylinder; "
+          << "check its place and the loads on it, or end the run before";
+  throw ConvergenceFailure(message.str());
+}
+} // namespace
+
 double MachineEnergy::stored(const LocalState &state) const
 {
   double energy = 0.;
   for (const auto &part : parts_.placed)
     if (part.law)
-      energy += part.law->stored_energy(part.motion(state, parts_.by_history), parts_.history_of(part));
+    {
+      const double own = part.law->stored_energy(part.motion(state, parts_.by_history), parts_.history_of(part));
+      if (!std::isfinite(own))
+        throw_without_energy(part.name, state, part.first_measure);
+      energy += own;
+    }
   return energy;
 }
 

@@ -238,8 +238,11 @@ public:
 private:
   void event(const Event &event) override
   {
-    if (end_.empty())
-      end_ = end_by_switch(machine_, options_.begin, event);
+    if (!end_.empty())
+      return;
+    end_ = end_by_switch(machine_, options_.begin, event);
+    if (!end_.empty())
+      result_.findings.push_back({Severity::error, ended_by_switch, event.name, end_});
   }
 
   Machine                                  &machine_;
@@ -328,13 +331,13 @@ RunResult simulate(Machine &machine, const InitialState &initial, const RunOptio
   try
   {
     run.begin(initial);
+    run.look_on(initial, watched, trajectory);
   }
   catch (const ConvergenceFailure &failure)
   {
     fail_at_start(failure, result);
     return result;
   }
-  run.look_on(initial, watched, trajectory);
   if (checkpoints && !checkpoints->from.empty())
     run.go_on(checkpoints->from);
   run.integrate(progress, stop, checkpoints);

@@ -103,13 +103,42 @@ ValueAndSlope<Number> value_and_slope(Function f, const Number &x)
   return {y, y};
 }
 
-/// f(x) of a dual number, f and f' being known at its value.
+inline bool is_finite(double x)
+{
+  return std::isfinite(x);
+}
+template <typename Derivatives>
+bool is_finite(const Eigen::AutoDiffScalar<Derivatives> &x)
+{
+  return is_finite(x.value());
+}
+
+inline bool is_constant_zero(double x)
+{
+  return x == 0.;
+}
+template <typename Derivatives>
+bool is_constant_zero(const Eigen::AutoDiffScalar<Derivatives> &x)
+{
+  bool zero = is_constant_zero(x.value());
+  for (Eigen::Index i = 0; zero && i < x.derivatives().size(); ++i)
+    zero = is_constant_zero(x.derivatives()[i]);
+  return zero;
+}
+
+/// f(x) of a dual number, f and f' being known at its value.  What x does not depend on f does not either, even where
+/// f' is infinite.
 template <typename Derivatives>
 Eigen::AutoDiffScalar<Derivatives> by_chain_rule(const typename Derivatives::Scalar       &value,
                                                  const typename Derivatives::Scalar       &slope,
                                                  const Eigen::AutoDiffScalar<Derivatives> &x)
 {
-  return Eigen::AutoDiffScalar<Derivatives>(value, Derivatives(x.derivatives() * slope));
+  Derivatives derivatives = x.derivatives() * slope;
+  if (!is_finite(slope))
+    for (Eigen::Index i = 0; i < derivatives.size(); ++i)
+      if (is_constant_zero(x.derivatives()[i]))
+        derivatives[i] = 0.;
+  return Eigen::AutoDiffScalar<Derivatives>(value, derivatives);
 }
 
 template <typename Derivatives>

@@ -6,6 +6,7 @@
 #include "apps/scene/build/scene_magnitudes.h"
 #include "apps/scene/build/superposed_machine.h"
 #include "coupling/frame/reduced_frame_file.h"
+#include "coupling/integration/step/law_values.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/machine/configuration/sticking_conflict.h"
 
@@ -91,6 +92,15 @@ void require_free_motion(const Scene &scene, coupling::Machine &machine, const c
   const coupling::StickingConflict conflict = coupling::sticking_conflict(machine, initial);
   if (!conflict.element.empty())
     throw std::invalid_argument(scene.element_places.at(conflict.element) + ": " + conflict.words);
+  coupling::LocalState local;
+  local.resize(machine);
+  machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
+  if (const coupling::LawWithoutValue none = coupling::law_without_value(machine, local); !none.element.empty())
+  {
+    const auto place = scene.element_places.find(none.element);
+    throw std::invalid_argument((place == scene.element_places.end() ? scene.run.place : place->second) + ": " +
+                                none.words);
+  }
 }
 
 namespace

@@ -1,5 +1,7 @@
 #include "coupling/integration/events/finite_state.h"
 
+#include "coupling/integration/step/law_values.h"
+
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -14,6 +16,9 @@ bool is_finite(const LocalState &state)
 
 std::string non_finite_state_message(const SecondOrderSystem &system, const LocalState &state)
 {
+  if (state.u.allFinite() && state.v.allFinite())
+    if (const LawWithoutValue none = law_without_value(system, state); !none.element.empty())
+      return none.words;
   std::ostringstream message;
   message << "there is no finite number at t = " << state.t << " s for ";
   for (const auto &[values, what] :

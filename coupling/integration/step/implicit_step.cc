@@ -1,5 +1,6 @@
 #include "coupling/integration/step/implicit_step.h"
 
+#include "coupling/integration/step/law_values.h"
 #include "coupling/integration/step/rounding_floors.h"
 
 #include <algorithm>
@@ -358,6 +359,7 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
     scale_ = scale_before_;
     forget_contraction();
     saddle_->forget_pivots();
+    require_law_values(system_, local);
     fail(base.t);
   }
   condensed.solver->solve(f, x);
@@ -410,6 +412,7 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
     scale_ = scale_before_; // runaway iterates are no excursions
     forget_contraction();
     levers_age_ = 0;
+    require_law_values(system_, local);
     fail(base.t);
   }
 }

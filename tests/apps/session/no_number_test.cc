@@ -1,8 +1,10 @@
 // A law that has no number somewhere ends a run there, whatever integrates it: a sum of the state after every step of
 // every method tells, and a sum of the signals at every sample.
 
+#include "apps/session/session.h"
 #include "coupling/integration/integration_methods.h"
 #include "coupling/simulation/simulation.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/test.h"
@@ -65,7 +67,8 @@ void expect_end_before(double t, const std::string &text)
       coupling::Machine machine    = apps::build_machine(scene);
       const auto        found      = apps::scene_signals(scene, machine);
       const auto        run        = coupling::simulate(machine, apps::initial_state(scene, machine), options, found);
-      EXPECT_NE(run.failure, "");
+      EXPECT_THAT(run.failure, ::testing::HasSubstr("the law of \"law\" has "));
+      EXPECT_THAT(run.failure, ::testing::Not(::testing::HasSubstr("stick")));
       EXPECT_TRUE(all_finite(run.rows));
       ASSERT_GE(run.rows.size(), run.columns.size()); // a first long step may fail
       const double last = run.rows[run.rows.size() - run.columns.size()];
@@ -87,6 +90,35 @@ TEST(NoNumber, ALawWithNoneBeyondAnAmplitudeEndsEveryRunThere)
 {
   expect_end_before(0.1 * std::acos(2. / 3.), slide("3 N + 1e-9 N*sqrt(1 - u/(10 mm))"));
   expect_end_before(0.2, chain("30 kN + 1e-9 N*sqrt(1 - u/(2 mm))"));
+}
+
+/// What `check` and `run` say of a law that has none at the start.
+TEST(NoNumber, AtTheStartACheckAndARunTellTheElementWithItsArguments)
+{
+  for (const auto &[force, words] : {std::pair("1 N m/u", "no finite value at t = 0, u = 0"),
+                                     {"1 N*log(t/s)", "no finite value at t = 0, u = 0"},
+                                     {"1 N*sqrt(-1 - u/m)", "no finite value at t = 0, u = 0"},
+                                     {"1 N*sqrt(u/m)", "an infinite slope at t = 0, u = 0"}})
+  {
+    const test::SceneFolder folder;
+    const auto              path  = folder.write("scene.toml", slide(force));
+    const apps::Scene       scene = apps::read_scene(path, {});
+    const auto              told = ::testing::AllOf(::testing::HasSubstr("element.law: "), ::testing::HasSubstr(words));
+    EXPECT_THAT(refusal([&] { apps::check_start(scene); }), told);
+    EXPECT_THAT(refusal([&] { apps::Session(path).run(); }), told);
+  }
+}
+
+/// m x'' = a sqrt(t) without the spring: the derivative to the time is infinite at the start, no slope of the law is.
+TEST(NoNumber, ARootOfTheTimeHasOneAtTheStart)
+{
+  const test::SceneFolder folder;
+  const apps::Scene       scene   = apps::read_scene(folder.write("scene.toml", slide("1 N*sqrt(t/s)")), {});
+  coupling::Machine       machine = apps::build_machine(scene);
+  const auto              run     = coupling::simulate(machine, apps::initial_state(scene, machine), scene.run.options,
+                                                       apps::scene_signals(scene, machine));
+  EXPECT_EQ(run.failure, "");
+  EXPECT_NEAR(run.signals[1].final, std::sqrt(0.2), 1e-12);
 }
 
 } // namespace
