@@ -1,8 +1,8 @@
 #include "fem/assembly/attached_masses.h"
 
 #include "fem/assembly/rigid_motions.h"
-#include "fem/values/nearest_name.h"
 #include "fem/values/message_text.h"
+#include "fem/values/nearest_name.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -54,7 +54,7 @@ void require_valid(const std::vector<AttachedMass> &masses, const std::vector<In
   for (const AttachedMass &mass : masses)
   {
     if (!std::isfinite(mass.mass) || !(mass.mass > 0.))
-      throw std::invalid_argument(head(mass) + " has " + text(mass.mass) + " kg, but more than 0 is needed.");
+      throw std::invalid_argument(head(mass) + " has " + text(mass.mass) + " kg; its mass must be above 0.");
     require_inertia(mass);
     if (mass.interface.empty())
       continue;
@@ -64,8 +64,8 @@ void require_valid(const std::vector<AttachedMass> &masses, const std::vector<In
                                   nearest_names(mass.interface, known, "interface") + ".");
     if (interfaces[on - known.begin()].coupling == InterfaceCoupling::node && (mass.centre || !mass.inertia.isZero(0.)))
       throw std::invalid_argument(head(mass) + ": interface \"" + mass.interface +
-                                  "\" is a single node, which has no rotation and carries a point of mass only; leave "
-                                  "out inertia and position, or give the interface surfaces and coupling = "
+                                  "\" is a single node without rotations and can carry a point mass only; remove "
+                                  "inertia and position, or give the interface surfaces and coupling = "
                                   "\"average\".");
   }
 }

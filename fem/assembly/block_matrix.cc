@@ -16,7 +16,7 @@ namespace
 void check(PetscErrorCode code)
 {
   if (code != 0)
-    throw std::runtime_error("BlockMatrix: PETSc reports error " + std::to_string(code) + "; memory may be short.");
+    throw std::runtime_error("BlockMatrix: PETSc reports error " + std::to_string(code) + "; memory may have run out.");
 }
 
 /// Elements of all lists, one after the other.

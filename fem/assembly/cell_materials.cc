@@ -30,7 +30,7 @@ void require_valid(const Material &material)
   const auto &[E, nu, rho, place, name] = material;
   require_range(material, std::isfinite(E) && E > 0., "Young's modulus E", E, "E > 0 Pa", "steel has 210 GPa");
   require_range(material, std::isfinite(nu) && nu > -1. && nu < 0.5, "Poisson's ratio nu", nu, "-1 < nu < 0.5",
-                "steel has 0.3; an incompressible material (0.5) locks these elements, take 0.49 at most");
+                "steel has 0.3; these elements lock near the incompressible limit 0.5, use 0.49 at most");
   require_range(material, std::isfinite(rho) && rho > 0., "density rho", rho, "rho > 0 kg/m^3",
                 "steel has 7850 kg/m^3");
 }

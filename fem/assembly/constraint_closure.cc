@@ -21,7 +21,7 @@ void require_end(int tie, const std::vector<int> &tie_of, const std::vector<Comb
     const int next = value < static_cast<int>(tie_of.size()) ? tie_of[value] : -1;
     if (next >= 0 && state[next] == 1)
       throw std::invalid_argument("constraints: displacement " + std::to_string(value) +
-                                  " is tied to itself by others");
+                                  " is tied to itself through other displacements");
     if (next >= 0 && state[next] == 0)
       require_end(next, tie_of, ties, state);
   }

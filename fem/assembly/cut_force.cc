@@ -36,7 +36,7 @@ Plane plane_of(const CutSpecification &cut)
 {
   const Eigen::Vector3d normal(cut.normal[0], cut.normal[1], cut.normal[2]);
   if (!(normal.norm() > 0.) || !normal.allFinite())
-    throw std::invalid_argument(head(cut) + ": the normal has no direction; give three numbers such as [0, 0, 1].");
+    throw std::invalid_argument(head(cut) + ": the normal is zero; give three numbers such as [0, 0, 1].");
   return {Eigen::Vector3d(cut.through[0], cut.through[1], cut.through[2]), normal.normalized()};
 }
 
@@ -71,8 +71,8 @@ std::vector<char> nodes_below(const QuadraticMesh &mesh, const std::vector<doubl
 {
   const auto [low, high] = std::minmax_element(height.begin(), height.end());
   std::ostringstream message;
-  message << head(cut) << ": the plane does not cut the frame, which reaches from " << *low << " m to " << *high
-          << " m along the normal as seen from the point (" << cut.through[0] << ", " << cut.through[1] << ", "
+  message << head(cut) << ": the plane does not cut the frame, which extends from " << *low << " m to " << *high
+          << " m along the normal, measured from the point (" << cut.through[0] << ", " << cut.through[1] << ", "
           << cut.through[2] << ") m; move the point into the frame.";
   throw std::invalid_argument(message.str());
 }

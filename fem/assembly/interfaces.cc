@@ -33,8 +33,8 @@ void require_plane(const CoupledPatch &coupled, const QuadraticMesh &mesh)
   const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment).eigenvalues();
   if (!(principal[1] > 1e-10 * principal[2]))
     throw std::invalid_argument(head(coupled.specification) +
-                                ": the points of its surfaces lie on one line, which leaves a rotation undefined; six "
-                                "coordinates need a surface that spans a plane.");
+                                ": the points of its surfaces are on one line, which leaves a rotation undefined; six "
+                                "DOFs need a surface that spans a plane.");
 }
 
 Eigen::Matrix3Xd points_of(const SurfacePatch &patch, const QuadraticMesh &mesh)
@@ -83,14 +83,14 @@ void make_flexible(CoupledPatch &coupled, const QuadraticMesh &mesh)
   PlaneFace &face = coupled.face;
   if (!face.known())
     throw std::invalid_argument(head(coupled.specification) +
-                                ": its surfaces do not lie in one plane, which fields of a flexible face need; join it "
-                                "by coupling = \"rigid\" or \"average\", or choose a plane face");
+                                ": its surfaces are not in one plane, which a flexible face requires; use coupling = "
+                                "\"rigid\" or \"average\", or choose a plane face");
   const int  degree = face.degree = coupled.specification.degree;
   const auto points               = points_of(coupled.patch, mesh);
   if (!tells_apart(face, points))
     throw std::invalid_argument(head(coupled.specification) + ": the mesh has " + std::to_string(points.cols()) +
-                                " nodes on this face, too few to tell fields of degree " + std::to_string(degree) +
-                                " apart; mesh it finer (mesh = { \"" + coupled.specification.surfaces.front() +
+                                " nodes on this face, too few for fields of degree " + std::to_string(degree) +
+                                "; mesh it finer (mesh = { \"" + coupled.specification.surfaces.front() +
                                 "\" = \"... mm\" }), or lower the degree");
 }
 

@@ -92,7 +92,7 @@ CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &m
   if (!interface.position)
     throw std::invalid_argument((interface.place.empty() ? "" : interface.place + ": ") + interface.what + " \"" +
                                 interface.name +
-                                "\" is a single node, which is found by its position; give one, near a node.");
+                                "\" is a single node, which is selected by position; give a position near a node.");
   const Eigen::Map<const Vector3d> wanted(interface.position->data());
   int                              nearest = -1;
   double                           least   = std::numeric_limits<double>::max();
@@ -134,8 +134,8 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
     std::ostringstream text;
     text << own.what << " \"" << own.name << "\" is the " << (is_node ? "node" : "point of its surface") << " at "
          << metres(coupled.position) << ", " << 1e3 * distance << " mm from its position " << metres(wanted)
-         << (is_node ? ": elsewhere the mesh has none; a vertex of the geometry is always one"
-                     : ": give a position on the surface, or take coupling = \"average\" for a node beside it");
+         << (is_node ? ": the mesh has no node there; every vertex of the geometry is a node"
+                     : ": give a position on the surface, or use coupling = \"average\" for a point off the surface");
     notes.push_back(text.str());
   }
   return notes;
@@ -159,9 +159,9 @@ std::vector<std::string> masses_far_off(const std::vector<CoupledPatch> &coupled
     if (own.what == InterfaceSpecification().what || off <= distance)
       continue;
     std::ostringstream text;
-    text << own.what << " \"" << own.name << "\" stands at " << metres(mass.position) << ", " << off
-         << " m from the middle of its surface and farther than the frame is large: the position is in metres where it "
-            "has no unit, as in [10, 60, 140]; write \"10 mm\" for millimetres";
+    text << own.what << " \"" << own.name << "\" is at " << metres(mass.position) << ", " << off
+         << " m from the centre of its surface, farther than the size of the frame: a position without unit is in "
+            "metres, as in [10, 60, 140]; write \"10 mm\" for millimetres";
     notes.push_back(text.str());
   }
   return notes;
@@ -186,7 +186,7 @@ void shrink_to_point(CoupledPatch &coupled, const QuadraticMesh &mesh)
     std::ostringstream message;
     message << (own.place.empty() ? "" : own.place + ": ") << own.what << " \"" << own.name
             << "\": no triangle of its surface has its centroid within the radius of " << own.radius << " m about ("
-            << nearest.position.transpose() << ") m; take a larger radius or mesh the surface finer.";
+            << nearest.position.transpose() << ") m; use a larger radius or mesh the surface finer.";
     throw std::invalid_argument(message.str());
   }
   coupled.position = nearest.position;

@@ -32,14 +32,14 @@ void require_sound(const Mesh &mesh)
     throw std::invalid_argument("quadratic_mesh: the mesh has no cells; a solid volume is needed, not surfaces.");
   for (std::size_t i = 0; i < mesh.cells.size(); ++i)
     if (const double volume = six_volumes(mesh, mesh.cells[i]) / 6.; !(volume > 0.))
-      throw std::invalid_argument("quadratic_mesh: tetrahedron " + std::to_string(i) + " has the volume " +
-                                  text(volume) + " m^3, but a positive one is needed; mesh again with another size.");
+      throw std::invalid_argument("quadratic_mesh: tetrahedron " + std::to_string(i) + " has a volume of " +
+                                  text(volume) + " m^3; it must be positive: mesh again with another size.");
   for (int i = static_cast<int>(mesh.cells.size()); i < mesh.n_cells(); ++i)
     if (const double q = corner_quality(mesh, i); !(q > 0.))
       throw std::invalid_argument(
           "quadratic_mesh: " + std::string(mesh.kind(i) == CellKind::prism ? "prism" : "hexahedron") + ", cell " +
           std::to_string(i) + ", folds: the determinant at a corner is " + text(q) +
-          " times the edges there, but a positive one is needed; mesh again, or order its corners as gmsh does.");
+          " times the edges there and must be positive; mesh again, or order its corners as gmsh does.");
 }
 
 dealii::Triangulation<3> triangulation(const Mesh &mesh)
@@ -193,7 +193,7 @@ private:
   [[noreturn]] static void refuse()
   {
     throw std::invalid_argument(
-        "quadratic_mesh: an outer face is no face of a cell; surface and volume mesh must share "
+        "quadratic_mesh: an outer face is not a face of any cell; surface and volume mesh must share "
         "their points.");
   }
 

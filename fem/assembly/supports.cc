@@ -39,8 +39,8 @@ void require_valid(const Support &support)
       does_hold = does_hold || support.stiffness[d] > 0. || support.damping[d] > 0.;
     }
   if (!does_hold)
-    throw std::invalid_argument(head(support) + " acts in no direction; hold x, y or z, or give a foundation a "
-                                                "stiffness [N/m].");
+    throw std::invalid_argument(head(support) +
+                                " acts in no direction; fix x, y or z, or give a foundation a stiffness [N/m].");
 }
 
 /// Row of C summed over the nodes a clamped support holds in direction d.

@@ -33,7 +33,7 @@ std::set<int> triangles_of(const Mesh &mesh, const std::vector<std::string> &sur
   {
     const auto surface = mesh.surfaces.find(name);
     if (surface == mesh.surfaces.end())
-      throw std::invalid_argument(head + " names the surface \"" + name + "\", which the frame does not have; " +
+      throw std::invalid_argument(head + " names the surface \"" + name + "\", which does not exist in the frame; " +
                                   nearest_names(name, known) + ".");
     if (surface->second.empty())
       throw std::invalid_argument(head + ": the surface \"" + name +

@@ -59,19 +59,19 @@ void check_step(const std::string &path, std::uintmax_t size, const Refuse &refu
   if (head_of(path).find("ISO-10303-21") == std::string::npos)
     refuse("is not a STEP file: it does not begin with \"ISO-10303-21;\"; export the model as STEP (AP203 or AP214).");
   if (tail_of(path, size).find("END-ISO-10303-21") == std::string::npos)
-    refuse("is cut off: its last line is not \"END-ISO-10303-21;\"; copy or export it again.");
+    refuse("is truncated: its last line is not \"END-ISO-10303-21;\"; copy or export it again.");
 
   const StepText text = read_step_text(path);
   if (text.n_missing > 0)
-    refuse("is damaged, though it ends as it should: " + std::to_string(text.n_missing) +
+    refuse("is damaged, although its end is complete: " + std::to_string(text.n_missing) +
            " references lead to entities that are not in the file (#" + std::to_string(text.named_by) + " names #" +
-           std::to_string(text.first_missing) + "); a part of it is lost: copy or export it again.");
+           std::to_string(text.first_missing) + "); part of it is missing: copy or export it again.");
   if (!text.no_number.empty())
     refuse("is damaged: entity #" + std::to_string(text.no_number_in) + " holds \"" + text.no_number +
-           "\" in place of a number, which has no end for OpenCASCADE; repair the model, and export it again.");
+           "\" in place of a number, which OpenCASCADE cannot read; repair the model, and export it again.");
   if (text.n_entities > 0 && !text.has_unit)
-    refuse("does not say what its unit of length is (no LENGTH_UNIT in a GLOBAL_UNIT_ASSIGNED_CONTEXT), so millimetres "
-           "and metres cannot be told apart; a part of it is lost: copy or export it again.");
+    refuse("has no unit of length (no LENGTH_UNIT in a GLOBAL_UNIT_ASSIGNED_CONTEXT), so its lengths may be "
+           "millimetres or metres; part of it is missing: copy or export it again.");
 }
 
 // OpenCASCADE never ends on a BREP file that was cut off.
@@ -80,9 +80,10 @@ void check_brep(const std::string &path, std::uintmax_t size, const Refuse &refu
 {
   static const std::regex root_shape("\\*\\s*[-+ie][0-9]+ [0-9]+\\s*$");
   if (head_of(path).find("CASCADE Topology") == std::string::npos)
-    refuse("is not a BREP file of OpenCASCADE: \"CASCADE Topology\" is missing at its head; export the model as STEP.");
+    refuse(
+        "is not a BREP file of OpenCASCADE: \"CASCADE Topology\" is missing in its header; export the model as STEP.");
   if (!std::regex_search(tail_of(path, size), root_shape))
-    refuse("is cut off: its last line does not name the root shape (such as \"+1 0\"); copy or export it again.");
+    refuse("is truncated: its last line does not name the root shape (such as \"+1 0\"); copy or export it again.");
 }
 
 } // namespace
@@ -115,7 +116,7 @@ CadFile check_cad_file(const CadSource &source)
   if (const std::string reason = why_unreachable(path); !reason.empty())
     refuse(reason + ".");
   if (!std::filesystem::exists(path, ignored))
-    refuse("does not exist; a relative path counts from the scene's folder.");
+    refuse("does not exist; relative paths start at the folder of the scene.");
   if (!std::filesystem::is_regular_file(path, ignored))
     refuse("is not a file; name the .step, .stp, .brep, .geo, .msh or .inp file itself.");
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
@@ -128,7 +129,7 @@ CadFile check_cad_file(const CadSource &source)
     refuse("ends in \"" + extension(path) +
            "\"; .step, .stp, .brep, .geo, .msh and .inp are read: export the model as STEP.");
   if (source.unit < 0.)
-    throw std::invalid_argument(source.place + ": unit = " + text(source.unit) + " m; it must be > 0, or be left out.");
+    throw std::invalid_argument(source.place + ": unit = " + text(source.unit) + " m; it must be > 0, or be omitted.");
 
   if (*kind == CadFile::brep)
     check_brep(path, size, refuse);

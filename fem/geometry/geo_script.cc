@@ -56,15 +56,16 @@ std::map<std::string, std::string> refused_words()
   };
   add({"NonBlockingSystemCall", "OnelabAction", "OnelabRun", "Plugin", "Solver", "System", "SystemCall"},
       "runs a program");
-  add({"CreateDir", "Draw", "Print", "Save", "SendToServer", "SetNumber", "SetString"}, "writes beside the mesh");
+  add({"CreateDir", "Draw", "Print", "Save", "SendToServer", "SetNumber", "SetString"},
+      "writes files other than the mesh");
   add({"FileExists", "ListFromFile", "View", "Alias", "AliasWithOptions", "Combine", "CopyOptions"},
-      "reads what does not belong to the geometry");
+      "reads files other than the geometry");
   add({"AbsolutePath", "CodeName", "CurrentDir", "CurrentDirectory", "CurrentFileName", "DirName", "FixRelativePath",
        "GetEnv", "GetForced", "GetForcedStr", "GetNumber", "GetString", "GetStringValue", "GetValue",
        "GmshExecutableName", "MPI_Rank", "MPI_Size", "Memory", "TotalMemory"},
-      "asks for more than the geometry");
+      "uses more than the geometry");
   add({"Exit", "Sleep"}, "stops this program");
-  add({"S2N", "StringToName"}, "makes names that cannot be judged");
+  add({"S2N", "StringToName"}, "makes names that cannot be checked");
   add(words("AdaptMesh Betti Cohomology ColorTable DimNameSpace Homology INTERPOLATION_SCHEME Levelset "
             "NameStruct PartitionMesh Remesh SetCurrentWindow SetPartition SetTag Slide "
             "SplitCurrentWindowHorizontal SplitCurrentWindowVertical StrPrefix StrRelative Struct T2 T3 "
@@ -185,7 +186,7 @@ private:
     const bool        bracket = tokens_[i].text == "ShapeFromFile";
     const std::size_t name    = i + (bracket ? 2 : 1);
     if (!is(name, Kind::text) || (bracket ? !opens(i + 1) || closing_[i + 1] != name + 1 : !is(name + 1, ";")))
-      refuse(i, tokens_[i].text + " must name its file by one text in quotes");
+      refuse(i, tokens_[i].text + " must name its file by one string in quotes");
     files_.push_back(name);
   }
 
@@ -222,7 +223,7 @@ private:
   {
     const std::size_t open = opening_.at(i);
     if (is(i + 1, ".") && !(open > 0 && is(open - 1, "Field")))
-      refuse(i, "sets the option of something that is no size field");
+      refuse(i, "sets an option of an object that is not a size field");
   }
 
   /// A word that is none of the language must be a variable, or the name of a macro.
@@ -236,7 +237,7 @@ private:
     const bool begins = i == 0 || is(i - 1, ";") || is(i - 1, "}") || is(i - 1, ")") ||
                         (is(i - 1, Kind::word) && block_ends.count(tokens_[i - 1].text) > 0);
     if (begins && (is(i + 1, ";") || (opens(i + 1) && is(closing_[i + 1] + 1, ";"))) && !is_arrangement(i))
-      refuse(i, "\"" + word + "\" is a command that is not known to be harmless");
+      refuse(i, "\"" + word + "\" is not in the list of safe commands");
   }
 
   /// Of transfinite surfaces: "... = {1, 2, 3, 4} Left;"
@@ -260,7 +261,7 @@ private:
       return;
     if (attributes.count(word) > 0 && of_constants_[i])
       return;
-    refuse(i, "\"" + word + " " + next + "\" is a command that is not known to be harmless");
+    refuse(i, "\"" + word + " " + next + "\" is not in the list of safe commands");
   }
 
   const std::vector<GeoToken>             &tokens_;

@@ -20,7 +20,7 @@ TopoDS_Shape occ_snapshot()
   gmsh::write(file);
   TopoDS_Shape shape;
   if (!BRepTools::Read(shape, file.c_str(), BRep_Builder()))
-    throw std::runtime_error("no shapes could be exchanged with OpenCASCADE through " + file);
+    throw std::runtime_error("exchanging shapes with OpenCASCADE failed through " + file);
   return shape;
 }
 

@@ -59,7 +59,7 @@ void make_degrees_equal(InpMesh &mesh)
         corners.insert(corners.end(), &elements.nodes[i], &elements.nodes[i] + n_corners);
       elements.nodes = std::move(corners);
       mesh.notes.push_back("the solid \"" + elements.solid +
-                           "\" has cells with and without middle nodes: all are taken with straight edges");
+                           "\" has cells with and without middle nodes: all get straight edges");
       break;
     }
 }
@@ -129,11 +129,11 @@ void check_brep_file(const CadSource &source)
   catch (const std::ios::failure &)
   {
     const std::string place = place_of(in);
-    throw std::invalid_argument(source.place + ": " + source.path + " is damaged" +
-                                (place.empty() ? ": it ends before its shapes do, as if a count were too large or an "
-                                                 "entry were lost"
-                                               : place + ": what stands there is not what is needed (a number)") +
-                                "; copy or export it again.");
+    throw std::invalid_argument(
+        source.place + ": " + source.path + " is damaged" +
+        (place.empty() ? ": it ends before its shapes are complete: a count is too large or an entry is missing"
+                       : place + ": a number is expected there") +
+        "; copy or export it again.");
   }
 }
 
@@ -189,8 +189,8 @@ void check_kernel(const CadSource &source)
   if (of_model.size() != of_opencascade.size())
     throw std::invalid_argument(
         source.place + ": " + source.path +
-        " is drawn with gmsh's built-in kernel, which knows neither planes nor cylinders; begin "
-        "it with SetFactory(\"OpenCASCADE\"), or end it with \"Mesh 3;\" to mesh by itself.");
+        " uses gmsh's built-in kernel, which cannot identify planes and cylinders; begin it with "
+        "SetFactory(\"OpenCASCADE\"), or end it with \"Mesh 3;\" so that it makes its mesh.");
 }
 
 /// Cells of surfaces in a mesh file.
@@ -223,15 +223,16 @@ void check_solids(const CadModel &model, const CadSource &source, const GmshSess
     const std::string cells   = n_shell == 0 ? " holds no tetrahedra"
                                              : " holds " + std::to_string(n_shell) +
                                                  " triangles and quadrilaterals (a shell or a skin), but no tetrahedra";
-    throw std::invalid_argument(head + (model.meshed ? cells : " holds " + what) +
-                                (said.empty() ? "" : " (gmsh: " + said + ")") + "; needed is at least one " +
-                                (model.meshed ? "volume meshed with tetrahedra: mesh it in 3D before saving; a plate "
-                                                "is taken as a solid of its thickness."
-                                              : "closed solid: sew the faces into a solid and export it as a solid."));
+    throw std::invalid_argument(
+        head + (model.meshed ? cells : " holds " + what) + (said.empty() ? "" : " (gmsh: " + said + ")") +
+        "; needed is at least one " +
+        (model.meshed
+             ? "volume meshed with tetrahedra: mesh it in 3D before saving; model a plate as a solid of its thickness."
+             : "closed solid: sew the faces into a solid and export it as a solid."));
   }
   for (const Solid &solid : model.solids)
     if (!model.meshed && !(solid.volume > 0.))
-      throw std::invalid_argument(head + ": solid \"" + solid.name + "\" has the volume " + text(solid.volume) +
+      throw std::invalid_argument(head + ": solid \"" + solid.name + "\" has a volume of " + text(solid.volume) +
                                   " m^3; it is open or turned inside out: repair it in the CAD program.");
 }
 
@@ -251,7 +252,7 @@ void check_faces(const CadModel &model, const CadSource &source)
     area = model.unit * model.unit * area;
     if (!std::isfinite(area) || area < -width_of_slivers * model.diagonal() * norm(max - min))
       throw std::invalid_argument(source.place + ": " + source.path + ": the face " + std::to_string(tag) + " from " +
-                                  text(min) + " to " + text(max) + " has the area " + text(area) +
+                                  text(min) + " to " + text(max) + " has an area of " + text(area) +
                                   " m^2, so its boundary is open or turned inside out; repair it in the CAD program.");
   }
 }
@@ -260,9 +261,9 @@ void check_faces(const CadModel &model, const CadSource &source)
 std::string way_to_another_unit(const CadModel &model, const CadSource &source)
 {
   const double diagonal = model.diagonal(), likely = diagonal > 1. ? 1e-3 : 1e3;
-  return (is_step(source.path) ? "export it again with the right unit, or set unit to the true length of what the file "
-                                 "calls a millimetre"
-                               : "set unit to the length of the file's unit, such as \"mm\"") +
+  return (is_step(source.path)
+              ? "export it again with the right unit, or set unit to the true length of the file's millimetre"
+              : "set unit to the length of the file's unit, such as \"mm\"") +
          (" (unit = " + text(likely * (is_step(source.path) && source.unit == 0. ? 1e-3 : model.unit))) +
          " m would make it " + text(diagonal * likely) + " m)";
 }
@@ -276,10 +277,10 @@ void check_size(const CadModel &model, const CadSource &source)
         text(smallest_diagonal) + " m to " + text(largest_diagonal) +
         " m are expected, so its unit is probably wrong: " + way_to_another_unit(model, source) + ".");
   if (const double distance = norm(0.5 * (model.min + model.max)); distance > farthest * diagonal)
-    throw std::invalid_argument(source.place + ": " + source.path + " is " + text(diagonal) + " m across and lies " +
+    throw std::invalid_argument(source.place + ": " + source.path + " is " + text(diagonal) + " m across and is " +
                                 text(distance) +
-                                " m from the origin, where its own lengths lose half of their digits; move it "
-                                "nearer in the CAD program.");
+                                " m from the origin, where its lengths lose half of their digits; move it closer to "
+                                "the origin in the CAD program.");
 }
 
 } // namespace
@@ -289,8 +290,8 @@ std::string suspect_size(const CadModel &model, const CadSource &source)
   const double diagonal = model.diagonal();
   if (diagonal >= smallest_likely && diagonal <= largest_likely)
     return "";
-  return source.path + " is " + text(diagonal) + " m across, which few frames are: are its lengths in " +
-         (diagonal > 1. ? "millimetres, taken for metres" : "metres, taken for millimetres") + "? If so, " +
+  return source.path + " is " + text(diagonal) + " m across, unusual for a frame: are its lengths in " +
+         (diagonal > 1. ? "millimetres, read as metres" : "metres, read as millimetres") + "? If so, " +
          way_to_another_unit(model, source);
 }
 
@@ -315,7 +316,7 @@ CadModel read_model(const CadSource &source, CadFile file, const std::string &op
         file == CadFile::abaqus ? void(model.groups = load_inp(model, source)) : gmsh::open(opened);
       },
       source.place + ": gmsh cannot read " + source.path + ": ",
-      "; it may be damaged: export the model again, and see whether gmsh opens it.");
+      "; it may be damaged: export the model again, and check that gmsh opens it.");
   model.meshed = model.meshed || (file == CadFile::geo && has_cells());
   if (!model.meshed)
     check_kernel(source);
@@ -365,8 +366,8 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
   const CadFile   file   = check_cad_file(source);
   if (file == CadFile::triangles)
     throw std::invalid_argument(source.place + ": " + source.path +
-                                " holds triangles without a volume; a frame is meshed from a solid: export it as STEP, "
-                                "or give a mesh of tetrahedra as .msh.");
+                                " contains triangles but no volume; a frame needs a solid: export it as STEP, or give "
+                                "a tetrahedral mesh as .msh.");
   if (specification.mesh.size > 0.) // for scripts that mesh by themselves: they read Mesh.MeshSizeMax
     gmsh::option::setNumber("Mesh.MeshSizeMax", specification.mesh.size / (source.unit > 0. ? source.unit : 1.));
   CadModel model = open_cad(source, session);
@@ -374,7 +375,7 @@ CadModel read_cad(const FrameSpecification &specification, const GmshSession &se
     return model;
   if (file == CadFile::geo && specification.mesh.defeature > 0.)
     throw std::invalid_argument(specification.mesh.place + ": defeature is for STEP and BREP files; " + source.path +
-                                " is a script that can do it itself: HealShapes, or leave the feature out.");
+                                " is a script: use HealShapes in it, or remove the feature.");
   check_shells(model, source);
   join_solids(model, specification, session);
   model.faces = outer_faces(model.unit, model.diagonal());

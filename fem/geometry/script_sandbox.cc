@@ -21,17 +21,16 @@ namespace files = std::filesystem;
 
 constexpr std::size_t deepest_script = 50; // includes: gmsh reads each inside the other
 
-constexpr const char *way_out =
-    "; a script that is read with a frame may draw, size and mesh, and read from its own folder. Take the line out, or "
-    "say --trust-scripts if you know all that the script does.";
+constexpr const char *way_out = "; the script of a frame may draw, set sizes, mesh, and read files of its own folder. "
+                                "Remove the line, or give --trust-scripts if you know the whole script.";
 
 void require_mesh(const std::string &place, const files::path &file)
 {
   if (!begins_as_mesh(file.string()))
     throw std::invalid_argument(
         place + ": " + file.string() +
-        " is no mesh of gmsh: it does not begin with \"$MeshFormat\", and gmsh would run it as a "
-        "script; save the mesh as .msh, or call a script .geo.");
+        " is not a gmsh mesh: it does not begin with \"$MeshFormat\", and gmsh would run it as a "
+        "script; save the mesh as .msh, or name a script .geo.");
 }
 
 /// The same; and that it holds what it announces, as check_cad_file() asks of the file that a scene names.
@@ -101,7 +100,7 @@ std::string ScriptSandbox::copy_script(const files::path &script)
     throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
   };
   if (++depth_ > deepest_script)
-    refuse(1, "is included more than " + std::to_string(deepest_script) + " deep; put scripts together");
+    refuse(1, "is included more than " + std::to_string(deepest_script) + " levels deep; merge scripts");
   const std::string     copy   = place_for(script); // before its own files: they may name it in turn
   std::vector<GeoToken> tokens = geo_tokens(text_of(script), refuse);
   for (const std::size_t i : judge_geo(tokens, refuse))
@@ -128,7 +127,7 @@ std::string ScriptSandbox::copy_named(const std::string &name, bool included, co
     return copy_script(file);
   const auto kind = kind_of_file(file.string());
   if (!kind || *kind == CadFile::abaqus)
-    refuse("reads \"" + name + "\", which is no .step, .brep, .stl, .msh or .geo file");
+    refuse("reads \"" + name + "\", which is not a .step, .brep, .stl, .msh or .geo file");
   if (*kind == CadFile::mesh)
     require_sound_mesh(place, file);
   return *kind == CadFile::geo ? copy_script(file) : link(file);

@@ -55,7 +55,7 @@ void require_faces_of_one_owner(const std::map<std::string, std::vector<int>> &s
             owners[i].place + ": its surface \"" + surface + "\" and the surface \"" + entry->second.second + "\" of " +
             owners[entry->second.first].what + " are the same face (" +
             (face == faces.end() ? std::to_string(tag) : describe(*face)) +
-            "), which can follow one of them only; give each faces of its own, or join them in one interface.");
+            "), which can follow only one of them; give each its own faces, or join them in one interface.");
       }
     }
 }

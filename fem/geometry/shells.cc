@@ -80,11 +80,11 @@ void check_shells(CadModel &model, const CadSource &source)
       std::to_string(loose.size()) + (loose.size() == 1 ? " face that bounds" : " faces that bound") + " no solid";
   if (is_step(source.path))
     if (const int described = read_step_text(source.path).n_solids; described > static_cast<int>(model.solids.size()))
-      throw std::invalid_argument(head + " describes " + std::to_string(described) + " solids, but only " +
+      throw std::invalid_argument(head + " contains " + std::to_string(described) + " solids, but only " +
                                   std::to_string(model.solids.size()) + " are closed; there are " + left +
                                   open_edges_of_faces(model.unit) +
                                   ": close the shell in the CAD program (sew or heal), and export it again.");
-  model.notes.push_back(left + open_edges_of_faces(model.unit) + ": they are left out, a shell has no mass here");
+  model.notes.push_back(left + open_edges_of_faces(model.unit) + ": they are ignored, a shell has no mass here");
 }
 
 } // namespace gestell::fem

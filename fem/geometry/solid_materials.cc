@@ -19,7 +19,7 @@ std::vector<std::size_t> solids_of(const std::pair<std::string, Material> &named
       fitting.push_back(solid);
   if (fitting.empty())
     throw std::invalid_argument((material.place.empty() ? "frame.materials" : material.place) +
-                                ": no solid is called \"" + pattern + "\"; " + nearest_names(pattern, solids, "solid") +
+                                ": there is no solid \"" + pattern + "\"; " + nearest_names(pattern, solids, "solid") +
                                 "; `gestell mesh` lists all solids of a file.");
   return fitting;
 }

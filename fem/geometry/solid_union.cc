@@ -95,14 +95,14 @@ Parents fragment(const CadModel &model, const FrameSpecification &specification,
         gmsh::option::setNumber("Geometry.ToleranceBoolean", 0.);
       },
       head_of(specification) + ": OpenCASCADE cannot join its " + std::to_string(model.solids.size()) + " solids: ",
-      "; unite them to one solid in the CAD program (boolean union).");
+      "; unite them into one solid in the CAD program (boolean union).");
 
   Parents parents;
   for (std::size_t i = 0; i < model.solids.size(); ++i)
   {
     if (of_solid.at(i).empty())
       throw std::invalid_argument(specification.mesh.place + ": gap = " + text(specification.mesh.gap) +
-                                  " m swallows solid \"" + model.solids[i].name + "\" (" +
+                                  " m is larger than solid \"" + model.solids[i].name + "\" (" +
                                   text(model.solids[i].volume) + " m^3); use a smaller gap.");
     for (const auto &[dim, tag] : of_solid[i])
       parents[tag].push_back(static_cast<int>(i));
@@ -204,11 +204,11 @@ void require_small_gap(const CadModel &model, const FrameSpecification &specific
     if (gap >= allowed)
       throw std::invalid_argument(specification.mesh.place + ": gap = " + text(gap) + " m, but solid \"" + solid.name +
                                   "\" is only " + text(thick) +
-                                  " m thick in the mean (2 volume / surface), so that faces of its own could be taken "
-                                  "for one; needed is less than a third of that: set gap below " +
+                                  " m thick on average (2 volume / surface), so that its own faces could be merged; "
+                                  "the gap must be less than a third of that: set gap below " +
                                   text(allowed) +
-                                  " m, or leave it out and let the solids touch in the CAD program, or set mesh.bodies "
-                                  "where they are meant to be separate.");
+                                  " m, or remove it and let the solids touch in the CAD program, or set mesh.bodies if "
+                                  "they should be separate.");
   }
 }
 
@@ -223,11 +223,11 @@ void join_solids(CadModel &model, const FrameSpecification &specification, const
   const Parents                  parents  = fragment(model, specification, session);
   const std::vector<std::string> overlaps = overlaps_of(parents, model);
   if (!overlaps.empty() && specification.mesh.overlaps == Overlaps::refused)
-    throw std::invalid_argument(head_of(specification) +
-                                ": its solids overlap, so that a common part would have their masses twice; unite or "
-                                "cut them in the CAD program, or set mesh.overlaps = \"once\" to give it to the solid "
-                                "that comes first in the file:" +
-                                joined(overlaps, "\n  "));
+    throw std::invalid_argument(
+        head_of(specification) +
+        ": its solids overlap, so that the mass of the common part would count twice; unite or cut them in the CAD "
+        "program, or set mesh.overlaps = \"once\" to assign it to the solid that is first in the file:" +
+        joined(overlaps, "\n  "));
 
   std::vector<Solid> pieces;
   for (const auto &[tag, in] : parents)
@@ -240,7 +240,7 @@ void join_solids(CadModel &model, const FrameSpecification &specification, const
   if (const int common = number_of_common_faces(pieces); common > 0)
     model.statements.push_back("its " + std::to_string(model.solids.size()) + " solids are joined at " +
                                std::to_string(common) + (common == 1 ? " common face" : " common faces") +
-                               ", as if they were welded there");
+                               ", as if welded");
   model.solids = std::move(pieces);
 }
 
@@ -270,8 +270,8 @@ void check_bodies(const CadModel &model, const FrameSpecification &specification
   if (found < wanted)
     throw std::invalid_argument(specification.mesh.place + ": bodies = " + std::to_string(wanted) + ", but " +
                                 specification.cad + " holds " + std::to_string(found) +
-                                (found == 1 ? " body that hangs" : " bodies that hang") +
-                                " together by common faces; set bodies to that number, or take a smaller gap.");
+                                (found == 1 ? " body connected" : " bodies connected") +
+                                " by common faces; set bodies to that number, or use a smaller gap.");
 
   std::string list;
   for (std::size_t i = 0; i < std::min(model.solids.size(), 2 * listed); ++i)
@@ -298,18 +298,19 @@ void check_bodies(const CadModel &model, const FrameSpecification &specification
   const std::string number = std::to_string(found);
   const std::string way_out =
       widest > 0. && closing < allowed
-          ? ". Where a gap is a slip of the drawing, set mesh.gap = \"" + text(1e3 * closing) +
-                " mm\" to close it; where they are meant to be separate, set mesh.bodies = " + number + "."
+          ? ". If a gap is a drawing error, set mesh.gap = \"" + text(1e3 * closing) +
+                " mm\" to close it; if they should be separate, set mesh.bodies = " + number + "."
       : widest > 0.
           ? ". They are too far apart for mesh.gap, which must be less than a third of the thickness of solids, here " +
                 text(1e3 * allowed) + " mm: let them touch in the CAD program, or set mesh.bodies = " + number +
-                " where they are meant to be separate."
-          : ". They meet in a line or a point at most, which holds nothing: let them overlap or share a face, or set "
+                " if they should be separate."
+          : ". They meet in a line or a point only, which does not connect them: let them overlap or share a face, or "
+            "set "
             "mesh.bodies = " +
-                number + " where they are meant to be separate.";
+                number + " if they should be separate.";
   throw std::invalid_argument(specification.place + ": " + specification.cad + " holds " + std::to_string(found) +
-                              " bodies that do not hang together by common faces, but mesh.bodies = " +
-                              std::to_string(wanted) + way_out + " Lengths in m:" + list + where);
+                              " bodies without common faces, but mesh.bodies = " + std::to_string(wanted) + way_out +
+                              " Lengths in m:" + list + where);
 }
 
 } // namespace gestell::fem

@@ -123,7 +123,7 @@ void check(const SurfaceSelector &selector)
 {
   const auto refuse = [&](const std::string &why) { throw std::invalid_argument(selector.place + ": " + why); };
   if (!selector.plane && !selector.cylinder && !selector.box && !selector.group)
-    refuse("no condition given; say where the surface is by plane, cylinder, box or group");
+    refuse("no condition given; select the surface by plane, cylinder, box or group");
   if (selector.plane && !(norm(selector.plane->normal) > 0.))
     refuse("plane.normal is zero; give the outward normal, such as [0, 0, 1]");
   if (selector.cylinder && !(norm(selector.cylinder->axis) > 0.))
@@ -190,7 +190,7 @@ std::string groups_of(const std::vector<Face> &faces)
   std::string list;
   for (const std::string &name : names)
     list += (list.empty() ? "\"" : ", \"") + name + "\"";
-  return list.empty() ? "The model names no group and no face." : "The model names " + list + ".";
+  return list.empty() ? "The model has no named group or face." : "The model names " + list + ".";
 }
 
 /// Faces that share an edge hang together, as the halves of a bore: the number of the piece of each.
@@ -295,15 +295,15 @@ std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelec
     }
 
   if (fitting.empty())
-    throw std::invalid_argument(selector.place + ": no face fits (" + wish(selector) + ") within " +
+    throw std::invalid_argument(selector.place + ": no face matches (" + wish(selector) + ") within " +
                                 text(tolerance * 1e3) + " mm." + (selector.group ? " " + groups_of(faces) : "") +
                                 cut_by_box(faces, selector, tolerance) +
                                 " Nearest faces, lengths in m:" + candidates(faces, selector));
   if (wanted > 0 && !are_as_many(fitting, wanted))
     throw std::invalid_argument(
-        selector.place + ": " + std::to_string(fitting.size()) + " faces fit (" + wish(selector) +
+        selector.place + ": " + std::to_string(fitting.size()) + " faces match (" + wish(selector) +
         "), but faces = " + std::to_string(wanted) +
-        "; let 'through' lie within the extent of those meant, narrow the selection by a box, or set faces." +
+        "; let 'through' be within the intended faces, narrow the selection by a box, or set faces." +
         cut_by_box(faces, selector, tolerance) + " Candidates, lengths in m:" + candidates(faces, selector));
   std::vector<int> tags;
   for (const Face *face : fitting)
@@ -333,7 +333,7 @@ std::string coaxial_faces(const std::vector<Face> &faces, const SurfaceSelector 
   for (const int tag : selected)
     words += (tag == selected.front() ? " " : ", ") + std::to_string(tag);
   for (std::size_t i = 0; i < std::min(left.size(), candidates_shown); ++i)
-    words += (i == 0 ? "; coaxial faces not taken: " : ", ") + left[i];
+    words += (i == 0 ? "; coaxial faces not selected: " : ", ") + left[i];
   if (left.size() > candidates_shown)
     words += " and " + std::to_string(left.size() - candidates_shown) + " more";
   return words;

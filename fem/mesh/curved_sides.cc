@@ -237,8 +237,8 @@ void unfold(Mesh &mesh)
   }
   if (!straightened.empty())
     mesh.notes.push_back(std::to_string(straightened.size()) + " of " + std::to_string(n_curved) +
-                         " curved edges are straightened, as cells beside them would fold; smaller elements there keep "
-                         "them curved");
+                         " curved edges are straightened, because cells next to them would fold; use smaller elements "
+                         "there to keep them curved");
 }
 
 std::vector<double> curved_volumes(const Mesh &mesh)

@@ -33,21 +33,21 @@ std::string touching_nodes(const Mesh &mesh)
   const auto   pairs = coincident(mesh.points, same_place * size);
   if (pairs.empty())
     return "";
-  return ". " + std::to_string(pairs.size()) + " nodes lie upon others, one at " +
+  return ". " + std::to_string(pairs.size()) + " nodes coincide with others, one at " +
          text(mesh.points[pairs.front().first]) +
-         " m: solids touch there without being joined. Merge them where they are meant to be one (mesh.gap = \"" +
-         text(1e3 * 10. * same_place * size) + " mm\"), or set mesh.bodies where they are not";
+         " m: solids touch there without being joined. Merge them if they are one body (mesh.gap = \"" +
+         text(1e3 * 10. * same_place * size) + " mm\"), or set mesh.bodies if they are not";
 }
 
 void note_nodes(Mesh &mesh, const MeshNodes &nodes)
 {
   if (nodes.n_merged() > 0)
     mesh.statements.push_back(std::to_string(nodes.n_merged()) +
-                              " nodes are taken for one with another, as mesh.gap says");
+                              " nodes are merged with another node, as mesh.gap requires");
   if (const auto n_unused = nodes.n_unused(); n_unused > 0)
-    mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file belong to no cell and are left out");
+    mesh.notes.push_back(std::to_string(n_unused) + " nodes of the file are not part of a cell and are ignored");
   if (const auto pairs = coincident(mesh.points, same_place * extent(mesh)); !pairs.empty())
-    mesh.notes.push_back(std::to_string(pairs.size()) + " nodes lie upon others, one at " +
+    mesh.notes.push_back(std::to_string(pairs.size()) + " nodes coincide with others, one at " +
                          text(mesh.points[pairs.front().first]) +
                          " m: the cells there are not joined (a slit); mesh.gap merges them");
 }

@@ -31,8 +31,9 @@ void require_thick(const Mesh &mesh, int cell, const std::string &head, const st
 
 void require_thick_cells(const Mesh &mesh, bool meshed, const std::string &head)
 {
-  const std::string way_out = meshed ? "its volume is nearly zero, or less: mend it in the program that made the mesh."
-                                     : "choose another mesh.size, or a smaller one on the surface there.";
+  const std::string way_out =
+      meshed ? "its volume is nearly zero or negative: repair it in the program that made the mesh."
+             : "choose another mesh.size, or a smaller one on the surface there.";
   for (int cell = 0; cell < mesh.n_cells(); ++cell)
     require_thick(mesh, cell, head, way_out);
 }

@@ -84,10 +84,10 @@ void require_straight(const ExtractedMesh &extracted, const FrameSpecification &
 {
   const MeshOptions &options = specification.mesh;
   if (options.curved && !extracted.mesh.only_tetrahedra())
-    throw std::invalid_argument(options.place + ": curved = true, but the cells of " + specification.cad +
-                                std::string(extracted.mesh.hexahedra.empty() ? " are prisms" : " are hexahedra") +
-                                ", whose sides are straight; leave curved out and make cells smaller "
-                                "along curved faces, or mesh with tetrahedra.");
+    throw std::invalid_argument(
+        options.place + ": curved = true, but the cells of " + specification.cad +
+        std::string(extracted.mesh.hexahedra.empty() ? " are prisms" : " are hexahedra") +
+        " have straight sides; remove curved and make cells smaller along curved faces, or mesh with tetrahedra.");
 }
 
 /// Whether a face of gmsh is among those of a surface, if there is such a surface.
@@ -143,10 +143,10 @@ void judge_memory(MeshedModel &result, const FrameSpecification &specification, 
   while (fitting > 1000. && memory(fitting) > available)
     fitting *= 0.9;
   require_memory("about " + text(result.expected_cells) + " tetrahedra with " +
-                     text(coordinates_of(result.expected_cells)) + " coordinates are to be expected",
+                     text(coordinates_of(result.expected_cells)) + " coordinates are expected",
                  memory(result.expected_cells), available, options.place,
                  "Use size = " + text(size_for_cells(result.model, fitting)) +
-                     " m or more, larger sizes on surfaces, or a machine with more memory.");
+                     " m or more, larger sizes on surfaces, or a computer with more memory.");
 }
 
 /// The same of a mesh that is read.
@@ -161,7 +161,7 @@ void judge_memory(const MeshedModel &result, const FrameSpecification &specifica
         averaged += 2.; // nodes to a triangle
   require_memory(specification.cad + " has " + text(n) + " coordinates",
                  reduction_memory(n, compactness(result.model.volume(), skin_area(result.model.faces)), averaged),
-                 available_memory(), specification.mesh.place, "Give a coarser mesh, or a machine with more memory.");
+                 available_memory(), specification.mesh.place, "Give a coarser mesh, or a computer with more memory.");
 }
 
 /// Notes what forces elements far smaller than the size.
@@ -174,7 +174,7 @@ void judge_features(MeshedModel &result, const MeshOptions &options)
     result.model.notes.push_back(
         std::to_string(features.n_short_edges) + " edges and " + std::to_string(features.n_narrow_faces) +
         " faces are much smaller than elements (below " + text(1e3 * limit) + " mm; " + result.smallest +
-        ") and force small elements there: mesh.defeature removes what is smaller than a size, where it can");
+        ") and force small elements there: mesh.defeature removes features below a size where possible");
 }
 
 /// By the mean thickness 2 V / A.
@@ -216,7 +216,7 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
   }
   catch (const NotSwept &reason)
   {
-    result.model.notes.push_back(options.place + ": plates are not swept but meshed in tetrahedra, as " +
+    result.model.notes.push_back(options.place + ": plates are meshed with tetrahedra instead of swept, because " +
                                  std::string(reason.what()));
     judge_features(result, options);
     return false;
@@ -277,7 +277,7 @@ void read_mesh(MeshedModel &result, const FrameSpecification &specification)
   if (mesh.n_cells() > options.max_cells)
     throw std::invalid_argument(options.place + ": " + specification.cad + " has " + std::to_string(mesh.n_cells()) +
                                 " cells, mesh.max_cells allows " + text(options.max_cells) +
-                                "; raise max_cells or give a coarser mesh.");
+                                "; increase max_cells or give a coarser mesh.");
   check_materials(result.model, specification);
   unfold(result.extracted.mesh);
   measure_solids(result.model, mesh);

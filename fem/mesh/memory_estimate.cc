@@ -41,8 +41,8 @@ void require_memory(const std::string &what, double needed, double available, co
                     const std::string &advice)
 {
   if (needed > available)
-    throw std::invalid_argument(place + ": " + what + ", for which mesh and reduction need about " +
-                                memory_text(needed) + "; available are " + memory_text(available) + ". " + advice);
+    throw std::invalid_argument(place + ": " + what + "; mesh and reduction need about " + memory_text(needed) +
+                                "; available are " + memory_text(available) + ". " + advice);
 }
 
 } // namespace gestell::fem

@@ -73,8 +73,9 @@ bool only_tetrahedra(const CadModel &model, const std::string &head)
     return !holds(prism) && !holds(hexahedron);
   throw std::invalid_argument(
       head + " holds " + in_words(count) +
-      ", but a mesh must be of tetrahedra, of hexahedra or of prisms, or of prisms with others: no quadratic pyramid "
-      "stands between tetrahedra and hexahedra. Mesh it with tetrahedra alone (gmsh: without Recombine; Abaqus: "
+      ", but a mesh must consist of tetrahedra, of hexahedra or of prisms, or combine prisms with one of the others: "
+      "there is no quadratic pyramid between tetrahedra and hexahedra. Mesh it with tetrahedra only (gmsh: without "
+      "Recombine; Abaqus: "
       "C3D10), "
       "or extruded in Layers: hexahedra from quadrilaterals, prisms from triangles, with Recombine (Abaqus: C3D20, "
       "C3D15).");
@@ -208,12 +209,11 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
     }
   const std::string touching = found > wanted ? touching_nodes(mesh) : "";
   throw std::invalid_argument(head + ": the mesh consists of " + std::to_string(found) +
-                              (found == 1 ? " body that hangs" : " bodies that hang") +
-                              " together by common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
-                              (touching.empty()
-                                   ? "; cells may be missing, as in a file that was cut off; set it to that number "
-                                     "where that is meant, or unite the solids before meshing:"
-                                   : touching + ":") +
+                              (found == 1 ? " body connected" : " bodies connected") +
+                              " by common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
+                              (touching.empty() ? "; cells may be missing, as in a truncated file; set it to that "
+                                                  "number if that is intended, or unite the solids before meshing:"
+                                                : touching + ":") +
                               list);
 }
 

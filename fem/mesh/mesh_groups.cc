@@ -67,8 +67,8 @@ std::vector<Membership> memberships(const ExtractedMesh &extracted, const MeshGr
     if (!outside.empty() && outside.size() < in.size())
       notes.push_back("surface \"" + name + "\": " + std::to_string(in.size() - outside.size()) + " of its " +
                       std::to_string(in.size()) +
-                      " faces are no outer faces of cells: cells may be missing there, as in "
-                      "a file that was cut off; export the mesh again if they are meant");
+                      " faces are not outer faces of cells: cells may be missing there, as in a truncated file; export "
+                      "the mesh again if these faces are intended");
   }
   for (Membership &names : result)
   {

@@ -67,8 +67,8 @@ MeshNodes::MeshNodes(double unit, double gap, const std::string &head)
   {
     points.push_back(unit * Point3{coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
     if (!std::all_of(points.back().begin(), points.back().end(), [](double x) { return std::isfinite(x); }))
-      throw std::invalid_argument(head + ": node " + std::to_string(all[i]) + " lies at " + text(points.back()) +
-                                  ", which is no place; export the mesh again.");
+      throw std::invalid_argument(head + ": node " + std::to_string(all[i]) + " is at " + text(points.back()) +
+                                  ", which is not a finite position; export the mesh again.");
     position_[all[i]] = points.back();
   }
   if (gap > 0.)
@@ -88,7 +88,7 @@ Point3 MeshNodes::position(std::size_t tag, const std::string &head) const
   const auto at = position_.find(tag);
   if (at == position_.end())
     throw std::invalid_argument(head + ": a cell has node " + std::to_string(tag) +
-                                ", which the file does not hold; export the mesh again, with all its nodes.");
+                                ", which is not in the file; export the mesh again, with all its nodes.");
   return at->second;
 }
 

@@ -57,7 +57,7 @@ void check_surface_sizes(const MeshOptions &options, const Selection &selection)
     for (const auto &surface : selection)
       names += (names.empty() ? "\"" : ", \"") + surface.first + "\"";
     if (!known)
-      refuse("\"" + pattern + "\" = " + text(size) + " m names no surface; known are " +
+      refuse("\"" + pattern + "\" = " + text(size) + " m: there is no such surface; known are " +
              (names.empty() ? "none" : names) + ".");
     if (!(size > 0.) || size > options.size)
       refuse("\"" + pattern + "\" = " + text(size) +
@@ -75,12 +75,12 @@ void check_number_of_cells(const CadModel &model, const MeshOptions &options,
   const std::string found  = "size = " + text(options.size) + " m would give about " + text(all) +
                             " tetrahedra, mesh.max_cells allows " + text(options.max_cells);
   if (global <= options.max_cells)
-    throw std::invalid_argument(options.place + ": " + found + "; most of them come from the sizes on surfaces (" +
-                                text(global) + " without): enlarge those, or raise max_cells.");
+    throw std::invalid_argument(options.place + ": " + found + "; most of them are due to the sizes on surfaces (" +
+                                text(global) + " without): enlarge those, or increase max_cells.");
   throw std::invalid_argument(options.place + ": " + found +
                               "; use size = " + text(size_for_cells(model, options.max_cells)) +
-                              " m or more, or raise max_cells. The model is " + text(model.diagonal()) + " m across, " +
-                              text(model.volume()) + " m^3: if that is wrong, so is its unit.");
+                              " m or more, or increase max_cells. The model is " + text(model.diagonal()) +
+                              " m across, " + text(model.volume()) + " m^3: if that is wrong, its unit is wrong.");
 }
 
 /// A field that is s on the faces and grows to h with the distance d:  min(h, s + growth d).

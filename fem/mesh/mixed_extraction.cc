@@ -170,11 +170,10 @@ void note_straight_sides(const Offset &offset, Mesh &mesh)
 {
   if (!offset.counts())
     return;
-  mesh.notes.push_back(
-      "hexahedra and prisms are taken with straight edges between their corners: the nodes between them lie up to " +
-      text(1e3 * offset.length) + " mm (" + text(100. * offset.share) +
-      " % of the size of a cell) beside; make cells smaller along curved faces, or mesh with "
-      "tetrahedra, whose sides may be curved");
+  mesh.notes.push_back("hexahedra and prisms get straight edges between their corners: the middle nodes are up to " +
+                       text(1e3 * offset.length) + " mm (" + text(100. * offset.share) +
+                       " % of the size of a cell) off these edges; make cells smaller along curved faces, or mesh with "
+                       "tetrahedra, which may have curved sides");
 }
 
 struct CellFace
@@ -230,10 +229,9 @@ void check_bodies(const Mesh &mesh, std::vector<int> &parent, int wanted, const 
   throw std::invalid_argument(
       head + ": the mesh consists of " + std::to_string(found) + " bodies, one at " + at(first.begin()->second) +
       (found > 1 ? " and one at " + at(std::next(first.begin())->second) : "") +
-      ", that do not hang together by common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
+      ", without common faces of cells, but mesh.bodies = " + std::to_string(wanted) +
       (found > wanted ? touching_nodes(mesh) +
-                            "; fragment solids before meshing, and give edges that lie upon each other the same number "
-                            "of nodes."
+                            "; fragment solids before meshing, and give coincident edges the same number of nodes."
                       : "; set it to that number."));
 }
 
@@ -253,10 +251,10 @@ void require_matching(const Mesh &mesh, const std::string &head)
     }
   if (n > 0)
     throw std::invalid_argument(head + ": " + std::to_string(n) +
-                                " triangles of cells lie on quadrilaterals of others, one at " +
+                                " triangles of cells are on quadrilaterals of others, one at " +
                                 text(mesh.points[where]) +
-                                " m, where displacements would part; let tetrahedra meet triangles of prisms, and "
-                                "hexahedra quadrilaterals, or mesh with tetrahedra alone.");
+                                " m, where displacements would be discontinuous; connect tetrahedra to triangles of "
+                                "prisms, and hexahedra to quadrilaterals, or mesh with tetrahedra only.");
 }
 
 /// Tags of gmsh's surfaces by the corners of their elements.

@@ -160,8 +160,8 @@ void check_overlap(const CadModel &model, const CadSource &source, const GmshSes
     rest.emplace_back(3, model.solids[i].tag);
   std::vector<gmsh::vectorpair> parents;
   session.run([&] { gmsh::model::occ::fuse(first, rest, united, parents); },
-              head_of(source) + ": gmsh cannot tell whether its solids overlap: ",
-              "; unite them to one solid in the CAD program.");
+              head_of(source) + ": gmsh cannot determine whether its solids overlap: ",
+              "; unite them into one solid in the CAD program.");
   double volume = 0.;
   for (const auto &[dim, tag] : united)
   {
@@ -170,11 +170,10 @@ void check_overlap(const CadModel &model, const CadSource &source, const GmshSes
     volume += V * std::pow(model.unit, 3);
   }
   if (volume < (1. - same_volume) * model.volume())
-    throw std::invalid_argument(head_of(source) + ": its " + std::to_string(model.solids.size()) +
-                                " solids overlap: they have " + text(model.volume()) + " m^3 in sum and " +
-                                text(volume) +
-                                " m^3 together; unite them to one solid in the CAD program, else their "
-                                "common part would count twice.");
+    throw std::invalid_argument(
+        head_of(source) + ": its " + std::to_string(model.solids.size()) + " solids overlap: they have " +
+        text(model.volume()) + " m^3 in sum and " + text(volume) +
+        " m^3 united; unite them into one solid in the CAD program, otherwise their common part counts twice.");
 }
 
 void measure_geometry(CadBody &part, VolumeIntegrals &sum, const CadModel &model, const CadSource &source,
@@ -212,12 +211,12 @@ void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &mode
     tags.push_back(tag);
   TriangleSurface surface = surface_of(tags, model.unit);
   if (surface.triangles.empty())
-    throw std::invalid_argument(head_of(source) + " holds no triangles; export the part again.");
+    throw std::invalid_argument(head_of(source) + " contains no triangles; export the part again.");
   if (const int open = unmatched_edges(surface))
     throw std::invalid_argument(
-        head_of(source) + " is no closed surface: at " + std::to_string(open) + " of its " +
+        head_of(source) + " is not a closed surface: at " + std::to_string(open) + " of its " +
         std::to_string(surface.triangles.size()) +
-        " triangles' edges no neighbour meets it; close the holes, or export the part as STEP.");
+        " edges of triangles the neighbour is missing; close the holes, or export the part as STEP.");
   if (enclosed_volume(surface) < 0.)
     for (auto &triangle : surface.triangles)
       std::swap(triangle[1], triangle[2]);
@@ -233,10 +232,10 @@ void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &mode
 void require_near(const VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
 {
   if (const double distance = sum.centre().norm(); distance > farthest * model.diagonal())
-    throw std::invalid_argument(head_of(source) + " is " + text(model.diagonal()) + " m across and lies " +
+    throw std::invalid_argument(head_of(source) + " is " + text(model.diagonal()) + " m across and is " +
                                 text(distance) +
-                                " m from the origin, where its moments of inertia lose their digits; move it nearer in "
-                                "the CAD program.");
+                                " m from the origin, where its moments of inertia lose their digits; move it closer to "
+                                "the origin in the CAD program.");
 }
 
 /// That the second moments of the volume about its centre, tr(J)/2 I - J, are of a body: positive semidefinite.
@@ -246,7 +245,7 @@ void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source
       J.allFinite() ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J).eigenvalues() : Eigen::Vector3d::Constant(NAN);
   const double smallest = 0.5 * principal.sum() - principal[2];
   if (!(smallest >= -rounding_of_inertia * principal.cwiseAbs().maxCoeff()))
-    throw std::invalid_argument(head_of(source) + " has principal moments of inertia that no body has (" +
+    throw std::invalid_argument(head_of(source) + " has impossible principal moments of inertia (" +
                                 text(principal[0]) + ", " + text(principal[1]) + ", " + text(principal[2]) +
                                 " m^5): a face of it is open or turned inside out; repair it in the CAD program.");
 }
@@ -261,7 +260,7 @@ CadBody measures_of_part(const CadSource &source)
   {
     const CadFile file = check_cad_file(source);
     if (file == CadFile::triangles && !(source.unit > 0.))
-      throw std::invalid_argument(head_of(source) + " does not know its unit; give it, such as unit = \"1 mm\".");
+      throw std::invalid_argument(head_of(source) + " contains no unit; give it, such as unit = \"1 mm\".");
     const CadModel  model = open_cad(source, session);
     VolumeIntegrals sum;
     if (file == CadFile::triangles)
@@ -271,7 +270,7 @@ CadBody measures_of_part(const CadSource &source)
     else
       measure_geometry(part, sum, model, source, session);
     if (!(sum.volume > 0.))
-      throw std::invalid_argument(head_of(source) + " has the volume " + text(sum.volume) +
+      throw std::invalid_argument(head_of(source) + " has a volume of " + text(sum.volume) +
                                   " m^3; repair it in the CAD program.");
     part.volume  = sum.volume;
     part.centre  = sum.centre();

@@ -53,9 +53,9 @@ std::string head_of(const FrameSpecification &specification)
 void require_cells(double n, const std::string &what, const MeshOptions &options)
 {
   if (n > options.max_cells)
-    throw std::invalid_argument(options.place + ": " + what + ", mesh.max_cells allows " + text(options.max_cells) +
-                                " cells; use a larger size, remove small edges and faces (defeature), or raise "
-                                "max_cells.");
+    throw std::invalid_argument(
+        options.place + ": " + what + ", mesh.max_cells allows " + text(options.max_cells) +
+        " cells; use a larger size, remove small edges and faces (defeature), or increase max_cells.");
 }
 
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
@@ -78,8 +78,9 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
         },
         head, remedy);
     model.notes.push_back(std::to_string(edges.n) + " edges are meshed with sides of less than half of the size, " +
-                          text(1e3 * edges.shortest) + " mm at least; carried through the faces they would make " +
-                          text(excess) + " times the triangles wanted, so elements grow from them to the size");
+                          text(1e3 * edges.shortest) + " mm at least; extended over the faces they would give " +
+                          text(excess) +
+                          " times the intended number of triangles, so elements grow from them to the size");
   }
   const double n = static_cast<double>(number_of_triangles());
   require_cells(0.5 * n, "the surfaces alone have " + text(n) + " triangles", options); // two at most to a cell
@@ -97,7 +98,7 @@ void mesh_volumes(CadModel &model, const FrameSpecification &specification, cons
   catch (const std::invalid_argument &failure)
   {
     model.notes.push_back(std::string("gmsh's Delaunay method cannot mesh the volume (") + failure.what() +
-                          "); its method HXT could, whose mesh is another one every time it is made");
+                          "); its method HXT succeeded, but gives a different mesh every time");
   }
   session.run(mesh_by_hxt, head_of(specification) + ": gmsh cannot mesh its volume: ", remedy);
 }

@@ -93,7 +93,7 @@ std::pair<Kind, std::string> described(const std::exception_ptr &failure)
   }
   catch (const std::bad_alloc &)
   {
-    return {Kind::method, "memory is short; start more ranks on more machines, or use a coarser mesh"};
+    return {Kind::method, "not enough memory; start more ranks on more computers, or use a coarser mesh"};
   }
   catch (const std::exception &error)
   {

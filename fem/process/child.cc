@@ -43,7 +43,7 @@ struct Pipe
   {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
-      throw std::runtime_error(std::string("no pipe to a child process can be made: ") + std::strerror(errno));
+      throw std::runtime_error(std::string("cannot create a pipe to a child process: ") + std::strerror(errno));
     read_end  = ends[0];
     write_end = ends[1];
   }
@@ -119,7 +119,7 @@ public:
     }
     catch (...)
     {
-      out_.send(ChildMessage::runtime_error, task_.head + ": an exception without words");
+      out_.send(ChildMessage::runtime_error, task_.head + ": an exception without message");
     }
     return 0;
   }
@@ -284,29 +284,28 @@ private:
   std::string out_of_memory() const
   {
     if (!reads())
-      return "memory ran out (" + phase_ + "); choose a larger mesh.size, or a machine with more memory.";
-    return "memory ran out while it was read" +
+      return "out of memory (" + phase_ + "); choose a larger mesh.size, or a computer with more memory.";
+    return "out of memory while reading it" +
            (task_.limits.bytes > 0.
                 ? ": more than " + text(std::round(task_.limits.bytes / 1e8) / 10.) + " GB for " + size_text(task_.path)
                 : "") +
            "; " + way_out() +
-           ", or take a machine with more memory; GESTELL_ONE_PROCESS=1 in the environment reads it without "
-           "a limit.";
+           ", or use a computer with more memory; the environment variable GESTELL_ONE_PROCESS=1 removes the limit.";
   }
 
   std::string never_ends() const
   {
-    return "reading took more than " + text(task_.limits.seconds) + " s of processor time, which is the limit for " +
-           size_text(task_.path) + ", and did not come to its end; " + way_out() +
+    return "reading took more than " + text(task_.limits.seconds) + " s of processor time, the limit for " +
+           size_text(task_.path) + ", and did not finish; " + way_out() +
            ". If the file is sound and slow, GESTELL_READING_SECONDS=" + text(10. * task_.limits.seconds) +
-           " in the environment is another limit, 0 none.";
+           " in the environment sets another limit, 0 removes it.";
   }
 
   std::string how_it_died(int status) const
   {
     const bool        killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
     const std::string how =
-        killed ? "was killed: memory ran out, or a limit of the system or somebody ended it"
+        killed ? "was killed: out of memory, or ended by a system limit or a user"
         : WIFSIGNALED(status)
             ? "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" + ::strsignal(WTERMSIG(status)) + ")"
             : "ended the process (exit code " + std::to_string(WEXITSTATUS(status)) + ")";
@@ -319,7 +318,7 @@ private:
     constexpr std::size_t longest = 200;
     std::string           words   = said_.substr(0, said_.find_last_not_of(" \n") + 1);
     words.erase(0, words.rfind('\n') + 1);
-    return words.empty() ? "" : ", saying \"" + words.substr(0, longest) + "\"";
+    return words.empty() ? "" : ", with the message \"" + words.substr(0, longest) + "\"";
   }
 
   const ChildTask                      &task_;
@@ -386,8 +385,8 @@ std::string bytes_from_child(const ChildTask &task, const ChildProgress &progres
   Pipe                     messages, words;
   const pid_t              parent = ::getpid(), child = ::fork();
   if (child < 0)
-    throw std::runtime_error(task.head + ": no child process can be made to read it: " + std::strerror(errno) +
-                             "; GESTELL_ONE_PROCESS=1 in the environment does without.");
+    throw std::runtime_error(task.head + ": cannot create a child process to read it: " + std::strerror(errno) +
+                             "; GESTELL_ONE_PROCESS=1 in the environment reads it in this process.");
   if (child == 0)
     be_child(task, folder, parent, messages.write_end, words.write_end, work);
   Pipe::close_end(messages.write_end);

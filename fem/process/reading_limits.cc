@@ -29,7 +29,7 @@ double chosen_seconds(const char *text)
   const double value = std::strtod(text, &end);
   if (end == text || *end != '\0' || !(value >= 0.) || !std::isfinite(value))
     throw std::invalid_argument(std::string("GESTELL_READING_SECONDS: \"") + text +
-                                "\" is no number of seconds; give one, such as 3600, or 0 for no limit.");
+                                "\" is not a number of seconds; give a number such as 3600, or 0 for no limit.");
   return value;
 }
 

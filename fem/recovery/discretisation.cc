@@ -228,9 +228,9 @@ std::vector<std::string> rayleigh_at_large(const FrameSpecification &specificati
     return {};
   std::ostringstream text;
   text.precision(3);
-  text << "damping: alpha M of Rayleigh's damping brakes motions of the whole frame, too, which no support holds: "
-          "their speed falls by half in "
-       << std::log(2.) / specification.rayleigh_mass << " s; damping = { ratio = ... } leaves them alone";
+  text << "damping: the term alpha M of Rayleigh damping also brakes rigid-body modes of the unsupported frame: their "
+          "speed halves in "
+       << std::log(2.) / specification.rayleigh_mass << " s; damping = { ratio = ... } does not affect them";
   return {text.str()};
 }
 

@@ -161,7 +161,7 @@ private:
     {
       const int cell = owner.at({face[0], face[1], face[2]});
       if (cell < 0)
-        throw std::invalid_argument("skin_stress: a triangle of the skin is no part of a face of a cell");
+        throw std::invalid_argument("skin_stress: a triangle of the skin is not part of a face of a cell");
       const Lame         moduli = lame(material_of_(cell));
       std::array<int, 3> triangle{};
       for (int k = 0; k < 3; ++k)

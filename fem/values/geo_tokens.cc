@@ -116,7 +116,7 @@ private:
     add(GeoToken::Kind::word, n);
     const std::string &word = tokens_.back().text;
     if (ends_a_block(word) && !is_block_word(word))
-      refuse_(line_, "has the name \"" + word + "\", which gmsh may take for the end of a block; choose another");
+      refuse_(line_, "has the name \"" + word + "\", which gmsh may read as the end of a block; choose another name");
   }
 
   std::size_t digits(std::size_t n) const
@@ -141,16 +141,17 @@ private:
   {
     const std::size_t end = script_.find(quote, here_ + 1);
     if (end == std::string::npos)
-      refuse_(line_, "begins a text that does not end");
+      refuse_(line_, "begins a string that does not end");
     const std::string text = script_.substr(here_ + 1, end - here_ - 1);
     if (text.size() > longest_text)
-      refuse_(line_, "has a text of more than " + std::to_string(longest_text) + " bytes, which gmsh cuts off");
+      refuse_(line_, "has a string of more than " + std::to_string(longest_text) + " bytes, which gmsh truncates");
     if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' && c != '\t'; }))
-      refuse_(line_, "has a text over several lines, or with characters that do not print");
+      refuse_(line_, "has a string over several lines, or with characters that do not print");
     if (ends_a_block(text))
-      refuse_(line_, "has the text \"" + text + "\", which gmsh may take for the end of a block; use other words");
+      refuse_(line_, "has the string \"" + text + "\", which gmsh may read as the end of a block; use other words");
     if (!is_safe_format(text))
-      refuse_(line_, "has the text \"" + text + "\", whose % is no format of one number such as %g; write %% for a %");
+      refuse_(line_,
+              "has the string \"" + text + "\", whose % is not a format of one number such as %g; write %% for a %");
     tokens_.push_back({GeoToken::Kind::text, text, line_});
     here_ = end + 1;
   }
@@ -161,7 +162,7 @@ private:
       if (script_.compare(here_, std::string(sign).size(), sign) == 0)
         return add(GeoToken::Kind::sign, std::string(sign).size());
     if (at(here_) == '\0' || std::string(signs).find(at(here_)) == std::string::npos)
-      refuse_(line_, "has a character that is none of gmsh's language" +
+      refuse_(line_, "has a character that is not part of gmsh's language" +
                          (at(here_) > ' ' ? std::string(": ") + at(here_) : std::string()));
     add(GeoToken::Kind::sign, 1);
   }

@@ -62,13 +62,14 @@ bool InpLines::take()
   {
     ++read_;
     if (ahead_.size() > longest_line)
-      throw std::invalid_argument(path_ + ":" + std::to_string(read_) + ": the line has " +
-                                  std::to_string(ahead_.size()) + " characters, " + std::to_string(longest_line) +
-                                  " are read at most; this is no input file of Abaqus, or write it in lines.");
+      throw std::invalid_argument(
+          path_ + ":" + std::to_string(read_) + ": the line has " + std::to_string(ahead_.size()) + " characters, " +
+          std::to_string(longest_line) +
+          " are read at most; this is not an Abaqus input file, or its line breaks are missing.");
     if (ahead_.find('\0') != std::string::npos)
       throw std::invalid_argument(path_ + ":" + std::to_string(read_) +
-                                  ": the line holds bytes that are no text; the file is damaged, or saved as UTF-16: "
-                                  "save it as plain text (ASCII or UTF-8).");
+                                  ": the line contains bytes that are not text; the file is damaged, or saved as "
+                                  "UTF-16: save it as plain text (ASCII or UTF-8).");
     ahead_     = trimmed(ahead_);
     has_ahead_ = !ahead_.empty() && ahead_.compare(0, 2, "**") != 0;
     if (has_ahead_)

@@ -19,8 +19,8 @@ namespace
 
 [[noreturn]] void fail(const std::string &place, const std::string &reason)
 {
-  throw std::runtime_error("no folder can be made for temporary files: " + place + ": " + reason +
-                           "; TMPDIR says where they go");
+  throw std::runtime_error("cannot create a folder for temporary files: " + place + ": " + reason +
+                           "; set TMPDIR to another folder");
 }
 
 /// The process tells its own apart, whichever library of it made them.  "": there is no folder for temporary files.

@@ -58,12 +58,12 @@ private:
     const int         outer_line = line_;
     InpLines          lines(path);
     if (!lines.opened())
-      refuse("\"" + path + "\" cannot be read; write its path as seen from the folder of this file.");
+      refuse("\"" + path + "\" cannot be read; write its path relative to the folder of this file.");
     const std::string itself = std::filesystem::weakly_canonical(path).string();
     if (!open_.insert(itself).second)
       refuse("\"" + path + "\" includes itself.");
     if (open_.size() > deepest_include || ++n_files_ > most_includes)
-      refuse("files are included more than " + std::to_string(deepest_include) + " deep, or more than " +
+      refuse("files are nested more than " + std::to_string(deepest_include) + " levels deep, or included more than " +
              std::to_string(most_includes) + " times; write the mesh into one file.");
     file_ = path;
     while (lines.next())
@@ -74,8 +74,7 @@ private:
       else if (keyword_)
         take(lines.fields());
       else
-        refuse("\"" + lines.text().substr(0, 40) +
-               "\" stands before the first keyword; this is no input file of Abaqus.");
+        refuse("\"" + lines.text().substr(0, 40) + "\" precedes the first keyword; this is not an Abaqus input file.");
     }
     end_of_element();
     open_.erase(itself);
@@ -122,21 +121,21 @@ private:
     const auto       &name = keyword.name;
     const std::string head = "*" + name + ": ", flat = "write the mesh flat, every node and element with its numbers.";
     if (name == "SHELL SECTION" || name == "BEAM SECTION" || name == "MEMBRANE SECTION" || name == "TRUSS SECTION")
-      refuse(head + "only solid elements are read; model the frame as a solid, or take it as matrices.");
+      refuse(head + "only solid elements are read; model the frame as a solid, or import its matrices.");
     if ((name == "PART" || name == "INSTANCE") && ++n_parts_[name] > 1)
       refuse(head + "the file has several parts or instances; write it flat (in Abaqus: do not use parts and "
                     "assemblies in input files).");
     for (const char *rule : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "IMPORT"})
       if (name == rule)
-        refuse(head + "nodes and elements made by rules are not read; " + flat);
+        refuse(head + "generated nodes and elements are not read; " + flat);
     if (name == "IMPERFECTION")
-      refuse(head + "nodes that are moved are not read; give them where they are.");
+      refuse(head + "transformed nodes are not read; give them in their final position.");
     if (const std::string system = in_capitals(keyword["SYSTEM"]); name == "NODE" && !system.empty() && system != "R")
       refuse(head + "SYSTEM=" + system + ": cylindrical and spherical coordinates are not read; give x, y, z.");
     if (name == "NSET" && keyword.has("ELSET"))
-      refuse(head + "a set of nodes by its elements is not read; list the nodes.");
+      refuse(head + "node sets defined by elements are not read; list the nodes.");
     if (name == "SURFACE" && keyword.has("COMBINE"))
-      refuse(head + "surfaces combined of others are not read; list the sides of the elements.");
+      refuse(head + "surfaces combined from other surfaces are not read; list the sides of the elements.");
     for (const char *tie : {"TIE", "EQUATION", "MPC", "RIGID BODY", "COUPLING", "KINEMATIC COUPLING"})
       if (name == tie)
       {
@@ -152,7 +151,7 @@ private:
     kind_ = inp_element_kind(type);
     if (kind_ == nullptr)
       refuse("elements of type " + (type.empty() ? std::string("\"\"") : type) +
-             " are not read; C3D4, C3D10, C3D8 and C3D20 are: mesh the frame with these alone.");
+             " are not read; mesh the frame with C3D4, C3D10, C3D8 and C3D20 only.");
     set_ = in_capitals((*keyword_)["ELSET"]);
   }
 
@@ -173,16 +172,16 @@ private:
     else if (name == "SURFACE" && fields.size() > 1)
       sides_.push_back({in_capitals((*keyword_)["NAME"]), in_capitals(fields[0]), in_capitals(fields[1])});
     else if (name == "SYSTEM")
-      refuse("*SYSTEM: coordinates in a system of their own are not read; give x, y, z of the whole.");
+      refuse("*SYSTEM: local coordinate systems are not read; give global x, y, z.");
     else if (name == "INSTANCE")
-      refuse("*INSTANCE: the instance is moved; write the file flat, with the nodes where they are.");
+      refuse("*INSTANCE: the instance is moved; write the file flat, with the nodes in their final position.");
   }
 
   void take_node(const std::vector<std::string> &fields)
   {
     const std::size_t node = number(fields[0]);
     if (!nodes_.emplace(node, mesh_.numbers.size()).second)
-      refuse("node " + std::to_string(node) + " comes twice; give each node a number of its own.");
+      refuse("node " + std::to_string(node) + " is defined twice; give each node its own number.");
     mesh_.numbers.push_back(node);
     for (std::size_t d = 1; d <= 3; ++d)
       mesh_.coordinates.push_back(d < fields.size() && !fields[d].empty() ? value(fields[d]) : 0.);
@@ -195,7 +194,7 @@ private:
     if (element_ == 0)
     {
       if (entry == 0 || elements_.count(entry) > 0)
-        refuse("element " + std::to_string(entry) + " comes twice; give each element a number of its own.");
+        refuse("element " + std::to_string(entry) + " is defined twice; give each element its own number.");
       element_ = entry;
       order_.push_back(entry);
       elements_[entry] = {kind_, set_, {}};
@@ -204,7 +203,7 @@ private:
     Element &element = elements_[element_];
     if (nodes_.count(entry) == 0)
       refuse("element " + std::to_string(element_) + " has node " + std::to_string(entry) +
-             ", which is not there; *NODE comes before *ELEMENT.");
+             ", which is not defined; *NODE must precede *ELEMENT.");
     element.nodes.push_back(entry);
     if (static_cast<int>(element.nodes.size()) == kind_->n_nodes)
       element_ = 0;
@@ -214,7 +213,7 @@ private:
   {
     if (element_ != 0)
       refuse("element " + std::to_string(element_) + " has " + std::to_string(elements_[element_].nodes.size()) +
-             " nodes, " + std::to_string(kind_->n_nodes) + " are needed; the file may be cut off.");
+             " nodes, " + std::to_string(kind_->n_nodes) + " are needed; the file may be truncated.");
   }
 
   void take_set(const std::vector<std::string> &fields, InpSets &sets)
@@ -241,7 +240,7 @@ private:
     std::size_t result      = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), result);
     if (error != std::errc() || end != field.data() + field.size())
-      refuse("\"" + field + "\" is no number of a node or an element.");
+      refuse("\"" + field + "\" is not the number of a node or an element.");
     return result;
   }
 
@@ -262,7 +261,7 @@ private:
     double      result      = 0.;
     const auto [end, error] = std::from_chars(begin, field.data() + field.size(), result);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(result))
-      refuse("\"" + field + "\" is no coordinate.");
+      refuse("\"" + field + "\" is not a coordinate.");
     return result;
   }
 
@@ -299,7 +298,7 @@ private:
     add_surface_elements();
     tell_what_is_left();
     for (const std::string &tie : ties_)
-      mesh_.notes.push_back(tie + " is left out: what it ties together must share nodes");
+      mesh_.notes.push_back(tie + " is ignored: the tied parts must share nodes");
     for (const Side &side : sides_)
       add_side(side);
   }
@@ -316,7 +315,7 @@ private:
       names += " and " + std::to_string(n - most_listed) + " more";
     if (n > 0)
       mesh_.notes.push_back(names + (n > 1 ? " are" : " is") +
-                            " not read: a mesh is taken from the file, material, supports and loads from the scene");
+                            " not read: the file gives the mesh, the scene gives material, supports and loads");
   }
 
   void order_middles()
@@ -331,8 +330,8 @@ private:
       if (Element &element = elements_.at(number); !middles.order(element.kind->gmsh_type, element.nodes))
         throw std::invalid_argument(
             source_.place + ": " + source_.path + ": the middle nodes of element " + std::to_string(number) +
-            " do not lie on the edges they stand for, in no order that all elements share; " + element.kind->begin +
-            " needs them edge by edge as in Abaqus's manual. Export the mesh again, or without middle nodes.");
+            " are not on their edges, in any order common to all elements; " + element.kind->begin +
+            " needs them edge by edge as in the Abaqus manual. Export the mesh again, or without middle nodes.");
     for (const std::string &note : middles.notes())
       mesh_.notes.push_back(note);
   }
@@ -377,8 +376,8 @@ private:
       mesh_.faces[element.set].push_back(corners);
     }
     if (n_surface + n_lines > 0)
-      mesh_.notes.push_back(std::to_string(n_surface) + " surface elements without a section name surfaces only, and " +
-                            std::to_string(n_lines) + " lines are left out");
+      mesh_.notes.push_back(std::to_string(n_surface) + " surface elements without a section only name surfaces; " +
+                            std::to_string(n_lines) + " lines are ignored");
   }
 
   void add_side(const Side &side)
@@ -395,15 +394,15 @@ private:
       if (faces.empty())
         continue; // of a cell that will be refused with the number of its kind
       if (s < 0 || s >= static_cast<int>(faces.size()))
-        refuse("surface \"" + side.surface + "\": " + side.side + " is no side of element " + std::to_string(number) +
-               "; S1 to S" + std::to_string(faces.size()) + " are.");
+        refuse("surface \"" + side.surface + "\": " + side.side + " is not a side of element " +
+               std::to_string(number) + "; S1 to S" + std::to_string(faces.size()) + " are.");
       std::vector<std::size_t> corners;
       for (const int corner : faces[s])
         corners.push_back(element->second.nodes[corner]);
       mesh_.faces[side.surface].push_back(corners);
       if (++n_sides_ > most_members())
         refuse("its surfaces have more than " + std::to_string(most_members()) +
-               " sides of elements together; leave out those that are not needed.");
+               " element sides in total; remove those that are not needed.");
     }
   }
 

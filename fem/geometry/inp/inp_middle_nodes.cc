@@ -59,7 +59,7 @@ std::vector<std::string> InpMiddleNodes::notes() const
                        std::string(kind == 11   ? "tetrahedra"
                                    : kind == 17 ? "hexahedra"
                                                 : "prisms") +
-                       " stand in the order of another program than Abaqus; they are taken for the edges they lie on");
+                       " are not in the order of Abaqus; they are assigned to the edges they are on");
   return result;
 }
 

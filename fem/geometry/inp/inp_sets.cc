@@ -34,11 +34,11 @@ void InpSets::close(std::size_t n_there, const std::string &things, std::size_t 
     if (steps >= n_there)
       throw std::invalid_argument(place + ": GENERATE from " + std::to_string(first) + " to " + std::to_string(last) +
                                   " names more " + things + " than the " + std::to_string(n_there) +
-                                  " there are; give first, last and step of those that are meant.");
+                                  " there are; give first, last and step of the intended ones.");
     n_members_ += steps + 1;
     if (n_members_ > most_)
       throw std::invalid_argument(place + ": sets have more than " + std::to_string(most_) + " " + things +
-                                  " together; leave out those that are not needed.");
+                                  " in total; remove those that are not needed.");
     for (std::size_t k = 0; k <= steps; ++k)
       add(set, first + k * step);
   }
@@ -72,11 +72,11 @@ void InpSets::resolve(const std::string &name, Set &set)
     for (auto at = std::find(open_.begin(), open_.end(), name); at != open_.end(); ++at)
       ring += "\"" + *at + "\" names ";
     throw std::invalid_argument("set " + ring + "\"" + name +
-                                "\", and so itself; take one of these lines out of the sets.");
+                                "\", and so itself; remove one of these lines from the sets.");
   }
   if (open_.size() >= deepest_sets)
-    throw std::invalid_argument("sets name each other more than " + std::to_string(deepest_sets) + " deep, down to \"" +
-                                name + "\"; list the numbers.");
+    throw std::invalid_argument("sets are nested more than " + std::to_string(deepest_sets) +
+                                " levels deep, down to \"" + name + "\"; list the numbers.");
   set.is_open = true;
   open_.push_back(name);
   for (const std::string &other : set.others)
@@ -85,7 +85,7 @@ void InpSets::resolve(const std::string &name, Set &set)
     n_members_ += more.size();
     if (n_members_ > most_)
       throw std::invalid_argument("its sets have more than " + std::to_string(most_) + " members together, with \"" +
-                                  name + "\"; leave out sets that are not needed.");
+                                  name + "\"; remove sets that are not needed.");
     set.numbers.insert(set.numbers.end(), more.begin(), more.end());
   }
   n_members_ += set.numbers.size();

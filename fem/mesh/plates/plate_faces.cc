@@ -52,7 +52,7 @@ Vector3 main_direction(const std::vector<Face> &faces, const std::vector<Vector3
     same == found.end() ? found.push_back({face.direction, face.area}) : void(same->area += face.area);
   }
   if (found.empty())
-    throw NotSwept("no plane faces of the solids stand at right angles to each other");
+    throw NotSwept("no plane faces of the solids are at right angles to each other");
   return std::max_element(found.begin(), found.end(), [](auto &a, auto &b) { return a.area < b.area; })->n;
 }
 

@@ -148,7 +148,7 @@ private:
         throw std::invalid_argument(
             options_.place + ": plates = \"swept\" makes " + text(volumes[i]) + " m^3 of solid \"" +
             model_.solids[i].name + "\", which has " + text(model_.solids[i].volume) +
-            " m^3: it fills a hole, or has walls that sweeping misses; leave plates out, or draw it as one solid");
+            " m^3: sweeping fills a hole or misses walls; remove plates, or draw it as one solid");
   }
 
   /// Before they are made.
@@ -214,13 +214,13 @@ private:
           continue;
         const int sheet = sheets_.of_brick[along][lattice_.index(nearby)];
         if (sheet < 0)
-          throw NotSwept("holes across each other lie too close together");
+          throw NotSwept("crossing holes are too close to each other");
         for (const double level : limits_[along][sheet])
           if (level >= lattice_.planes[along][region.from[along]] && level <= lattice_.planes[along][region.to[along]])
             in_layer.insert(level);
       }
       if (!in_layer.empty() && any && in_layer != found)
-        throw NotSwept("walls beside a hole are divided in two ways");
+        throw NotSwept("walls next to a hole are divided in two ways");
       if (!in_layer.empty())
         found = in_layer, any = true;
     }
@@ -291,7 +291,7 @@ private:
     const double whole = lattice_.planes[d][region.to[d]] - lattice_.planes[d][region.from[d]];
     for (const double l : length)
       if (std::abs(l - whole) > 1e-6 * whole)
-        throw NotSwept("holes beside each other go through different thicknesses");
+        throw NotSwept("neighbouring holes go through different thicknesses");
     return found;
   }
 

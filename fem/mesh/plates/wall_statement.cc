@@ -73,12 +73,12 @@ std::string wall_statement(const BrickLattice &lattice, const Sheets &sheets)
       number(walls.bricks.size(), "brick") +
       (lattice.regions.empty() ? "" : " and " + number(lattice.regions.size(), "region") + " around holes");
   if (walls.sheets.empty())
-    return "plates are swept: none is three times as wide as thick; all is divided into " + pieces;
+    return "plates are swept: none is three times as wide as thick; the mesh consists of " + pieces;
   const bool alike = walls.thickest - walls.thinnest < 1e-6 * walls.thickest;
   return "plates are swept: " + number(walls.sheets.size(), "wall") + ", " +
-         (alike ? "" : text(1e3 * walls.thinnest) + " to ") + text(1e3 * walls.thickest) + " mm thick, make " +
-         text(std::round(100. * walls.volume / walls.all)) + " % of the volume; all is divided into " + pieces +
-         ", nothing is meshed in tetrahedra";
+         (alike ? "" : text(1e3 * walls.thinnest) + " to ") + text(1e3 * walls.thickest) + " mm thick, are " +
+         text(std::round(100. * walls.volume / walls.all)) + " % of the volume; the mesh consists of " + pieces +
+         ", without tetrahedra";
 }
 
 } // namespace gestell::fem

@@ -222,7 +222,7 @@ TEST_F(FrameAnswers, CheckReadsTheGeometryAndFindsItsSurfaces)
 
   std::string scene = block(support);
   scene.replace(scene.find("through = [0, 0, 1]"), 19, "through = [0, 0, 2]");
-  expect_answer(ask("check", scene), 2, {"frame.surface.top: no face fits"});
+  expect_answer(ask("check", scene), 2, {"frame.surface.top: no face matches"});
 
   scene = block(support);
   scene.replace(scene.find("block.geo"), 9, "block.step");

@@ -143,7 +143,7 @@ TEST(AttachedMass, FartherFromItsFacesThanTheFrameIsLargeIsTold)
   EXPECT_TRUE(discretise(bar_mesh(), near).notes.empty());
   const auto notes = discretise(bar_mesh(), far).notes;
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("\"motor\" stands at (100, 50, 40) m, 1"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("\"motor\" is at (100, 50, 40) m, 1"), std::string::npos) << notes[0];
 }
 
 TEST(AttachedMass, HangsOnTheFrameUnderGravity)

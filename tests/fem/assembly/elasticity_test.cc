@@ -76,7 +76,7 @@ TEST(Elasticity, MeshesWithoutVolumeAreRefused)
   expect_refusal([] { discretise(fem::Mesh(), free_steel()); }, "no cells");
   fem::Mesh inverted = box_mesh({1, 1, 1}, {1., 1., 1.});
   std::swap(inverted.cells[3][0], inverted.cells[3][1]);
-  expect_refusal([&] { discretise(inverted, free_steel()); }, "tetrahedron 3 has the volume -0.16");
+  expect_refusal([&] { discretise(inverted, free_steel()); }, "tetrahedron 3 has a volume of -0.16");
 }
 
 constexpr double bar_length = 1.6, bar_width = 0.2, bar_height = 0.3, bar_area = bar_width * bar_height;

@@ -394,7 +394,7 @@ TEST(Interfaces, OnASurfaceAsNarrowAsALineAreRefused)
   fem::Mesh mesh           = box_mesh({1, 1, 1}, {1., 1e-7, 1e-7});
   auto      specification  = free_steel();
   specification.interfaces = {interface("edge", {"y0"}, average)};
-  expect_refusal([&] { discretise(mesh, specification); }, "lie on one line");
+  expect_refusal([&] { discretise(mesh, specification); }, "are on one line");
 }
 
 } // namespace

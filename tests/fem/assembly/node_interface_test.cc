@@ -212,7 +212,7 @@ TEST(NodeInterfaces, RefuseWhatTheyCannotBe)
   { return refusal([&] { discretise(tetrahedra(), clamped_block({interface})); }); };
   auto nowhere     = node("tip", {});
   nowhere.position = {};
-  EXPECT_NE(message(nowhere).find("\"tip\" is a single node, which is found by its position"), std::string::npos);
+  EXPECT_NE(message(nowhere).find("\"tip\" is a single node, which is selected by position"), std::string::npos);
   EXPECT_NE(message(node("tip", {0., 0., 0.})).find("with the clamped support \"foot\""), std::string::npos);
   EXPECT_NE(message(node("tip", {0., 0., 1.}, {"z2"})).find("z2"), std::string::npos);
 }

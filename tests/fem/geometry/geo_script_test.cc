@@ -140,7 +140,7 @@ TEST_F(OthersScript, CannotHideInACommentThatAMacroJumpsInto)
 
 TEST_F(OthersScript, CannotCallItselfAMesh)
 {
-  EXPECT_THAT(told_of(write("mesh.msh", box + "SystemCall \"touch DID\";\n")), HasSubstr("is no mesh of gmsh"));
+  EXPECT_THAT(told_of(write("mesh.msh", box + "SystemCall \"touch DID\";\n")), HasSubstr("is not a gmsh mesh"));
 }
 
 TEST_F(OthersScript, CannotCallItselfAStepFileInAnotherSpelling)
@@ -169,7 +169,7 @@ TEST_F(OthersScript, ReadsFilesBelowItsOwnFolderWhichAreJudgedToo)
   EXPECT_THAT(told_of(write("includes.geo", box + "Include \"parts/evil.inc\";")),
               HasSubstr("evil.inc:2: Save writes"));
   write("parts/evil.msh", "SystemCall \"touch DID\";\n");
-  EXPECT_THAT(told_of(write("merges.geo", box + "Merge \"parts/evil.msh\";")), HasSubstr("is no mesh of gmsh"));
+  EXPECT_THAT(told_of(write("merges.geo", box + "Merge \"parts/evil.msh\";")), HasSubstr("is not a gmsh mesh"));
   EXPECT_THAT(told_of(write("parts/out.geo", box + "Merge \"../cube.step\";")),
               AllOf(HasSubstr("out.geo:3: reads \"../cube.step\""), HasSubstr("not in the folder")));
   EXPECT_THAT(told_of(write("lost.geo", box + "Include \"none.geo\";")), HasSubstr("there is no such file"));

@@ -145,7 +145,7 @@ TEST(Selection, NamesCoaxialFacesThatItDoesNotTake)
   const SurfaceSelector   all      = cylinder({1., 0., 0.}, {0.95, 1., 2.}, 0.12, 0);
   const auto              words_of = [&](const SurfaceSelector &selector, const std::vector<Face> &of)
   { return coaxial_faces(of, selector, select_faces(of, selector, 1.), 1.); };
-  EXPECT_EQ(words_of(one, faces), "face 7; coaxial faces not taken: 4 (radius 0.12 m)");
+  EXPECT_EQ(words_of(one, faces), "face 7; coaxial faces not selected: 4 (radius 0.12 m)");
   EXPECT_EQ(words_of(all, faces), "faces 4, 7");
   EXPECT_EQ(words_of(one, {faces[1], faces[2]}), "");
 }

@@ -131,20 +131,19 @@ TEST(InpMesh, WithMiddleNodesInTheOrderOfAnotherProgramTakesThemForTheEdgesTheyL
   const GeometryReport right = report_of(curved_tetrahedra(of_abaqus)), other = report_of(curved_tetrahedra(of_gmsh));
   EXPECT_GT(right.volume, 1.1 / 3.); // of straight tetrahedra it is 1/3
   EXPECT_EQ(other.volume, right.volume);
-  EXPECT_THAT(other.notes, ElementsAre(HasSubstr("in the order of another program than Abaqus")));
+  EXPECT_THAT(other.notes, ElementsAre(HasSubstr("not in the order of Abaqus")));
   EXPECT_TRUE(right.notes.empty());
   EXPECT_NEAR(right.solids.at(0).volume + right.solids.at(1).volume, right.volume, 1e-15);
   EXPECT_THAT(inp_refusal(curved_tetrahedra({of_abaqus[0], of_gmsh[1]})),
-              AllOf(HasSubstr("middle nodes of element 2"), HasSubstr("no order that all elements share")));
+              AllOf(HasSubstr("middle nodes of element 2"), HasSubstr("any order common to all elements")));
 }
 
 TEST(InpMesh, TellsTheKeywordsThatAreNotRead)
 {
   const std::string path = write_text("steps.inp", cube() + "*BOUNDARY\nFOOT, 1, 3\n*STEP\n*STATIC\n*END STEP\n");
-  EXPECT_THAT(
-      read_inp({path, 0., "here"}).notes,
-      ElementsAre("*BOUNDARY, *ELASTIC, *END STEP, *MATERIAL, *STATIC, *STEP are not read: a mesh is taken from "
-                  "the file, material, supports and loads from the scene"));
+  EXPECT_THAT(read_inp({path, 0., "here"}).notes,
+              ElementsAre("*BOUNDARY, *ELASTIC, *END STEP, *MATERIAL, *STATIC, *STEP are not read: the file gives the "
+                          "mesh, the scene gives material, supports and loads"));
 }
 
 TEST(InpMesh, OfSeveralKindsOfCellsIsRefusedWithTheNumberOfEach)
@@ -155,10 +154,10 @@ TEST(InpMesh, OfSeveralKindsOfCellsIsRefusedWithTheNumberOfEach)
                           "1,2,4,3,5\n"),
               AllOf(StartsWith("scene.toml:3: frame: "),
                     HasSubstr("mesh.inp holds 6 tetrahedra, 1 pyramids, 1 prisms "
-                              "(wedges) and 1 hexahedra, but a mesh must be of"),
+                              "(wedges) and 1 hexahedra, but a mesh must consist of"),
                     HasSubstr("Abaqus: C3D10")));
   EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=C3D5\n1, 1,2,4,3,5\n"),
-              AllOf(HasSubstr("holds 1 pyramids, but"), HasSubstr("Mesh it with tetrahedra alone")));
+              AllOf(HasSubstr("holds 1 pyramids, but"), HasSubstr("Mesh it with tetrahedra only")));
 }
 
 /// Lower half of the cube along the diagonal of x and y, corners 1 2 4 and 5 6 8, with its middle nodes.
@@ -202,8 +201,8 @@ TEST(InpMesh, TakesTetrahedraUponPrismsButNotUponTheirQuadrilaterals)
   EXPECT_EQ(mesh.prisms.size(), 1u);
   EXPECT_EQ(mesh.cells.size(), 1u);
   EXPECT_EQ(mesh.skin.size(), 10u) << "a triangle and three quadrilaterals of the prism, three of the tetrahedron";
-  EXPECT_THAT(inp_refusal(prism + "3, 1,2,6,10\n"),
-              AllOf(HasSubstr("1 triangles of cells lie on quadrilaterals"), HasSubstr("displacements would part")));
+  EXPECT_THAT(inp_refusal(prism + "3, 1,2,6,10\n"), AllOf(HasSubstr("1 triangles of cells are on quadrilaterals"),
+                                                          HasSubstr("displacements would be discontinuous")));
 }
 
 TEST(InpMesh, OfHexahedraIsTaken)
@@ -255,7 +254,7 @@ TEST(Mesh, OfHexahedraCannotBeCurved)
 {
   FrameSpecification s = specification(write_text("straight.inp", quadratic_cube(0.)), 0.);
   s.mesh.curved        = true;
-  EXPECT_THAT(refusal(s), AllOf(HasSubstr("curved = true"), HasSubstr("are hexahedra"), HasSubstr("leave curved out")));
+  EXPECT_THAT(refusal(s), AllOf(HasSubstr("curved = true"), HasSubstr("are hexahedra"), HasSubstr("remove curved")));
 }
 
 TEST(InpMesh, WrittenByGmshIsRead)
@@ -287,12 +286,12 @@ TEST(InpMesh, WithWhatIsNotReadIsRefusedWithItsLine)
   EXPECT_THAT(inp_refusal(cube() + cells_of_cube(6, 1, "A")), HasSubstr("element 6 comes twice"));
   EXPECT_THAT(inp_refusal(cube() + "*SHELL SECTION, ELSET=A\n1.\n"), HasSubstr("only solid elements are read"));
   EXPECT_THAT(inp_refusal(cube() + "*PART, NAME=A\n*END PART\n*PART, NAME=B\n"), HasSubstr("several parts"));
-  EXPECT_THAT(inp_refusal("1, 2, 3\n"), HasSubstr("no input file of Abaqus"));
+  EXPECT_THAT(inp_refusal("1, 2, 3\n"), HasSubstr("not an Abaqus input file"));
   EXPECT_THAT(inp_refusal("*NODE\n1, zero, 0, 0\n"), HasSubstr("\"zero\" is no coordinate"));
   EXPECT_THAT(inp_refusal("*NODE\n1, 0, NaN, 0\n"), HasSubstr("\"NaN\" is no coordinate"));
   EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.)), HasSubstr("no tetrahedra"));
   EXPECT_THAT(inp_refusal(nodes_of_cube(1, 0.) + "*ELEMENT, TYPE=S4, ELSET=A\n1, 1,2,4,3\n2, 5,6,8,7\n"),
-              AllOf(HasSubstr("no tetrahedra"), HasSubstr("a plate is taken as a solid")));
+              AllOf(HasSubstr("no tetrahedra"), HasSubstr("model a plate as a solid")));
 }
 
 TEST(InpMesh, TakesLinesOfOtherFiles)
@@ -337,7 +336,8 @@ TEST(InpMesh, WhoseKeywordsChangeItsMeaningIsRefusedWithTheWayOut)
                 AllOf(HasSubstr("mesh.inp:1"), HasSubstr("SYSTEM="), HasSubstr("give x, y, z")));
   EXPECT_THAT(inp_refusal("*SYSTEM\n1, 0, 0, 1, 1, 0\n" + cube()),
               AllOf(HasSubstr("mesh.inp:2"), HasSubstr("*SYSTEM")));
-  EXPECT_THAT(inp_refusal(cube() + "*IMPERFECTION, FILE=old\n1, 0.1\n"), HasSubstr("give them where they are"));
+  EXPECT_THAT(inp_refusal(cube() + "*IMPERFECTION, FILE=old\n1, 0.1\n"),
+              HasSubstr("give them in their final position"));
   EXPECT_THAT(inp_refusal(cube() + "*NSET, NSET=B, ELSET=BLOCK\n"), HasSubstr("list the nodes"));
   EXPECT_THAT(inp_refusal(cube() + "*SURFACE, NAME=B, COMBINE=UNION\nC, D\n"), HasSubstr("list the sides"));
   // A system without axes is that of the whole, R its coordinates.
@@ -378,7 +378,8 @@ TEST(Mesh, WithABrickThatIsThereTwiceIsRefused)
 TEST(Mesh, WithAFlatCellIsRefused)
 {
   const std::string text = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,1,1,0\n*ELEMENT, TYPE=C3D4\n1, 1,2,3,4\n";
-  EXPECT_THAT(inp_refusal(text), AllOf(HasSubstr("flat cell"), HasSubstr("mend it in the program that made the mesh")));
+  EXPECT_THAT(inp_refusal(text),
+              AllOf(HasSubstr("flat cell"), HasSubstr("repair it in the program that made the mesh")));
 }
 
 TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
@@ -386,13 +387,13 @@ TEST(Mesh, WhoseBodiesLieUponEachOthersNodesIsRefusedOrMerged)
   const std::string text =
       nodes_of_cube(1, 0.) + nodes_of_cube(11, 1.) + cells_of_cube(1, 1, "A") + cells_of_cube(11, 11, "B");
   EXPECT_THAT(inp_refusal(text),
-              AllOf(HasSubstr("2 bodies"), HasSubstr("4 nodes lie upon others"), HasSubstr("mesh.gap")));
+              AllOf(HasSubstr("2 bodies"), HasSubstr("4 nodes coincide with others"), HasSubstr("mesh.gap")));
   FrameSpecification s = specification(write_text("two.inp", text), 0.);
   s.mesh.gap           = 1e-6;
   const Mesh merged    = make_mesh(s);
   EXPECT_EQ(merged.points.size(), 12u);
   EXPECT_NEAR(volume_of_cells(merged), 2., 1e-14);
-  EXPECT_THAT(merged.statements, Contains(HasSubstr("4 nodes are taken for one with another")));
+  EXPECT_THAT(merged.statements, Contains(HasSubstr("4 nodes are merged with another node")));
   s.mesh.gap    = 0.;
   s.mesh.bodies = 2;
   EXPECT_EQ(make_mesh(s).points.size(), 16u);
@@ -403,7 +404,7 @@ TEST(Mesh, WithNodesNoCellUsesTellsThem)
   const std::string text = cube() + "*NODE\n77, 5, 5, 5\n";
   const Mesh        mesh = make_mesh(specification(write_text("unused.inp", text), 0.));
   EXPECT_EQ(mesh.points.size(), 8u);
-  EXPECT_THAT(mesh.notes, Contains(HasSubstr("1 nodes of the file belong to no cell")));
+  EXPECT_THAT(mesh.notes, Contains(HasSubstr("1 nodes of the file are not part of a cell")));
 }
 
 } // namespace

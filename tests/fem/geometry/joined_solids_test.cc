@@ -51,7 +51,7 @@ TEST(SolidsThatTouch, ShareTheNodesOfTheirCommonFace)
 TEST(SolidsThatTouch, InALineOnlyAreTwoBodies)
 {
   EXPECT_THAT(refusal(specification(two_cubes(100., 100., 0.), 0.05)),
-              AllOf(HasSubstr("2 bodies that do not hang together"), HasSubstr("meet in a line or a point")));
+              AllOf(HasSubstr("2 bodies without common faces"), HasSubstr("meet in a line or a point")));
 }
 
 TEST(SolidsThatOverlap, AreRefusedWithTheVolumeThatWouldCountTwice)
@@ -115,7 +115,7 @@ TEST(SolidsOfAScript, WithAGapAreJoinedWhereItIsAllowed)
 TEST(SolidsWithAGap, AreRefusedWithItsWidthItsPlaceAndItsFaces)
 {
   EXPECT_THAT(refusal(specification(two_cubes(100.05), 0.05)),
-              AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("2 bodies that do not hang together"),
+              AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("2 bodies without common faces"),
                     HasSubstr("are 0.05 mm apart at (0.10002 0"), HasSubstr("plane, normal (1 0 0)"),
                     HasSubstr("plane, normal (-1 0 0)"), HasSubstr("mesh.gap = \"0.0505 mm\"")));
 }
@@ -138,7 +138,7 @@ TEST(SolidsWithAGap, ThatIsNoSmallShareOfTheirThicknessAreRefused)
     s.mesh.gap = wide;
     EXPECT_THAT(refusal(s),
                 AllOf(StartsWith("scene.toml:4: frame.mesh: gap = " + text(wide) + " m"),
-                      HasSubstr("is only 0.033333 m thick in the mean"), HasSubstr("set gap below 0.011111 m")));
+                      HasSubstr("is only 0.033333 m thick on average"), HasSubstr("set gap below 0.011111 m")));
   }
   s.mesh.gap = 0.011;
   EXPECT_NEAR(volume_of_cells(make_mesh(s)), 2e-3, 2e-6);
@@ -154,7 +154,7 @@ TEST(SolidsOfAScript, ThatMaterialsNameWronglyAreToldBeforeTheMesh)
   s.materials          = {{"rigth", {70e9, 0.3, 2700., "scene.toml:9"}}};
   for (const bool meshed : {false, true})
     EXPECT_THAT(gestell::tests::refusal([&] { meshed ? void(make_mesh(s)) : void(inspect_geometry(s)); }),
-                AllOf(StartsWith("scene.toml:9: no solid is called \"rigth\""), HasSubstr("\"right\", \"left\"")));
+                AllOf(StartsWith("scene.toml:9: there is no solid \"rigth\""), HasSubstr("\"right\", \"left\"")));
 }
 
 TEST(SolidsWithAGap, AreTwoBodiesWhereTwoAreExpected)
@@ -215,7 +215,7 @@ TEST(SelectorsByBox, SayWhichFacesTheBoxCutsThrough)
   FrameSpecification s  = specification(two_cubes(100.), 0.05);
   s.surfaces["top"]     = plane({0., 0., 1.}, {0., 0., 0.1});
   s.surfaces["top"].box = SurfaceSelector::Box{{-0.01, -0.01, 0.}, {0.05, 0.11, 0.11}};
-  EXPECT_THAT(refusal(s), AllOf(HasSubstr("no face fits"), HasSubstr("The box cuts through face"),
+  EXPECT_THAT(refusal(s), AllOf(HasSubstr("no face matches"), HasSubstr("The box cuts through face"),
                                 HasSubstr("selectors take whole faces")));
 }
 

@@ -65,14 +65,14 @@ TEST(StepFile, ThatLostEntitiesIsRefusedThoughItEndsAsItShould)
   std::string text = text_of_cubes(0.);
   const auto  cut  = text.find("\n#", text.size() / 2);
   text             = text.substr(0, cut) + "\nENDSEC;\nEND-ISO-10303-21;\n";
-  EXPECT_THAT(step_refusal(text), AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("is damaged, though it ends"),
+  EXPECT_THAT(step_refusal(text), AllOf(StartsWith("scene.toml:3: frame"), HasSubstr("is damaged, although its end"),
                                         HasSubstr("entities that are not in the file")));
 }
 
 TEST(StepFile, ThatLostItsUnitIsRefused)
 {
   EXPECT_THAT(step_refusal(with(text_of_cubes(0.), "LENGTH_UNIT() ", "")),
-              AllOf(HasSubstr("does not say what its unit of length is"), HasSubstr("millimetres and metres")));
+              AllOf(HasSubstr("has no unit of length"), HasSubstr("millimetres or metres")));
 }
 
 // OpenCASCADE computes with it and does not come to an end.

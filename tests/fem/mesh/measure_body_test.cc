@@ -179,7 +179,8 @@ TEST(CadBody, ThatIsNoClosedBodyIsRefused)
   EXPECT_THAT(complaint("/no/such/rod.step"), AllOf(StartsWith("scene.toml:7: body.rod"), HasSubstr("does not exist")));
   const std::string sheet = draw("sheet.step", [] { occ::addRectangle(0., 0., 0., 100., 100.); });
   EXPECT_THAT(complaint(sheet), HasSubstr("no closed solid, only 1 faces"));
-  EXPECT_THAT(complaint(pyramid_stl("open.stl", 5), 0.1), AllOf(HasSubstr("no closed surface"), HasSubstr("3 of its")));
+  EXPECT_THAT(complaint(pyramid_stl("open.stl", 5), 0.1),
+              AllOf(HasSubstr("not a closed surface"), HasSubstr("3 of its")));
   EXPECT_THAT(complaint(pyramid_stl("plain.stl", 6)), HasSubstr("unit = \"1 mm\""));
 }
 

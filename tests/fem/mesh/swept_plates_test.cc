@@ -202,7 +202,8 @@ TEST(SweptPlates, RefuseASolidThatFillsAHole)
     std::vector<gmsh::vectorpair> map;
     occ::fragment({{3, 1}}, {{3, pin}}, result, map);
   };
-  gestell::tests::expect_refusal([&] { make_mesh(swept(draw("plugged.step", plugged), 0.1)); }, "it fills a hole");
+  gestell::tests::expect_refusal([&] { make_mesh(swept(draw("plugged.step", plugged), 0.1)); },
+                                 "sweeping fills a hole");
 }
 
 TEST(SweptPlates, HaveBoresThroughSeveralSolids)
@@ -250,8 +251,8 @@ TEST(SweptPlates, BecomeTetrahedraWhereAFaceIsOblique)
                                   0.05);
   const Mesh         mesh = make_mesh(s);
   EXPECT_TRUE(mesh.only_tetrahedra());
-  EXPECT_THAT(mesh.notes, Contains(AllOf(HasSubstr("plates are not swept but meshed in tetrahedra"), HasSubstr("face "),
-                                         HasSubstr("normal"))));
+  EXPECT_THAT(mesh.notes, Contains(AllOf(HasSubstr("plates are meshed with tetrahedra instead of swept"),
+                                         HasSubstr("face "), HasSubstr("normal"))));
 }
 
 TEST(SweptPlates, TellWhatWasFound)

@@ -137,7 +137,7 @@ TEST(InChild, ExceptionsComeBackWithTheirTypeAndWords)
             "disk");
   EXPECT_EQ(refusal<std::runtime_error>([&] { in_child<std::string>(task, {}, throws(std::out_of_range("index"))); }),
             "index");
-  EXPECT_THAT(words(throws(std::bad_alloc())), HasSubstr("memory ran out"));
+  EXPECT_THAT(words(throws(std::bad_alloc())), HasSubstr("out of memory"));
 }
 
 TEST(InChild, ADeathIsAMessageWithTheFileAndTheWayOut)
@@ -200,7 +200,7 @@ TEST(InChild, MemoryBeyondItsLimitIsAMessageAlsoIfALibraryHidesIt)
     return std::string(1, taken[bytes / 2]);
   };
   EXPECT_THAT(words([&](const ChildProgress &) { return takes(200000000); }, small),
-              AllOf(HasSubstr("memory ran out while it was read"), HasSubstr("0.1 GB")));
+              AllOf(HasSubstr("out of memory while reading it"), HasSubstr("0.1 GB")));
   EXPECT_THAT(words(
                   [&](const ChildProgress &) -> std::string
                   {
@@ -214,7 +214,7 @@ TEST(InChild, MemoryBeyondItsLimitIsAMessageAlsoIfALibraryHidesIt)
                     }
                   },
                   small),
-              HasSubstr("memory ran out"));
+              HasSubstr("out of memory"));
   EXPECT_EQ(in_child<std::string>(small, {},
                                   [&](const ChildProgress &progress)
                                   {

@@ -160,7 +160,7 @@ private:
       kept = false;
       break;
     case Outcome::refused:
-      if (has(words, "reading took more than") || has(words, "memory ran out"))
+      if (has(words, "reading took more than") || has(words, "out of memory"))
         ++tally_.limited;
       else if (has(words, "was ended by signal") || has(words, "ended the process"))
         ++tally_.died;
