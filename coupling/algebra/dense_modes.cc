@@ -88,8 +88,8 @@ public:
     int                        weakest;
     const SymmetricEigenSolver modes(scaled_);
     modes.eigenvectors().col(0).cwiseAbs().maxCoeff(&weakest);
-    throw std::invalid_argument("dense_modes: a motion of coordinate " + std::to_string(weakest) +
-                                " has neither stiffness nor mass; give it one of them or leave the coordinate out");
+    throw std::invalid_argument("dense_modes: DOF " + std::to_string(weakest) +
+                                " has neither stiffness nor mass; give it one of them or remove the DOF");
   }
 
   /// M v = mu (C + s M) v, mu ascending: omega descending.

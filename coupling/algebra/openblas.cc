@@ -72,8 +72,8 @@ void use_one_blas_thread()
   static const std::string library = blas_library();
   if (library.find("openblas") == std::string::npos)
     throw std::invalid_argument("reduction: BLAS is " + library +
-                                ", but Gestell needs OpenBLAS; on Debian install "
-                                "libopenblas0-pthread and choose it with: update-alternatives --config "
+                                ", but Gestell needs OpenBLAS; on Debian install libopenblas0-pthread and select it "
+                                "with: update-alternatives --config "
                                 "libblas.so.3-x86_64-linux-gnu");
   use_fitting_blas_kernels();
   const char *wanted = std::getenv("OPENBLAS_NUM_THREADS"); // --jobs sets it

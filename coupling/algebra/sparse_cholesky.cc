@@ -128,12 +128,12 @@ bool contains(const Eigen::SparseMatrix<double> &C, const Eigen::SparseMatrix<do
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double> &A) : SparseCholesky(both_triangles(A), {}) {}
 
 NotEnoughMemory::NotEnoughMemory(double needed, double available)
-    : std::runtime_error(
-          "the factor of " +
-          (std::isfinite(available)
-               ? "the stiffness needs " + gibibytes(needed) + " of memory, and " + gibibytes(available) + " are there"
-               : "the stiffness is larger than the " + gibibytes(needed) + " that can be addressed") +
-          "; mesh the frame more coarsely, or with hexahedra where its walls are thin")
+    : std::runtime_error("the factor of " +
+                         (std::isfinite(available)
+                              ? "the stiffness needs " + gibibytes(needed) + " of memory, but only " +
+                                    gibibytes(available) + " are available"
+                              : "the stiffness is larger than the " + gibibytes(needed) + " that can be addressed") +
+                         "; use a coarser mesh, or hexahedra in thin walls")
 {
 }
 

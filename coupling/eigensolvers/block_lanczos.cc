@@ -102,7 +102,7 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr
 {
   if (options.block < 1 || !(options.tolerance > 0.))
     throw std::invalid_argument("BlockLanczos: block is " + std::to_string(options.block) + " and tolerance " +
-                                std::to_string(options.tolerance) + "; needed are 1 or more, and above zero");
+                                std::to_string(options.tolerance) + "; block must be at least 1, tolerance above 0");
   const int size = int(known.omega.size());
   room_          = options.room > 0 ? options.room
                                     : int(std::min<double>({double(inverse_->size()), most_vectors,
@@ -273,9 +273,9 @@ void BlockLanczos::find(int count)
     if (exhausted_ || steps == max_steps)
       throw ConvergenceFailure("lowest modes: " + std::to_string(n_found()) + " of " + std::to_string(count) +
                                (exhausted_
-                                    ? " exist, for the mass matrix has no higher rank; ask for fewer modes"
+                                    ? " exist, because the mass matrix has no higher rank; request fewer modes"
                                     : " converged in " + std::to_string(max_steps) +
-                                          " steps; ask for fewer modes, or look for a part that is almost loose"));
+                                          " steps; request fewer modes, or check for an almost unsupported part"));
     if (room_ < count + 4 * options_.block)
       room_ = count + 6 * options_.block;
     if (Q_.columns() + next_.columns() > room_)
@@ -309,7 +309,7 @@ BlockLanczos::Gap BlockLanczos::gap_above(int count) const
 {
   const int j = gap_index(count);
   if (j < 0)
-    throw std::logic_error("BlockLanczos::gap_above: no gap is known above " + std::to_string(count) + " modes");
+    throw std::logic_error("BlockLanczos::gap_above: no gap was found above " + std::to_string(count) + " modes");
   const double next = j < theta_.size() ? theta_(j) + residual_(j) : 0.;
   return {j > 0 ? 1. / std::sqrt(theta_(j - 1) - residual_(j - 1)) : 0., next > 0. ? 1. / std::sqrt(next) : INFINITY,
           j};

@@ -51,8 +51,8 @@ SparseCholesky regular_factor(const SparseMatrix &C, const SparseMatrix &M)
   }
   catch (const NotPositiveDefinite &failure)
   {
-    throw std::invalid_argument("modes: a motion of coordinate " + std::to_string(failure.row) +
-                                " has neither stiffness nor mass; give it one of them or leave the coordinate out");
+    throw std::invalid_argument("modes: DOF " + std::to_string(failure.row) +
+                                " has neither stiffness nor mass; give it one of them or remove the DOF");
   }
 }
 

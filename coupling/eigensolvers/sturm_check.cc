@@ -36,9 +36,9 @@ void SturmCheckedModes::find(int count)
     if (found_.omega.size() == 0)
       found_ = all();
     if (found_.omega.size() < count)
-      throw ConvergenceFailure(kind_ + ": there are " + std::to_string(found_.omega.size()) +
-                               ", for the mass matrix has no higher rank, but " + std::to_string(count) +
-                               " are looked for; set their number (reduction.modes) to that or less");
+      throw ConvergenceFailure(kind_ + ": only " + std::to_string(found_.omega.size()) +
+                               " exist, because the mass matrix has no higher rank, but " + std::to_string(count) +
+                               " are requested; set their number (reduction.modes) to that or less");
   }
   else if (search_)
     search_->find(count);
@@ -68,7 +68,7 @@ LowestModes SturmCheckedModes::find_all(int count)
       return {found_.omega.head(count), found_.V.leftCols(count), found_.bound.head(count)};
   }
   throw ConvergenceFailure(kind_ + ": in " + std::to_string(most_rounds) +
-                           " rounds some were missing each time; ask for another number of modes");
+                           " rounds some were missing each time; request another number of modes");
 }
 
 void SturmCheckedModes::finish()
@@ -104,7 +104,7 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
   {
     if (block > largest_block)
       throw ConvergenceFailure(kind_ + ": " + std::to_string(missing()) + " of " + std::to_string(count) + " below " +
-                               rounded(omega / two_pi) + " Hz are not found; ask for another number of modes");
+                               rounded(omega / two_pi) + " Hz are not found; request another number of modes");
     look_for(known, count, block);
     known = search_->modes(count);
   }
@@ -136,9 +136,8 @@ Inertia SturmCheckedModes::count_in_gap(double &omega)
       return best;
   }
   throw ConvergenceFailure(kind_ + ": the number below " + rounded(omega / two_pi) +
-                           " Hz cannot be counted, for rounding in the factor grows " + rounded(best.growth) +
-                           "-fold, " + rounded(least) +
-                           " times as much as the gap there is wide; ask for another number of modes");
+                           " Hz cannot be counted: rounding in the factor grows " + rounded(best.growth) + "-fold, " +
+                           rounded(least) + " times the width of the gap there; request another number of modes");
 }
 
 bool SturmCheckedModes::confirm()
@@ -155,13 +154,13 @@ bool SturmCheckedModes::confirm()
   {
     if (statement_.empty())
       statement_ = "modes: the inertia of C - omega^2 M at " + rounded(omega / two_pi) + " Hz gives " +
-                   std::to_string(gap_.below) + " " + kind_ + " below it, and as many are found";
+                   std::to_string(gap_.below) + " " + kind_ + " below it, and all of them are found";
     return true;
   }
   look_for_missing(std::move(found_), inertia.negative, omega);
   statement_ = "modes: " + std::to_string(inertia.negative - gap_.below) + " of " + std::to_string(inertia.negative) +
                " " + kind_ + " below " + rounded(omega / two_pi) +
-               " Hz were passed over at first, found missing by the inertia of C - omega^2 M, and searched for";
+               " Hz were missing at first (inertia of C - omega^2 M) and were found by a further search";
   return false;
 }
 

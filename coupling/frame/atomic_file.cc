@@ -40,7 +40,7 @@ bool is_unfinished(const std::string &name)
 
 WriteFailure::WriteFailure(const std::string &path, const std::error_code &reason)
     : std::runtime_error(path + ": cannot be written (" + reason.message() +
-                         "); check the folder, its permissions and the space left, or name another folder")
+                         "); check the folder, its permissions and the free space, or name another folder")
 {
 }
 

@@ -41,11 +41,11 @@ std::string defect_of(const std::string &head, const std::string &title)
     return "cannot be read, or is empty";
   const std::string first_line = head.substr(0, head.find('\n'));
   if (first_line.compare(0, family(title).size(), family(title)) != 0)
-    return "does not begin with '" + title + "': a foreign file, or one of an early version";
+    return "does not begin with '" + title + "': not a Gestell file, or one of an early version";
   if (first_line != title)
     return "has another version of the format: '" + first_line.substr(0, 60) + "', and this program reads '" + title +
            "'";
-  return head.size() < head_size ? "is damaged: it ends within its head" : "";
+  return head.size() < head_size ? "is damaged: it ends within its header" : "";
 }
 
 } // namespace
@@ -73,7 +73,7 @@ std::string seal_defect(const std::string &file, const std::string &title)
     return defect;
   // Through the same handle: the name may belong to another file by now.
   if (head != head_of(title, sha256_of(in)))
-    return "is damaged: its content is not what its checksum says";
+    return "is damaged: its content does not match its checksum";
   return {};
 }
 

@@ -28,7 +28,7 @@ bool is_key(const std::string &text)
 void require_named_after(const FrameOrigin &origin, const std::string &key)
 {
   if (content_key(origin.recipe) != key)
-    throw std::runtime_error("was made from something else than its name says");
+    throw std::runtime_error("was made from other inputs than its name states");
 }
 
 /// A frame that another user put there may be anything.
@@ -79,12 +79,12 @@ void make_own_folder(const fs::path &folder)
   std::error_code error;
   const bool      made = fs::create_directories(folder, error);
   if (error)
-    throw std::runtime_error(folder.string() + " cannot be made (" + error.message() +
+    throw std::runtime_error(folder.string() + " cannot be created (" + error.message() +
                              "); name another folder with GESTELL_CACHE");
   if (made)
     fs::permissions(folder, written_by_others, fs::perm_options::remove);
   if (const std::string reason = foreign(folder.string()); !reason.empty())
-    throw std::runtime_error(folder.string() + " " + reason + "; name a folder of your own with GESTELL_CACHE");
+    throw std::runtime_error(folder.string() + " " + reason + "; name your own folder with GESTELL_CACHE");
 }
 
 } // namespace
@@ -109,7 +109,7 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
   }
   catch (const std::runtime_error &failure)
   {
-    note += "cache: " + file + " " + failure.what() + "; the frame is reduced anew";
+    note += "cache: " + file + " " + failure.what() + "; the frame is reduced again";
     return {};
   }
 }
@@ -117,10 +117,10 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
 {
   if (const std::string beyond = beyond_the_files(origin.recipe); !beyond.empty())
-    return "cache: the reduced frame is not kept: " + beyond + ", so that not only files decide what the frame is";
+    return "cache: the reduced frame is not stored: " + beyond + ", so the frame does not depend on its files only";
   const std::string file = cache_file(content_key(origin.recipe));
   if (file.empty())
-    return "cache: the reduced frame is not kept: this user has no home folder; name one with GESTELL_CACHE";
+    return "cache: the reduced frame is not stored: this user has no home folder; name one with GESTELL_CACHE";
   try
   {
     make_own_folder(fs::path(file).parent_path());
@@ -131,7 +131,7 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
   }
   catch (const std::exception &failure)
   {
-    return "cache: the reduced frame is not kept for the next run: " + std::string(failure.what());
+    return "cache: the reduced frame is not stored for the next run: " + std::string(failure.what());
   }
 }
 
@@ -179,7 +179,7 @@ std::vector<CacheEntry> cache_entries(CacheCheck check)
     if (is_key(entry.key) && at->path().extension() == ".h5")
       describe(entry);
     else if (abandoned(entry.file))
-      entry.defect = "was never finished";
+      entry.defect = "is incomplete";
     else
       continue;
     if (check == CacheCheck::contents)

@@ -304,7 +304,7 @@ private:
 
 std::runtime_error not_a_recipe()
 {
-  return std::runtime_error("what it was made from cannot be read");
+  return std::runtime_error("its list of inputs cannot be read");
 }
 
 /// Reads "12 " at `at`.

@@ -61,7 +61,7 @@ Hdf5File::Hdf5File() : file_("HDF5 in memory")
   H5Pset_fapl_core(access, 1 << 20, false);
   handle_ = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (handle_ < 0)
-    fail(file_, "cannot be made");
+    fail(file_, "cannot be created");
 }
 
 Hdf5File::Hdf5File(const std::string &file) : file_(file)
@@ -91,7 +91,7 @@ std::string Hdf5File::image() const
   const ssize_t     size = H5Fflush(handle_, H5F_SCOPE_GLOBAL) >= 0 ? H5Fget_file_image(handle_, nullptr, 0) : -1;
   std::string       bytes(size > 0 ? std::size_t(size) : 0, '\0');
   if (size <= 0 || H5Fget_file_image(handle_, bytes.data(), bytes.size()) != size)
-    fail(file_, "cannot be brought together");
+    fail(file_, "cannot be assembled");
   return bytes;
 }
 
@@ -113,7 +113,7 @@ void Hdf5File::write_array(const std::string &name, const Matrix &A, std::int64_
   H5Pset_obj_track_times(creation, false); // equal input, equal file
   const Handle array(H5Dcreate2(handle_, name.c_str(), type, space, groups, creation, H5P_DEFAULT), H5Dclose);
   if (array < 0 || (A.size() > 0 && H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, A.data()) < 0))
-    fail(file_, "array '" + name + "' could not be written");
+    fail(file_, "array '" + name + "' cannot be written");
 }
 
 template <typename Matrix>

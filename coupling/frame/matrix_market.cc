@@ -53,15 +53,16 @@ public:
   void require_room(double numbers, const std::string &what) const
   {
     if (2. * numbers > double(size_) + 1.)
-      fail(what + " cannot stand in a file of " + std::to_string(size_) + " bytes; it is cut off, or its head wrong");
+      fail(what + " do not fit in a file of " + std::to_string(size_) +
+           " bytes; the file is truncated, or its header is wrong");
   }
 
   /// Refuses rows or columns that no file of this length has, see may_have_lines().
   void require_lines(std::int64_t lines, std::int64_t known, const char *what) const
   {
     if (!may_have_lines(lines, size_, known))
-      fail("a matrix of " + std::to_string(lines) + " " + what + " cannot stand in a file of " + std::to_string(size_) +
-           " bytes; it is cut off, or its head wrong");
+      fail("a matrix with " + std::to_string(lines) + " " + what + " does not fit in a file of " +
+           std::to_string(size_) + " bytes; the file is truncated, or its header is wrong");
   }
 
   [[noreturn]] void fail(const std::string &expected) const
@@ -86,7 +87,7 @@ public:
     if (!line_.empty() && line_.back() == '\r')
       line_.pop_back();
     if (line_.find('\0') != std::string::npos)
-      fail("holds a zero byte; a MatrixMarket file is text");
+      fail("contains a zero byte; a MatrixMarket file is text");
     rest_ = line_.data();
     return true;
   }
@@ -153,7 +154,7 @@ struct Header
 
 Header read_header(MatrixMarketReader &reader)
 {
-  const char *expected = "expected the head line of a MatrixMarket file, "
+  const char *expected = "expected the header line of a MatrixMarket file, "
                          "'%%MatrixMarket matrix coordinate|array real|integer general|symmetric'";
   if (!reader.next())
     reader.fail_at_end(expected);
@@ -166,7 +167,7 @@ Header read_header(MatrixMarketReader &reader)
   if (word[0] != "%%matrixmarket" || word[1] != "matrix" || (word[2] != "coordinate" && word[2] != "array"))
     reader.fail(expected);
   if (word[3] == "pattern")
-    reader.fail("a pattern says where entries are and holds none; write the matrix itself as real");
+    reader.fail("a pattern has positions of entries but no values; write the matrix itself as real");
   if (word[3] != "real" && word[3] != "integer")
     reader.fail("only real and integer matrices are read, not '" + word[3] + "'");
   if (word[4] != "general" && word[4] != "symmetric")
@@ -190,14 +191,14 @@ void read_coordinates(MatrixMarketReader &reader, int rows, int columns, int cou
   for (int k = 0; k < count; ++k)
   {
     if (!reader.next_entry())
-      reader.fail_at_end(std::to_string(count) + " entries are announced and " + std::to_string(k) + " were found");
+      reader.fail_at_end(std::to_string(count) + " entries are announced, but " + std::to_string(k) + " were found");
     const int    row = reader.integer(expected), column = reader.integer(expected);
     const double value = reader.real(expected);
     reader.end_of_line(expected);
     if (row < 1 || row > rows || column < 1 || column > columns)
-      reader.fail("row and column count from 1 to " + std::to_string(rows) + " and " + std::to_string(columns));
+      reader.fail("row and column must be from 1 to " + std::to_string(rows) + " and " + std::to_string(columns));
     if (symmetric && column > row)
-      reader.fail("a symmetric file holds the lower triangle, row >= column");
+      reader.fail("a symmetric file contains the lower triangle, row >= column");
     add(entries, row - 1, column - 1, value, symmetric);
   }
 }
@@ -231,12 +232,12 @@ void read_array(MatrixMarketReader &reader, int rows, int columns, bool symmetri
     const int row = reader.integer("a row"), column = reader.integer("a column");
     const auto [first, is_new] = lines.try_emplace({row, column}, reader.number());
     if (!is_new)
-      reader.fail("row " + std::to_string(row) + ", column " + std::to_string(column) + " stands in line " +
-                  std::to_string(first->second) +
-                  " already, and entries of this format are no parts of a sum; add up what belongs to one entry before "
-                  "writing (in scipy: A.sum_duplicates())");
+      reader.fail(
+          "row " + std::to_string(row) + ", column " + std::to_string(column) + " is in line " +
+          std::to_string(first->second) +
+          " already, and this format does not add duplicates; sum them before writing (in scipy: A.sum_duplicates())");
   }
-  reader.fail_at_end("an entry was found twice before; the file changes while it is read");
+  reader.fail_at_end("an entry was found twice before; the file is being changed while it is read");
 }
 
 } // namespace
@@ -252,8 +253,8 @@ Matrix read_matrix_market(const std::string &file, std::int64_t known_size)
   const int count = header.coordinate ? reader.integer(expected) : 0;
   reader.end_of_line(expected);
   if (rows > largest_size || columns > largest_size)
-    reader.fail("a matrix of more than " + std::to_string(largest_size) +
-                " rows or columns is larger than any frame that could be computed; check the file");
+    reader.fail("a matrix with more than " + std::to_string(largest_size) +
+                " rows or columns is too large to compute; check the file");
   reader.require_lines(rows, known_size, "rows");
   reader.require_lines(columns, known_size, "columns");
   if (header.symmetric && rows != columns)

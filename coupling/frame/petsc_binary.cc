@@ -61,7 +61,7 @@ public:
     double     value;
     std::memcpy(&value, &bits, sizeof value);
     if (!std::isfinite(value))
-      fail("the value before, of row " + std::to_string(i + 1) + " and column " + std::to_string(j + 1) +
+      fail("the preceding value, of row " + std::to_string(i + 1) + " and column " + std::to_string(j + 1) +
            ", is not a finite number; the program that wrote it failed, or divided by zero");
     return value;
   }
@@ -70,8 +70,8 @@ public:
   void require_lines(std::int64_t lines, std::int64_t known, const char *what) const
   {
     if (!may_have_lines(lines, size_, known))
-      fail("a matrix of " + std::to_string(lines) + " " + what + " cannot stand in a file of " + std::to_string(size_) +
-           " bytes; it is cut off, or its head wrong");
+      fail("a matrix with " + std::to_string(lines) + " " + what + " does not fit in a file of " +
+           std::to_string(size_) + " bytes; the file is truncated, or its header is wrong");
   }
 
   /// Refuses a file that is not as long as `integers` and `reals` more.
@@ -81,11 +81,11 @@ public:
     const auto   count = [](double bytes) { return std::to_string(std::int64_t(bytes)); };
     if (left == needed)
       return;
-    std::string reason = "the file is cut off";
+    std::string reason = "the file is truncated";
     if (left == needed + 8. * double(reals))
       reason = "its numbers are complex; save the real matrix";
     else if (left > needed)
-      reason = "more than one object is in the file; save each matrix in a file of its own";
+      reason = "the file contains more than one object; save each matrix in a separate file";
     fail(shape + " takes " + count(needed) + " more bytes, but " + count(left) + " follow: " + reason);
   }
 
@@ -96,7 +96,7 @@ private:
     unsigned char bytes[sizeof(Unsigned)];
     file_.read(reinterpret_cast<char *>(bytes), sizeof bytes);
     if (!file_)
-      fail("the file ends here; it is cut off");
+      fail("the file ends here; it is truncated");
     at_ += sizeof bytes;
     return from_big_endian<Unsigned>(bytes);
   }
@@ -116,9 +116,9 @@ void read_head(PetscReader &reader)
     reader.use_wide_integers();
   }
   if (kind == vector_class)
-    reader.fail("it is a vector of PETSc; a matrix is needed");
+    reader.fail("it is a PETSc vector; a matrix is needed");
   if (kind != matrix_class)
-    reader.fail("it begins with " + std::to_string(kind) + ", a matrix of PETSc with " + std::to_string(matrix_class));
+    reader.fail("it begins with " + std::to_string(kind) + ", a PETSc matrix with " + std::to_string(matrix_class));
 }
 
 int checked(const PetscReader &reader, std::int64_t value, std::int64_t from, std::int64_t below, const char *what)
@@ -150,7 +150,7 @@ Matrix read_sparse(PetscReader &reader, int rows, int columns, int entries, cons
     A.outerIndexPtr()[i + 1] = int(std::min<std::int64_t>(sum, entries));
   }
   if (sum != entries)
-    reader.fail("the rows have " + std::to_string(sum) + " entries together, but " + std::to_string(entries) +
+    reader.fail("the rows have " + std::to_string(sum) + " entries in total, but " + std::to_string(entries) +
                 " are announced");
   A.resizeNonZeros(entries);
   for (int k = 0; k < entries; ++k)

@@ -91,7 +91,7 @@ int whole_number(const Hdf5File &file, const std::string &name)
 {
   const double x = file.read_number(name);
   if (!(std::abs(x) <= std::numeric_limits<int>::max()))
-    throw std::runtime_error("'" + name + "' is no whole number");
+    throw std::runtime_error("'" + name + "' is not an integer");
   return int(x);
 }
 
@@ -260,7 +260,7 @@ void require_consistent(const ReducedFrame &frame)
   const auto require = [](bool fits, const char *what)
   {
     if (!fits)
-      throw std::runtime_error(std::string(what) + " does not fit the matrices");
+      throw std::runtime_error(std::string(what) + " does not match the matrices");
   };
   require(frame.M.cols() == n && frame.B.rows() == n && frame.B.cols() == n && frame.C.rows() == n &&
               frame.C.cols() == n,
@@ -305,13 +305,13 @@ FrameOrigin read_origin(const Hdf5File &file)
 void write_reduced_frame(const std::string &name, const ReducedFrame &frame, const FrameOrigin &origin)
 {
   if (!frame.modal)
-    throw std::invalid_argument(name + ": a frame in physical coordinates is not reduced; files hold reduced frames");
+    throw std::invalid_argument(name + ": a frame in physical coordinates is not reduced; files store reduced frames");
   const fs::path  path(name);
   std::error_code error;
   if (path.has_parent_path())
     fs::create_directories(path.parent_path(), error);
   if (error)
-    throw std::runtime_error(name + ": its folder cannot be made: " + error.message());
+    throw std::runtime_error(name + ": its folder cannot be created: " + error.message());
   const auto alone = hdf5_alone();
   Hdf5File   file;
   file.write("made_from", text_of(origin.recipe));
@@ -378,7 +378,7 @@ FrameSummary read_frame_summary(const std::string &name)
   try
   {
     defect =
-        defect_in_child(name, "reading the head of the frame", limits, [&] { return defect_of(read_summary, name); });
+        defect_in_child(name, "reading the header of the frame", limits, [&] { return defect_of(read_summary, name); });
   }
   catch (const std::invalid_argument &died)
   {
@@ -412,8 +412,8 @@ ReducedFrame read_reduced_frame(const std::string &file)
 {
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    throw std::invalid_argument(file + (fs::exists(file, error) ? ": is no ordinary file" : ": no such file") +
-                                "; make it with `gestell reduce`");
+    throw std::invalid_argument(file + (fs::exists(file, error) ? ": is not a regular file" : ": no such file") +
+                                "; create it with `gestell reduce`");
   const auto  alone  = hdf5_alone();
   std::string defect = seal_defect(file, title);
   if (defect.empty())
@@ -427,8 +427,8 @@ ReducedFrame read_reduced_frame(const std::string &file)
     {
       defect = failure.what();
     }
-  throw std::invalid_argument(file + ": not a whole reduced frame (" + defect +
-                              "); make it anew with `gestell reduce`");
+  throw std::invalid_argument(file + ": not a complete reduced frame (" + defect +
+                              "); create it again with `gestell reduce`");
 }
 
 } // namespace gestell::coupling

@@ -63,7 +63,7 @@ ReducedStress read_stress(const Hdf5File &file, int n_points, int n)
   if (!shape(stress.mean) || !shape(stress.deviation) || stress.nearby.size() != stress.point.size() ||
       triangles.rows() != 3 || !all_within(stress.point, 0, n_points) ||
       !all_within(stress.nearby, -1, int(stress.rigid.size())) || !all_within(values(triangles), 0, stress.n_points()))
-    throw std::runtime_error("'stress' does not fit the matrices");
+    throw std::runtime_error("'stress' does not match the matrices");
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     stress.triangles.push_back({triangles(0, t), triangles(1, t), triangles(2, t)});
   return stress;

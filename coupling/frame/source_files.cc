@@ -148,7 +148,7 @@ std::vector<NamedFile> named_in_script(const std::filesystem::path &path, std::s
   std::vector<NamedFile> named;
   for (std::size_t i = 0; i < tokens.size(); ++i)
     if (asks_beyond_files(tokens[i]))
-      note(tokens[i].line, "has the word " + tokens[i].text);
+      note(tokens[i].line, "contains " + tokens[i].text);
     else if (reads_a_file(tokens[i]))
     {
       if (const fem::GeoToken *name = plain_name(tokens, i))
@@ -157,7 +157,7 @@ std::vector<NamedFile> named_in_script(const std::filesystem::path &path, std::s
         named.push_back({name->text, target, tokens[i].is("Include") ? Language::gmsh : merged_language(target)});
       }
       else
-        note(tokens[i].line, tokens[i].text + " names its file by a computed text");
+        note(tokens[i].line, tokens[i].text + " names its file by a computed string");
     }
   return named;
 }

@@ -48,13 +48,13 @@ std::string defect_in_child(const std::string &file, const std::string &phase, c
   task.phase       = phase;
   task.limits      = limits;
   task.library     = "HDF5";
-  task.way_out     = "make the file anew with `gestell reduce`";
+  task.way_out     = "create the file again with `gestell reduce`";
   const auto begin = std::chrono::steady_clock::now();
   const auto watch = [&](const std::string &, double)
   {
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
     if (task.limits.seconds > 0. && waited.count() > task.limits.seconds) // waiting takes no processor time
-      throw std::invalid_argument(file + ": HDF5 did not come to its end; " + task.way_out);
+      throw std::invalid_argument(file + ": HDF5 did not finish; " + task.way_out);
   };
   std::string found = fem::bytes_from_child(task, watch, [&](const fem::ChildProgress &) { return defect(); });
   if (found.empty() && !identity.empty())

@@ -49,7 +49,8 @@ void require_semidefinite_stiffness(const MatrixXd &C)
       C.diagonal().unaryExpr([](double c) { return c != 0. && std::isfinite(c) ? 1. / std::sqrt(std::abs(c)) : 1.; });
   const SymmetricEigenSolver scaled(d.asDiagonal() * C * d.asDiagonal(), WithVectors::no);
   if (scaled.eigenvalues().minCoeff() < -1e-8)
-    throw std::invalid_argument("stiffness: has a negative eigenvalue; a frame at rest cannot push itself away");
+    throw std::invalid_argument(
+        "stiffness: has a negative eigenvalue; the stiffness of a frame at rest must be positive semidefinite");
 }
 
 bool is_diagonal(const MatrixXd &A)

@@ -16,8 +16,8 @@ void add_modal_damping(fem::FrameMatrices &frame, int n_modes, const Progress &p
 {
   const int n = int(frame.M.rows());
   if (n_modes < 0 || n_modes > n)
-    throw std::invalid_argument("add_modal_damping: " + std::to_string(n_modes) + " modes requested of a frame with " +
-                                std::to_string(n) + " coordinates; ask for 0 to " + std::to_string(n));
+    throw std::invalid_argument("add_modal_damping: " + std::to_string(n_modes) + " modes requested for a frame with " +
+                                std::to_string(n) + " DOFs; request 0 to " + std::to_string(n));
   if (const int n_free = int(fem::free_motions(frame, {}).size()); n_free > 0)
   {
     if (progress)

@@ -29,22 +29,22 @@ void require(bool condition, const ReductionOptions &options, const std::string 
 void require_valid(const fem::FrameMatrices &frame, const std::vector<int> &q1, const ReductionOptions &options)
 {
   const int n = int(frame.M.rows()), n2 = n - int(q1.size());
-  require(n > 0, options, "the frame has no coordinates");
+  require(n > 0, options, "the frame has no DOFs");
   for (const auto *A : {&frame.M, &frame.B, &frame.C})
     require(A->rows() == n && A->cols() == n, options,
-            "M, B and C must be square and of one size; found " + std::to_string(A->rows()) + " x " +
-                std::to_string(A->cols()) + " beside " + std::to_string(n) + " x " + std::to_string(n));
+            "M, B and C must be square and of equal size; found " + std::to_string(A->rows()) + " x " +
+                std::to_string(A->cols()) + " and " + std::to_string(n) + " x " + std::to_string(n));
   require(frame.M.isCompressed() && frame.C.isCompressed() && frame.B.isCompressed(), options,
           "M, B and C must be compressed");
-  require(q1.empty() || (q1.front() >= 0 && q1.back() < n), options, "an interface coordinate lies outside the frame");
+  require(q1.empty() || (q1.front() >= 0 && q1.back() < n), options, "an interface DOF is not in the frame");
   require(std::adjacent_find(q1.begin(), q1.end()) == q1.end(), options,
-          "two interfaces share a coordinate; give each its own node");
+          "two interfaces share a DOF; give each its own node");
   require(options.n_modes <= n2, options,
           std::to_string(options.n_modes) + " modes requested, but only " + std::to_string(n2) +
-              " internal coordinates remain once the interface is held; ask for fewer modes or keep fewer interface "
-              "points");
+              " internal DOFs remain with the interface fixed; request fewer modes or fewer interfaces");
   require(options.n_modes >= 0 || options.tolerance > 0., options,
-          "tolerance is " + std::to_string(options.tolerance) + "; the automatic number of modes needs one above zero");
+          "tolerance is " + std::to_string(options.tolerance) +
+              "; the automatic number of modes needs a tolerance above zero");
   require(std::isfinite(options.frequency) && options.frequency >= 0., options,
           "frequency is " + std::to_string(options.frequency) + " Hz; it must be zero (automatic) or positive");
 }
@@ -52,7 +52,7 @@ void require_valid(const fem::FrameMatrices &frame, const std::vector<int> &q1, 
 BasisFunction &basis_function(const ReductionOptions &options)
 {
   BasisFunction *const function = Reductions::basis(options.method);
-  require(function, options, "'" + options.method + "' makes no reduced frame");
+  require(function, options, "'" + options.method + "' is not a reduction method");
   return *function;
 }
 

@@ -84,8 +84,8 @@ void DeflatedSearch::find(int count)
   }
   if (found_.omega.size() < count)
     throw ConvergenceFailure("lowest modes: " + std::to_string(found_.omega.size()) + " of " + std::to_string(count) +
-                             " are found; ask for fewer modes: the mass matrix of the internal coordinates has no "
-                             "higher rank, or a part is almost loose");
+                             " are found; request fewer modes: the mass matrix of the internal DOFs has no higher "
+                             "rank, or a part is almost unsupported");
 }
 
 LowestModes DeflatedSearch::modes(int count) const
@@ -114,7 +114,7 @@ int DeflatedSearch::gap_index(int count) const
 ModeSearch::Gap DeflatedSearch::gap_above(int count) const
 {
   if (count > found_.omega.size())
-    throw std::logic_error("DeflatedSearch: find() first");
+    throw std::logic_error("DeflatedSearch: call find() first");
   if (count == 0)
     return {0., found_.omega.size() > 0 ? found_.omega(0) : INFINITY, 0};
   const int i = gap_index(count);
@@ -139,7 +139,7 @@ void require_done(const ModeProblem &problem, PetscErrorCode code, const std::st
     return;
   throw ConvergenceFailure("reduction: the eigensolver " + eigensolver + " failed: " + QuietPetsc::message() +
                            " (PETSc, error " + std::to_string(code) +
-                           "); look at reduction.eigensolver and PETSC_OPTIONS");
+                           "); check reduction.eigensolver and PETSC_OPTIONS");
 }
 
 /// Whether options want another solver than the inverse at hand.
@@ -299,9 +299,8 @@ private:
       return;
     }
     if (!problem_.C())
-      throw std::invalid_argument(
-          "PETSC_OPTIONS name a solver for the modes, which needs the stiffness of the frame in "
-          "one process; leave out mpirun, or options that begin with -reduction_st");
+      throw std::invalid_argument("PETSC_OPTIONS choose a mode solver that needs the stiffness of the frame in one "
+                                  "process; run without mpirun, or remove options that begin with -reduction_st");
     C_ = assembled(*problem_.C(), problem_.free());
     M_ = assembled(problem_.M(), problem_.free());
   }

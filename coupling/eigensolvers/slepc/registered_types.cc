@@ -202,7 +202,7 @@ PetscErrorCode solve_columns(Mat F, Mat B, Mat X)
 PetscErrorCode inertia(Mat F, PetscInt *negative, PetscInt *zero, PetscInt *positive)
 {
   OwnFactor &factor = own(F);
-  PetscCheck(factor.L, PETSC_COMM_SELF, PETSC_ERR_SUP, "inertia is known of assembled matrices only");
+  PetscCheck(factor.L, PETSC_COMM_SELF, PETSC_ERR_SUP, "the inertia is available for assembled matrices only");
   int below = 0;
   PetscCall(guarded(nullptr, [&] { below = factor.L->inertia(factor.A, factor.A, 0.).negative; }));
   if (negative)

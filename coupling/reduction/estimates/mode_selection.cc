@@ -211,7 +211,7 @@ ModeSelection too_few(Look look, int m, const ReductionOptions &options)
   found.notes.push_back("reduction: " + std::to_string(m) + " fixed-interface modes leave " +
                         look.judgement.shortcoming + " up to " + rounded(look.within / two_pi) +
                         " Hz, above the tolerance of " + percent(options.tolerance) +
-                        "; lower the frequency of interest or set the number of modes");
+                        "; reduce the frequency of interest or set the number of modes");
   return found;
 }
 
@@ -244,8 +244,8 @@ ModeSelection enough(const Look &look, ReductionBasis &basis, const InterfaceSta
   if (dampers && dampers->left > options.tolerance)
     found.notes.push_back(std::exchange(found.statement, "") + "; that is above the tolerance of " +
                           percent(options.tolerance) +
-                          (dampers->exhausted ? ", for dampers act where the frame has no mass"
-                                              : ", for the dampers inside the frame are strong"));
+                          (dampers->exhausted ? ", because dampers act where the frame has no mass"
+                                              : ", because the dampers inside the frame are strong"));
   basis.truncate(fewest.modes);
   return found;
 }

@@ -30,13 +30,13 @@ void warn_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
     return;
   space.notes.push_back(
       "reduction: " +
-      (m == 0 ? std::string("no fixed-interface modes are kept")
-              : (m == 1 ? "the only fixed-interface mode kept has "
-                        : "the highest of the " + std::to_string(m) + " fixed-interface modes kept has ") +
+      (m == 0 ? std::string("no fixed-interface modes are retained")
+              : (m == 1 ? "the only retained fixed-interface mode has "
+                        : "the highest of the " + std::to_string(m) + " retained fixed-interface modes has ") +
                     rounded(highest) + " Hz") +
       ", but frequency = " + rounded(options.frequency) +
-      " Hz: near and above the highest the model does not hold, and its error there is not known; ask for "
-      "more modes, or leave modes out, so that the tolerance chooses their number");
+      " Hz: near and above the highest mode the model is not valid and its error is unknown; request more modes, or "
+      "remove reduction.modes, so that the tolerance determines their number");
 }
 
 /// [rad/s] up to which a number of modes that was given keeps all frequencies within the tolerance; half of the first
@@ -65,9 +65,9 @@ double limit_of_few_modes(ReductionSpace &space, const ReductionOptions &options
                  percent(options.tolerance) + (j > 0 ? "; the next, " : "; the first, ") + rounded(omega[j] / two_pi) +
                  " Hz, " +
                  (off ? "is " + percent(error[j + space.refined.n_rigid]) + " too high"
-                      : "lies above the highest mode kept, where some may be missing") +
-                 (m == 0 ? ", and modes of the inside alone are not looked for" : "") +
-                 ": ask for more modes, or for a frequency in place of their number");
+                      : "is above the highest retained mode, where some may be missing") +
+                 (m == 0 ? ", and internal modes are not computed" : "") +
+                 ": request more modes, or give a frequency instead of their number");
   return limit;
 }
 
@@ -84,8 +84,9 @@ void state_receptance(ReductionSpace &space, const InterfaceStatics &statics, co
                                        within);
   const std::string statement = receptance_statement(receptance, basis, frame.interfaces, {m}, options.frequency);
   if (has_inner_dampers(basis, frame.B))
-    space.notes.push_back(statement +
-                          "; dampers inside the frame are left out of this: leave modes out, and shapes for them join");
+    space.notes.push_back(
+        statement +
+        "; this ignores dampers inside the frame: remove reduction.modes, so that shapes for dampers are added");
   else
     space.statements.push_back(statement);
 }
@@ -147,7 +148,7 @@ ReductionSpace CraigBampton::basis(const fem::FrameMatrices &frame, const Reduct
   }
   throw ConvergenceFailure(
       "reduction: in " + std::to_string(most_rounds) +
-      " rounds some fixed-interface modes were missing each time; ask for another number of modes");
+      " rounds some fixed-interface modes were missing each time; request another number of modes");
 }
 
 } // namespace gestell::coupling

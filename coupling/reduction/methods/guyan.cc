@@ -42,27 +42,26 @@ void judge(ReductionSpace &space, const FixedInterfaceFrame &held, const Reach &
   const int         missing = space.limit > 0. ? held.below(space.limit).negative : 0;
   const std::string limit   = rounded(space.limit / two_pi) + " Hz";
   if (space.limit > 0. && missing == 0 && reach.bad > space.limit)
-    space.statements.push_back(
-        "reduction: frequencies of the reduced frame up to " + limit + " lie within " + percent(tolerance) +
-        " above those of the frame, as estimated; with its interface held the frame has no mode below");
-  const std::string way = "; method = \"craig-bampton\" reaches further";
+    space.statements.push_back("reduction: frequencies of the reduced frame up to " + limit + " are at most " +
+                               percent(tolerance) +
+                               " above those of the frame (estimate); no fixed-interface mode is below");
+  const std::string way = "; method = \"craig-bampton\" is valid to higher frequencies";
   if (missing > 0)
-    space.notes.push_back("reduction: with the interface held the frame has " + std::to_string(missing) +
-                          " modes below " + limit + ", of which the static shapes have nothing" + way);
+    space.notes.push_back("reduction: the frame has " + std::to_string(missing) + " fixed-interface modes below " +
+                          limit + ", which the static shapes omit" + way);
   if (reach.bad <= space.limit || (space.limit == 0. && std::isfinite(reach.bad)))
     space.notes.push_back("reduction: the reduced frame has the frequency of " + rounded(reach.bad / two_pi) +
-                          " Hz more than " + percent(tolerance) + " too high, as estimated" + way);
+                          " Hz more than " + percent(tolerance) + " too high (estimate)" + way);
 }
 
 } // namespace
 
-ReductionSpace Guyan::basis(const fem::FrameMatrices &frame, const ReductionOptions &options,
-                                   InterfaceStatics &statics)
+ReductionSpace Guyan::basis(const fem::FrameMatrices &frame, const ReductionOptions &options, InterfaceStatics &statics)
 {
   if (statics.basis.n1() == 0)
     throw std::invalid_argument((options.place.empty() ? std::string("reduction") : options.place) +
-                                ": Guyan's reduction keeps the coordinates of interfaces, and the frame has none; give it "
-                                "a [frame.interface.NAME], or modes by method = \"craig-bampton\"");
+                                ": Guyan reduction retains the DOFs of interfaces, but the frame has none; give it a "
+                                "[frame.interface.NAME], or use modes by method = \"craig-bampton\"");
   statics.held.release();
   statics.begin("reduced matrices");
   ReductionSpace space{std::move(statics.basis)};

@@ -77,7 +77,7 @@ std::string place_of(const fem::FrameMatrices &frame, const VectorXd &x)
   int coordinate;
   x.cwiseAbs().maxCoeff(&coordinate);
   std::ostringstream text;
-  text << "a motion that is greatest at coordinate " << coordinate;
+  text << "a motion that is largest at DOF " << coordinate;
   const VectorXd skin = frame.picture.displacement.rows() > 0 ? VectorXd(frame.picture.displacement * x) : VectorXd();
   if (skin.size() > 0 && skin.cwiseAbs().maxCoeff(&coordinate) > 0.)
   {
@@ -98,8 +98,8 @@ std::string join(const std::vector<std::string> &words)
 
 [[noreturn]] void refuse(const std::string &motion)
 {
-  throw std::invalid_argument("reduction: the frame is free to move while its interface is held (C22 is singular): " +
-                              motion + "; support the frame against it, or add an interface that holds it");
+  throw std::invalid_argument("reduction: the frame is unconstrained with its interface fixed (C22 is singular): " +
+                              motion + "; add a support or an interface that constrains it");
 }
 
 /**
@@ -121,7 +121,7 @@ void require_no_free_motion(const fem::FrameMatrices &frame, const std::vector<i
   const VectorXd D = C.diagonal();
   for (int i = 0; i < D.size(); ++i)
     if (!(D(i) > 0.))
-      refuse("coordinate " + std::to_string(i) + " has no stiffness at all");
+      refuse("DOF " + std::to_string(i) + " has no stiffness");
   MatrixXd X;
   try
   {
@@ -170,10 +170,9 @@ SparseMatrix lower_triangle_held(const SparseMatrix &C, const std::vector<int> &
 
 [[noreturn]] void refuse_indefinite(int coordinate)
 {
-  throw std::invalid_argument("reduction: C22, the stiffness of the frame with its interface held, is not positive "
-                              "definite at coordinate " +
-                              std::to_string(coordinate) +
-                              "; it must be symmetric with positive energy for every motion");
+  throw std::invalid_argument(
+      "reduction: C22, the stiffness of the frame with its interface fixed, is not positive definite at DOF " +
+      std::to_string(coordinate) + "; it must be symmetric and positive definite");
 }
 
 std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, const std::vector<int> &q1)
@@ -195,12 +194,12 @@ std::unique_ptr<SparseCholesky> factor_held(const fem::FrameMatrices &frame, con
 void require_work_for_all(int n_ranks, const fem::FrameMatrices &frame)
 {
   const int         parts  = frame.n_cells > 0 ? frame.n_cells : int(frame.C.rows());
-  const std::string called = frame.n_cells > 0 ? " cells" : " coordinates";
+  const std::string called = frame.n_cells > 0 ? " cells" : " DOFs";
   if (n_ranks > parts)
     throw std::invalid_argument("mpirun: " + std::to_string(n_ranks) + " ranks for a frame of " +
-                                std::to_string(parts) + called + ", but each rank needs at least one; start " +
+                                std::to_string(parts) + called + ", but each rank needs at least one; start at most " +
                                 std::to_string(parts) +
-                                " at most, or mesh more finely.  Some thousand cells per rank are worth the effort.");
+                                ", or use a finer mesh.  A few thousand cells per rank are efficient.");
 }
 
 } // namespace

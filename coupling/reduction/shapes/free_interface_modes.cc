@@ -129,9 +129,9 @@ FreeModes free_modes(const ReductionBasis &basis, FixedInterfaceFrame &held, con
     result.W -= basis.T * MatrixXd(result.W(basis.q1, Eigen::all));
     return result;
   }
-  throw ConvergenceFailure("reduction: in " + std::to_string(most_rounds) +
-                           " rounds some modes with the interface free were missing each time; ask for another number "
-                           "of modes");
+  throw ConvergenceFailure(
+      "reduction: in " + std::to_string(most_rounds) +
+      " rounds some modes with the interface free were missing each time; request another number of modes");
 }
 
 } // namespace gestell::coupling

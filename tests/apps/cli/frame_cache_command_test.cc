@@ -142,7 +142,7 @@ TEST_F(FrameCacheCommand, ThatCannotKeepAFrameIsToldButNotInTheFrameThatIsPassed
   expect_answer(shell(called + reduce), 0, {"reduced frame made"});
   const std::string kept = frame();
   expect_answer(shell("GESTELL_CACHE=/dev/null '" GESTELL_BINARY_DIR "/bin/gestell' " + reduce), 0,
-                {"reduced frame made", "note: cache: the reduced frame is not kept"});
+                {"reduced frame made", "note: cache: the reduced frame is not stored"});
   EXPECT_TRUE(frame() == kept);
 }
 

@@ -107,7 +107,7 @@ TEST(SparseCholesky, ThatWouldNotFitIsRefusedWithWhatItNeeds)
   }
   catch (const coupling::NotEnoughMemory &failure)
   {
-    EXPECT_NE(std::string(failure.what()).find("GiB are there; mesh the frame more coarsely"), std::string::npos)
+    EXPECT_NE(std::string(failure.what()).find("GiB are available; use a coarser mesh"), std::string::npos)
         << failure.what();
   }
 }

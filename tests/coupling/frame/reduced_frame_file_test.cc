@@ -92,7 +92,7 @@ TEST_F(ReducedFrameFile, ForeignFilesAndOtherVersionsAreToldApart)
     EXPECT_NE(said.find("gestell reduce"), std::string::npos) << said;
   };
   says(other, "another version");
-  says("\x89HDF\r\n\x1a\n", "foreign file, or one of an early version");
+  says("\x89HDF\r\n\x1a\n", "not a Gestell file, or one of an early version");
 }
 
 TEST_F(ReducedFrameFile, DamagedFilesAreRefused)

@@ -94,7 +94,7 @@ TEST_F(ContentKeyOfSeveralFiles, FollowsAScriptOfAnyExtension)
     write("sizes.inc", "h = 2;\n");
     EXPECT_TRUE(changes()) << merged;
     write(merged, "SystemCall \"date\";\n");
-    EXPECT_EQ(coupling::beyond_the_files(coupling::recipe_of(frame, options)), merged + ":1: has the word SystemCall");
+    EXPECT_EQ(coupling::beyond_the_files(coupling::recipe_of(frame, options)), merged + ":1: contains SystemCall");
   }
   write("frame.geo", "Merge \"column.step\"; Merge \"mesh.any\";\n");
   write("column.step", "SystemCall \"date\";\n"); // data to gmsh, as is what begins as a mesh

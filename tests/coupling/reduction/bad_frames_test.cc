@@ -125,7 +125,7 @@ TEST(BadReduction, IsRefusedWithTheNumberNeeded)
 
   auto twice = frame;
   twice.interfaces.push_back(twice.interfaces[0]);
-  EXPECT_TRUE(holds(message_of(twice), "share a coordinate"));
+  EXPECT_TRUE(holds(message_of(twice), "share a DOF"));
   auto outside                        = frame;
   outside.interfaces[0].coordinate[0] = 1000;
   EXPECT_TRUE(holds(message_of(outside), "outside"));

@@ -90,7 +90,7 @@ bool finds_or_breaks_down(coupling::ModeSearch &search, int count, const std::st
     const std::string said = failure.what();
     if (solver != "lobpcg" || said.find("sygvd") == std::string::npos)
       throw;
-    EXPECT_NE(said.find("look at reduction.eigensolver"), std::string::npos) << said;
+    EXPECT_NE(said.find("check reduction.eigensolver"), std::string::npos) << said;
     return false;
   }
 }

@@ -181,7 +181,7 @@ TEST(AutomaticNumber, TellsWhereItStopsShort)
   ASSERT_EQ(reduced.notes.size(), 1u);
   EXPECT_NE(reduced.notes[0].find("above the tolerance"), std::string::npos) << reduced.notes[0];
   ASSERT_EQ(reduced.statements.size(), 1u) << "that no mode is missing is no warning";
-  EXPECT_NE(reduced.statements[0].find("as many are found"), std::string::npos) << reduced.statements[0];
+  EXPECT_NE(reduced.statements[0].find("all of them are found"), std::string::npos) << reduced.statements[0];
 }
 
 } // namespace

@@ -296,11 +296,11 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
   options.frequency  = c.highest_hz;
   const auto model   = reduce_frame(c.frame, options);
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 fixed-interface modes kept has "), 0u)
+  EXPECT_EQ(model.notes[0].find("reduction: the highest of the 2 retained fixed-interface modes has "), 0u)
       << model.notes[0];
   const double reported = std::stod(model.notes[0].substr(model.notes[0].find("has ") + 4));
   EXPECT_NEAR(reported, model.omega0[1] / (2. * M_PI), 1e-2 * reported) << "rounded";
-  EXPECT_NE(model.notes[0].find("ask for more modes"), std::string::npos);
+  EXPECT_NE(model.notes[0].find("request more modes"), std::string::npos);
 
   EXPECT_NE(reduce_frame(c.frame,
                          [&]
@@ -310,7 +310,7 @@ TEST(ReceptanceEstimate, BeyondTheModesThatAreKnownIsAWarning)
                            return none;
                          }())
                 .notes[0]
-                .find("no fixed-interface modes are kept"),
+                .find("no fixed-interface modes are retained"),
             std::string::npos);
   options.n_modes = 40;
   EXPECT_TRUE(reduce_frame(c.frame, options).notes.empty());

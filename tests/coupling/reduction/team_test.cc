@@ -58,8 +58,8 @@ TEST(Team, FindsAllModesThereAreAndRefusesToFindMore)
   EXPECT_EQ(answer.exit_code, 0) << answer.text;
   for (const char *count : {"16", "19", "21"})
     EXPECT_TRUE(answer.says(std::string(count) + " of 21 modes found: " + count + ",")) << count << answer.text;
-  EXPECT_TRUE(answer.says("Hz gives 21 fixed-interface modes below it, and as many are found")) << answer.text;
-  EXPECT_TRUE(answer.says("lowest modes: 21 of 22 exist, for the mass matrix has no higher rank")) << answer.text;
+  EXPECT_TRUE(answer.says("Hz gives 21 fixed-interface modes below it, and all of them are found")) << answer.text;
+  EXPECT_TRUE(answer.says("lowest modes: 21 of 22 exist, because the mass matrix has no higher rank")) << answer.text;
 }
 
 TEST(Team, TakesNoModesWhereNoneIsNeeded)

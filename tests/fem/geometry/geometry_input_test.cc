@@ -52,7 +52,7 @@ TEST(CadFile, ThatHoldsNoModelIsRefusedWithPlaceAndReason)
       {write_text("frame.dxf", "0"), "\".dxf\""},
       {write_text("frame.dxf", "0"), "export the model as STEP"},
       {write_text("text.step", "hello"), "not a STEP file"},
-      {write_text("cut.step", half), "is cut off"}, // gmsh would read it
+      {write_text("cut.step", half), "is truncated"}, // gmsh would read it
       {write_text("cut.step", half), "END-ISO-10303-21"},
       {write_text("hole.step", half + "\nENDSEC;\nEND-ISO-10303-21;\n"), "hole.step"},
       {write_text("none.step", empty), "none.step"},
@@ -120,7 +120,7 @@ TEST(BrepFile, ThatWasCutOffIsRefusedThoughOpenCascadeWouldReadItForEver)
   const std::string whole = read_text(draw("box.brep", [] { gmsh::model::occ::addBox(0., 0., 0., 1., 1., 1.); }));
   EXPECT_EQ(refusal(specification(write_text("whole.brep", whole), 0.5)), "");
   EXPECT_THAT(refusal(specification(write_text("cut.brep", whole.substr(0, whole.size() / 2)), 0.5)),
-              HasSubstr("is cut off"));
+              HasSubstr("is truncated"));
   EXPECT_THAT(refusal(specification(write_text("text.brep", "hello"), 0.5)), HasSubstr("not a BREP file"));
 }
 
@@ -300,7 +300,7 @@ TEST(Selection, OfAnotherNumberOfFacesThanWantedListsThem)
 {
   FrameSpecification s = specification(press_frame(), 0.1);
   s.surfaces["feet"]   = plane({0., 0., -1.}, {0., 0., 0.});
-  EXPECT_THAT(refusal(s), AllOf(HasSubstr("4 faces fit"), HasSubstr("faces = 1"), HasSubstr("normal (0 0 -1)")));
+  EXPECT_THAT(refusal(s), AllOf(HasSubstr("4 faces match"), HasSubstr("faces = 1"), HasSubstr("normal (0 0 -1)")));
 }
 
 TEST(Selection, OfAGroupThatDoesNotExistListsTheGroupsThatDo)

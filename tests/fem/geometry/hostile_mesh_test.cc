@@ -59,7 +59,7 @@ std::string chain(int n, int often)
 TEST(InpSets, ThatNameOthersHaveAllTheirNumbersHoweverDeep)
 {
   EXPECT_THAT(read_back(tetrahedron + chain(100, 1)).node_sets.at("S0"), ElementsAre(3u));
-  EXPECT_THAT(mesh_refusal(tetrahedron + chain(1000, 1)), HasSubstr("more than 200 deep"));
+  EXPECT_THAT(mesh_refusal(tetrahedron + chain(1000, 1)), HasSubstr("more than 200 levels deep"));
 }
 
 TEST(InpSets, ThatNameOthersTwiceAreResolvedOnce)
@@ -96,7 +96,7 @@ TEST(InpMesh, WithALineThatIsNoneIsRefused)
 TEST(InpMesh, OfBytesThatAreNoTextIsRefusedWithTheLine)
 {
   EXPECT_THAT(mesh_refusal(tetrahedron + std::string("2, 1, \0\0\0, 4\n", 13)),
-              AllOf(HasSubstr("mesh.inp:8"), HasSubstr("no text"), HasSubstr("UTF-16")));
+              AllOf(HasSubstr("mesh.inp:8"), HasSubstr("not text"), HasSubstr("UTF-16")));
   std::string wide = "\xFF\xFE";
   for (const char c : tetrahedron)
     wide += {c, '\0'};
@@ -160,9 +160,9 @@ std::string notes_of(const std::string &file, const std::string &text)
 TEST(InpMesh, WithoutItsLastCellsIsToldByTheSurfaceThatLostThem)
 {
   const std::string whole = box_by_gmsh("whole.inp");
-  EXPECT_THAT(notes_of("mesh.inp", whole), Not(HasSubstr("cut off")));
+  EXPECT_THAT(notes_of("mesh.inp", whole), Not(HasSubstr("truncated")));
   EXPECT_THAT(notes_of("mesh.inp", without_lines(whole, "*ELEMENT, type=C3D4", 200)),
-              AllOf(HasSubstr("surface \"SURFACE"), HasSubstr("cut off")));
+              AllOf(HasSubstr("surface \"SURFACE"), HasSubstr("truncated")));
 }
 
 TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
@@ -172,7 +172,7 @@ TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
   {
     SCOPED_TRACE(n_nodes);
     const std::string whole = box_by_gmsh("whole.msh", cells);
-    EXPECT_THAT(notes_of("mesh.msh", whole), Not(HasSubstr("cut off")));
+    EXPECT_THAT(notes_of("mesh.msh", whole), Not(HasSubstr("truncated")));
     std::istringstream lines(whole);
     std::string        line, cut;
     int                n_left_out = 0;
@@ -185,7 +185,7 @@ TEST(MshMesh, WithoutSomeOfItsCellsIsToldByTheSurfaceThatLostThem)
     const std::size_t count = cut.find("$Elements\n") + 10;
     cut.replace(count, cut.find('\n', count) - count, std::to_string(std::stoi(cut.substr(count)) - n_left_out));
     EXPECT_EQ(n_left_out, 10);
-    EXPECT_THAT(notes_of("mesh.msh", cut), AllOf(HasSubstr("lie on no cell"), HasSubstr("cut off")));
+    EXPECT_THAT(notes_of("mesh.msh", cut), AllOf(HasSubstr("lie on no cell"), HasSubstr("truncated")));
   }
 }
 
@@ -202,7 +202,7 @@ TEST(InpMesh, WithFilesThatAreIncludedWithoutEndIsRefused)
   for (int k = 0; k < 120; ++k)
     write_text("chain" + std::to_string(k) + ".inc", "*INCLUDE, INPUT=chain" + std::to_string(k + 1) + ".inc\n");
   write_text("chain120.inc", "** nothing\n");
-  EXPECT_THAT(mesh_refusal(tetrahedron + "*INCLUDE, INPUT=chain0.inc\n"), HasSubstr("more than 100 deep"));
+  EXPECT_THAT(mesh_refusal(tetrahedron + "*INCLUDE, INPUT=chain0.inc\n"), HasSubstr("more than 100 levels deep"));
 }
 
 TEST(GeoScript, WithLongChainsOfIncludesIsRefused)

@@ -207,7 +207,7 @@ TEST(SelectorsOfABore, CountItsHalvesAsOneFace)
   const GeometryReport report = report_geometry(s);
   EXPECT_EQ(report.surfaces.at("bore").size(), 2u);
   s.surfaces["bore"].faces = 3;
-  EXPECT_THAT(refusal(s), HasSubstr("2 faces fit"));
+  EXPECT_THAT(refusal(s), HasSubstr("2 faces match"));
 }
 
 TEST(SelectorsByBox, SayWhichFacesTheBoxCutsThrough)
