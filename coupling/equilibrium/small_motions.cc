@@ -36,7 +36,7 @@ std::string Growth::text(const Machine &machine) const
   text << std::setprecision(3) << "the motion of " << machine.coordinate_name(int(most)) << " grows by exp(" << rate
        << " t/s)";
   if (hz > 0.)
-    text << " as it vibrates with " << hz << " Hz";
+    text << " while vibrating at " << hz << " Hz";
   return text.str();
 }
 

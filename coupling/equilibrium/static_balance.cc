@@ -151,15 +151,14 @@ std::string mechanism_mode_text(const Machine &machine, const VectorXd &motion)
     std::string free;
     for (const std::string &name : frame->facts.free_motions)
       free += (free.empty() ? "" : ", ") + name;
-    return "the frame moves as a whole under the loads, for nothing holds it well enough (without elements it is free "
-           "in " +
-           std::to_string(frame->facts.free_motions.size()) + " ways: " + free +
+    return "the frame moves as a rigid body under the loads (without elements it has " +
+           std::to_string(frame->facts.free_motions.size()) + " rigid-body modes: " + free +
            "); give it a support ([frame.support.NAME]) or elements to the ground";
   }
   Eigen::Index most = 0;
   motion.cwiseAbs().maxCoeff(&most);
   return "the motion of " + machine.coordinate_name(int(most)) +
-         " has neither stiffness nor weight that holds it here; hold it";
+         " has neither stiffness nor weight to restore it here; add a spring, a joint or a support";
 }
 
 } // namespace gestell::coupling

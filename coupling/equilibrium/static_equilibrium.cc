@@ -63,9 +63,9 @@ public:
     {
       if (Eigen::FullPivLU<MatrixXd>(K).setThreshold(cancelled).isInvertible())
         return; // nothing floats
-      throw std::invalid_argument("inertia relief does not know forces that follow the motion, such as a load with "
-                                  "carried_by, of a machine that nothing holds: there is no one acceleration that "
-                                  "balances them; hold the machine, or start with rule = \"given\"");
+      throw std::invalid_argument(
+          "inertia relief is not available for follower forces, such as a load with carried_by, on an unsupported "
+          "machine: no single acceleration balances them; support the machine, or start with rule = \"given\"");
     }
     const DenseModes modes = dense_modes(K, Z.transpose() * M_ * Z, cancelled);
     const auto       n     = ((modes.omega.array() + modes.growth.array()) == 0.).count();
@@ -87,8 +87,9 @@ public:
     const MatrixXd translations = floating_.transpose() * loads; // R^T M of unit translations: their squares are masses
     const VectorXd acceleration = -floating_.transpose() * residual.head(n_);
     std::ostringstream text;
-    text << "nothing holds the machine in " << floating_.cols() << (floating_.cols() == 1 ? " motion" : " motions")
-         << "; its inertia takes the loads along them, with a mean acceleration of [" << std::setprecision(4);
+    text << "the machine is unsupported in " << floating_.cols()
+         << (floating_.cols() == 1 ? " rigid-body mode" : " rigid-body modes")
+         << "; inertia relief balances the loads on them, with a mean acceleration of [" << std::setprecision(4);
     for (int d = 0; d < 3; ++d)
     {
       const double mass = translations.col(d).squaredNorm();
@@ -117,22 +118,22 @@ public:
       return;
     if (found && !growth.falls())
     {
-      notes_.push_back("the machine starts in an equilibrium that forces that follow the motion leave by a flutter: " +
-                       growth.text(machine_) + " if no damper prevents it");
+      notes_.push_back("the machine starts in an equilibrium that follower forces make unstable by flutter: " +
+                       growth.text(machine_) + " unless a damper prevents it");
       return;
     }
     if (found && largest(q_ - begin) <= stays)
     {
       notes_.push_back("the machine starts in an unstable equilibrium: " + growth.text(machine_) +
-                       "; disturb it if it is to fall, or hold it");
+                       "; disturb it to make it fall, or add a support");
       return;
     }
     const VectorXd unstable = q_;
     if (balance_.holds() || floating_.cols() > 0 || !relax(begin))
       no_equilibrium(found);
     else if (found && largest(q_ - unstable) > stays)
-      notes_.push_back("the equilibrium next to the position of the start is unstable, " + growth.text(machine_) +
-                       " there: the machine starts from the stable one that it falls to");
+      notes_.push_back("the equilibrium next to the initial position is unstable, " + growth.text(machine_) +
+                       " there: the machine starts from the stable equilibrium into which it falls");
   }
 
   /// K v - A^T lambda' = 0,  A v = -dg/dt  with A = G W^T.
@@ -168,12 +169,12 @@ private:
     std::ostringstream message;
     if (!loose_.empty())
       message << "there is no static equilibrium: " << loose_
-              << ", start from another position, with inertia_relief = true if it is to accelerate as a whole, or with "
-                 "rule = \"given\"";
+              << ", start from another position, with inertia_relief = true if the whole machine may accelerate, or "
+                 "with rule = \"given\"";
     else
-      message << "no " << (unstable ? "stable " : "") << "static equilibrium was found near the position of the start, "
-              << (balance_.holds() ? "even with the loads put on in " + std::to_string(most_parts) + " parts"
-                                   : std::string("nor does the machine settle in one when it is let go from there"))
+      message << "no " << (unstable ? "stable " : "") << "static equilibrium was found near the initial position, "
+              << (balance_.holds() ? "even with the loads applied in " + std::to_string(most_parts) + " steps"
+                                   : std::string("nor does the machine settle in one after release from there"))
               << "; give a better position, or start with rule = \"given\"";
     throw std::invalid_argument(message.str());
   }
@@ -399,7 +400,7 @@ InitialState static_equilibrium(Machine &machine, const InitialState &assembled,
 {
   if (machine.model().full_frame())
     throw std::invalid_argument(
-        "a static start needs a reduced frame; give [reduction], or start with rule = \"given\"");
+        "a static initial state needs a reduced frame; give [reduction], or start with rule = \"given\"");
   Equilibrium equilibrium(machine, assembled);
   if (floating == Floating::relieved)
     equilibrium.relieve();

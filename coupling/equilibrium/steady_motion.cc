@@ -199,8 +199,8 @@ Demands elastic_demands(const Machine &machine, const VectorXd &q, const MatrixX
 [[noreturn]] void refuse_speeds()
 {
   throw std::invalid_argument(
-      "the joints make the speeds given in start.v depend on each other, or leave one of them no "
-      "motion; a steady start takes those of the drives alone, and the joints give the others");
+      "the joints make the speeds in start.v depend on each other, or block one of them; for a steady initial state "
+      "give the speeds of the drives only, the joints determine the others");
 }
 
 /// Least squares may leave elastic closures open: not by more than their deflections explain, beside what a motion x of
@@ -231,10 +231,10 @@ void require_agreement(const Machine &machine, const SatisfiedPlays &plays, cons
     if (rate > part && (sizes.array() > part).count() > 1)
     {
       std::ostringstream text;
-      text << "the speeds given in start.v contradict each other across the play of \"" << own.name
-           << "\", which closes at " << rate
-           << " m/s (or rad/s); a steady start takes those of the drives alone, and plays give the others; for an "
-              "impact take rule = \"given\"";
+      text << "the speeds in start.v contradict each other across the play of \"" << own.name << "\", which closes at "
+           << rate
+           << " m/s (or rad/s); for a steady initial state give the speeds of the drives only, plays determine the "
+              "others; for an impact use rule = \"given\"";
       throw std::invalid_argument(text.str());
     }
   }

@@ -35,10 +35,9 @@ void check_driver(const SteadyStart &start, const Kinematics &kinematics)
 {
   const long n_given = std::count(kinematics.given.begin(), kinematics.given.end(), true);
   if (n_given != (kinematics.driver >= 0 ? 1 : 0))
-    throw std::invalid_argument(
-        "start: " + std::to_string(n_given) + " angles are given and " +
-        (start.driver.empty() ? "no driver" : "one driver") +
-        "; each given angle replaces the balance of one driver, so give one of each, or neither");
+    throw std::invalid_argument("start: " + std::to_string(n_given) + " angles are given and " +
+                                (start.driver.empty() ? "no driver" : "one driver") +
+                                "; each given angle replaces the balance of one driver, so give one of each, or none");
 }
 
 Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
@@ -181,13 +180,14 @@ private:
 [[noreturn]] void refuse(const Machine &machine, const DrivenEquilibrium &equilibrium, double unbalanced)
 {
   std::ostringstream message;
-  message << "start: no equilibrium; " << unbalanced << " N (or N m) stay unbalanced";
+  message << "start: no equilibrium; residual force " << unbalanced << " N (or N m)";
   const int free = equilibrium.free_coordinate();
   if (free < 0)
-    throw ConvergenceFailure(message.str() + " after Newton's iterations; start from another angle or give the state");
+    throw ConvergenceFailure(message.str() +
+                             " after the Newton iterations; start from another angle or give the state");
   throw std::invalid_argument(
-      message.str() + ", for nothing holds the motion of " + machine.coordinate_name(free) +
-      ": hold the frame by a support or the body by an element, or give an angle and its driver");
+      message.str() + ": unconstrained DOF " + machine.coordinate_name(free) +
+      "; add a support to the frame or an element to the body, or give an angle and its driver");
 }
 
 } // namespace
@@ -195,9 +195,8 @@ private:
 InitialState steady_start(Machine &machine, const SteadyStart &start)
 {
   if (has_joints(machine))
-    throw std::invalid_argument(
-        "angles, speeds and driver do not close joints; give a steady start the position and the "
-        "speed of what drives as q and v instead, and the joints make the rest");
+    throw std::invalid_argument("angles, speeds and driver do not work with joints; for a steady initial state give "
+                                "position and speed of the driving bodies as q and v, the joints determine the rest");
   const Kinematics kinematics = kinematics_of(machine, start);
   InitialState     state      = kinematics.state;
   if (std::count(kinematics.given.begin(), kinematics.given.end(), false) == 0)
@@ -261,7 +260,7 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
   const bool given =
       std::any_of(known.v_given.begin() + machine.model().n_frame(), known.v_given.end(), [](char g) { return g; });
   if (!given && known.rates.empty() && known.spins.empty())
-    throw std::invalid_argument("a steady start needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
+    throw std::invalid_argument("a steady initial state needs the speed of a drive, as in v = { crank = \"30 rpm\" }");
   InitialState     state   = assemble(machine, known, BehindPlay::followed);
   const KnownStart held    = held_at(machine, known, state);
   const auto       largest = [sizes = coordinate_sizes(machine)](const Eigen::VectorXd &x)
@@ -278,9 +277,8 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
     if (change <= least_change * std::max(1e-3, largest(state.q)))
       return state;
   }
-  throw std::invalid_argument(
-      "no steady motion was found from the position of the start: the deflections by inertia do "
-      "not settle; give a lower speed, a better position, or start with rule = \"given\"");
+  throw std::invalid_argument("no steady motion was found from the initial position: the deflections by inertia do not "
+                              "converge; give a lower speed, a better position, or start with rule = \"given\"");
 }
 
 } // namespace gestell::coupling

@@ -70,13 +70,13 @@ void BulkCards::add_fields()
       if (fields_.size() < first + count)
         fields_.push_back(text);
       else if (!text.empty() && text[0] != '+' && text[0] != '*') // a mark of the continuation
-        file_.fail("a line has " + std::to_string(count) + " fields behind its name, and '" + std::string(text) +
+        file_.fail("a line has " + std::to_string(count) + " fields after its name, and '" + std::string(text) +
                    "' is one more; write it in a line that begins with a comma");
     }
   else
   {
     if (line.find('\t') != std::string_view::npos)
-      file_.fail("tabs do not tell which column a number is in; write blanks or commas");
+      file_.fail("columns cannot be inferred from tabs; write blanks or commas");
     const std::size_t width = large ? large_width : small_width;
     for (std::size_t i = 0, at = name_width; i < count && at < line.size(); ++i, at += width)
       fields_.push_back(trimmed(line.substr(at, width)));

@@ -101,10 +101,10 @@ private:
     const long  node      = whole(cards, at, "the number of a grid or scalar point");
     const long  component = field[at + 1].empty() ? 0 : whole(cards, at + 1, "its component, 0 to 6");
     if (node < 1)
-      file_.fail_at(cards.lines()[at], "there is no point " + std::to_string(node) + "; points count from 1");
+      file_.fail_at(cards.lines()[at], "there is no point " + std::to_string(node) + "; numbers of points start at 1");
     if (component < 0 || component > 6)
       file_.fail_at(cards.lines()[at], "component " + std::to_string(component) + " of point " + std::to_string(node) +
-                                           " is none: 1 to 6 are motions of a grid point, 0 is a scalar point");
+                                           " does not exist: 1 to 6 are DOFs of a grid point, 0 is a scalar point");
     return {node, is_point(node) ? 0 : int(component)};
   }
 
@@ -112,14 +112,14 @@ private:
   {
     const auto &field = cards.fields();
     if (field[header_name].empty())
-      file_.fail_at(cards.line(), "a DMIG card has no name of its matrix");
+      file_.fail_at(cards.line(), "a DMIG card has no matrix name");
     const std::string name = capitals(field[header_name]);
     if (field[header_zero] == "0")
       return take_header(cards, name);
     const auto known = collected_.find(name);
     if (known == collected_.end())
-      file_.fail_at(cards.line(), "a column of " + name + " comes before its header DMIG, " + name +
-                                      ", 0, IFO, TIN, TOUT; is the beginning of the file cut off?");
+      file_.fail_at(cards.line(), "a column of " + name + " precedes its header DMIG, " + name +
+                                      ", 0, IFO, TIN, TOUT; the beginning of the file may be missing");
     if (!known->second.is_left_out)
       take_column(cards, name, known->second);
   }
@@ -135,14 +135,13 @@ private:
     matrix.is_symmetric = form == symmetric;
     matrix.is_left_out  = form == rectangular || form == rectangular_by_numbers;
     if (!matrix.is_left_out && (type < 1 || type > last_type))
-      file_.fail_at(cards.line(), name + " is of the type (TIN) " + std::to_string(type) + "; 1 and 2 are real");
+      file_.fail_at(cards.line(), name + " has the type (TIN) " + std::to_string(type) + "; 1 and 2 are real");
     if (!matrix.is_left_out && type >= first_complex)
-      file_.fail_at(cards.line(),
-                    name + " is complex (TIN " + std::to_string(type) +
-                        "); a machine in time takes real matrices. Export stiffness and damping apart, as "
-                        "real ones: structural damping as K4AAX, or leave it out and give 'damping'");
+      file_.fail_at(cards.line(), name + " is complex (TIN " + std::to_string(type) +
+                                      "); real matrices are needed. Export stiffness and damping separately, as real "
+                                      "matrices: structural damping as K4AAX, or omit it and give 'damping'");
     if (!collected_.emplace(name, std::move(matrix)).second)
-      file_.fail_at(cards.line(), name + " has a header already; each matrix needs a name of its own");
+      file_.fail_at(cards.line(), name + " has a header already; each matrix needs its own name");
   }
 
   void take_column(const BulkCards &cards, const std::string &name, Collected &matrix)
@@ -157,7 +156,7 @@ private:
       const long line = cards.lines()[at];
       if (field[at + 2].empty())
         file_.fail_at(line, "the entry of " + name + " for point " + std::string(field[at]) +
-                                " has no value; the file is cut off, or its columns are shifted");
+                                " has no value; the file is truncated, or its columns are shifted");
       if (at + 3 < field.size() && !field[at + 3].empty() && file_.real(field[at + 3], "an imaginary part") != 0.)
         file_.fail_at(line, "an entry of " + name + " has an imaginary part; real matrices are needed");
       matrix.entries.push_back({matrix.row(label(cards, at)), column, real(cards, at + 2), line});

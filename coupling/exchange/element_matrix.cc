@@ -92,20 +92,20 @@ private:
       if (fields.empty()) // commas alone
         continue;
       if (nodes.empty())
-        file_.fail("directions come before the nodes they are of; expected a remark '** ELEMENT NODES' with their "
+        file_.fail("directions precede their nodes; expected a comment '** ELEMENT NODES' with their "
                    "numbers, as CalculiX and Abaqus write it");
       if (!directions.empty()) // of a node further on
       {
         const long to = file_.whole(fields[0], "the position of a node in the element");
         if (to <= long(position) || to > long(nodes.size()))
-          file_.fail("the element has nodes 1 to " + std::to_string(nodes.size()) + ", each after the one before");
+          file_.fail("the element has nodes 1 to " + std::to_string(nodes.size()) + ", in ascending order");
         add_rows(nodes, position, std::size_t(to - 1), directions);
         position = std::size_t(to - 1);
         from     = 1;
       }
       directions.clear();
       if (fields.size() - from > most_directions)
-        file_.fail("a node has " + std::to_string(fields.size() - from) + " directions; it has no more than 6 motions");
+        file_.fail("a node has " + std::to_string(fields.size() - from) + " directions; a node has at most 6 DOFs");
       for (; from < fields.size(); ++from)
         directions.push_back(direction(fields[from]));
     }
@@ -118,7 +118,7 @@ private:
   {
     const long d = file_.whole(field, "a direction, 1 to 6");
     if (d < 1 || d > 6)
-      file_.fail("direction " + std::to_string(d) + " is no motion: 1 to 3 are displacements, 4 to 6 rotations");
+      file_.fail("direction " + std::to_string(d) + " is not a DOF: 1 to 3 are displacements, 4 to 6 rotations");
     return int(d);
   }
 
@@ -134,7 +134,7 @@ private:
     std::set<RowLabel> visited;
     for (const RowLabel &row : rows_)
       if (!visited.insert(row).second)
-        file_.fail(text_of(row) + " is a row of the element twice");
+        file_.fail(text_of(row) + " is twice in the element");
   }
 
   bool read_matrix(std::map<std::string, LabelledMatrix> &matrices)
@@ -143,9 +143,9 @@ private:
     const std::size_t n      = rows_.size();
     const long        header = file_.number();
     if (n == 0)
-      file_.fail("a matrix comes before its *USER ELEMENT, which tells its rows");
+      file_.fail("a matrix precedes its *USER ELEMENT, which defines its rows");
     if (type.empty() || matrices.count(type) > 0)
-      file_.fail(type.empty() ? "expected TYPE=STIFFNESS or TYPE=MASS" : type + " is there twice");
+      file_.fail(type.empty() ? "expected TYPE=STIFFNESS or TYPE=MASS" : type + " is given twice");
     std::vector<FileEntry> entries;
     std::size_t            row = 0, column = 0;
     bool                   is_there;
@@ -153,7 +153,7 @@ private:
       for (const std::string_view field : is_remark() ? std::vector<std::string_view>{} : fields_of(file_.line()))
       {
         if (row == n)
-          file_.fail("there are more numbers than the lower triangle of " + std::to_string(n) + " rows has");
+          file_.fail("there are more numbers than in the lower triangle of " + std::to_string(n) + " rows");
         entries.push_back({int(row), int(column), file_.real(field, "an entry"), file_.number()});
         if (++column > row)
         {
@@ -164,7 +164,7 @@ private:
     if (row < n)
       file_.fail_at(header, "the lower triangle of " + std::to_string(n) + " rows has " +
                                 std::to_string(n * (n + 1) / 2) + " numbers, but " + std::to_string(entries.size()) +
-                                " follow; the file is cut off");
+                                " follow; the file is truncated");
     matrices[type] = {assembled(file_, std::move(entries), int(n), Triangles::one, rows_), rows_};
     return is_there;
   }

@@ -55,7 +55,7 @@ public:
     while (at_ >= line_.size() || trimmed(line_.substr(at_)).empty())
     {
       if (!file_.next())
-        file_.fail_at_end(std::to_string(left_) + " " + what_ + " are still announced; it is cut off");
+        file_.fail_at_end(std::to_string(left_) + " " + what_ + " are still announced; it is truncated");
       line_ = file_.line();
       at_   = 0;
     }
@@ -135,8 +135,8 @@ private:
     if (const long most = long(file_.size());
         head.rows < 1 || head.entries < 1 || head.rows > most || head.entries > most / 2)
       file_.fail(std::to_string(head.rows) + " rows with " + std::to_string(head.entries) +
-                 " entries cannot stand in a file of " + std::to_string(most) +
-                 " bytes; it is cut off, or its head wrong");
+                 " entries do not fit in a file of " + std::to_string(most) +
+                 " bytes; the file is truncated, or its header is wrong");
     line("formats");
     const std::string_view text(file_.line());
     const auto             pointers = format_of(gestell::coupling::columns(text, 0, 16)),
@@ -155,20 +155,21 @@ private:
   void require_kind(const std::string &type) const
   {
     if (type[0] == 'C')
-      file_.fail("the matrix is complex; real ones are needed. Write stiffness, mass and damping apart: HBMAT with "
-                 "STIFF, MASS and DAMP");
+      file_.fail(
+          "the matrix is complex; real matrices are needed. Write stiffness, mass and damping separately: HBMAT with "
+          "STIFF, MASS and DAMP");
     if (type[0] == 'P')
-      file_.fail("the file holds a pattern and no values; write the matrix itself");
+      file_.fail("the file contains a pattern without values; write the matrix itself");
     if (type[2] == 'E')
-      file_.fail("the file holds matrices of elements, not assembled; write the assembled one (type RSA or RUA)");
+      file_.fail("the file contains element matrices; write the assembled matrix (type RSA or RUA)");
     if (type[1] != 'S' && type[1] != 'U')
-      file_.fail("'" + type + "' is no symmetric matrix; RSA and RUA are read");
+      file_.fail("'" + type + "' is not a symmetric matrix; RSA and RUA are read");
   }
 
   void require_ascending(const std::vector<long> &first, long entries) const
   {
     if (first.front() != 1 || first.back() != entries + 1 || !std::is_sorted(first.begin(), first.end()))
-      file_.fail("the pointers to columns must rise from 1 to " + std::to_string(entries + 1) +
+      file_.fail("the pointers to columns must increase from 1 to " + std::to_string(entries + 1) +
                  ", one more than entries");
   }
 
@@ -176,7 +177,7 @@ private:
   {
     const long i = file_.whole(field, "the number of a row");
     if (i < 1 || i > rows)
-      file_.fail("there is no row " + std::to_string(i) + "; rows count from 1 to " + std::to_string(rows));
+      file_.fail("there is no row " + std::to_string(i) + "; rows are from 1 to " + std::to_string(rows));
     return int(i - 1);
   }
 

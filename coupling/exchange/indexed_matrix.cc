@@ -42,10 +42,10 @@ LabelledMatrix read_indexed_matrix(const std::string &name)
     const std::string_view rest   = first == std::string_view::npos ? line.substr(0, 0) : trimmed(line.substr(first));
     const auto             second = rest.find_first_of(" \t");
     if (second == std::string_view::npos)
-      file.fail(std::string("expected ") + form + "; is the file cut off?");
+      file.fail(std::string("expected ") + form + "; the file may be truncated");
     const long row = file.whole(line.substr(0, first), form), column = file.whole(rest.substr(0, second), form);
     if (row < 1 || column < 1 || row > most || column > most)
-      file.fail("rows and columns count from 1, and a file of this length holds no more than " + std::to_string(most) +
+      file.fail("rows and columns start at 1, and a file of this length has at most " + std::to_string(most) +
                 ", each with an entry on the diagonal");
     entries.push_back({int(row - 1), int(column - 1), file.real(rest.substr(second), form), file.number()});
     if (entries.size() == 1)
@@ -57,8 +57,8 @@ LabelledMatrix read_indexed_matrix(const std::string &name)
     file.fail_at_end(std::string("it has no entry; expected lines ") + form);
   if (is_head(first_value, entries))
     file.fail_at(entries.front().line,
-                 "is a head line 'rows columns entries', which this format has not; leave it out, "
-                 "or write '%%MatrixMarket matrix coordinate real symmetric' above it");
+                 "is a header line 'rows columns entries', which this format does not have; remove it, or write "
+                 "'%%MatrixMarket matrix coordinate real symmetric' above it");
   const auto triangles = below && above ? Triangles::both : Triangles::one;
   return {assembled(file, std::move(entries), int(n), triangles, {})};
 }

@@ -35,10 +35,10 @@ void refuse_repeated(const TextFile &file, std::vector<FileEntry> &entries, Tria
     return;
   const FileEntry &again = *std::next(twice);
   file.fail_at(again.line, "the entry of row " + name_of_row(rows, again.row) + " and column " +
-                               name_of_row(rows, again.column) + " is there a second time; the first stands in line " +
+                               name_of_row(rows, again.column) + " is a duplicate; the first is in line " +
                                std::to_string(twice->line) +
                                (triangles == Triangles::one ? ". A symmetric matrix gives each pair once" : "") +
-                               "; entries are no parts of a sum, write each of them once");
+                               "; duplicates are not added, write each entry once");
 }
 
 } // namespace

@@ -124,7 +124,7 @@ const LabelledMatrix &matrix_for(const Matrices &matrices, MatrixRole role, cons
   throw std::invalid_argument(file + ": has no matrix " + names.punched + " or " + names.type + ", but " +
                               list_of(matrices) + "; write matrix_names = { " + names.word +
                               " = \"NAME\" } if one of them is the " + names.word +
-                              ", else let the program write it, or name another file");
+                              ", otherwise let the program write it, or name another file");
 }
 
 } // namespace gestell::coupling

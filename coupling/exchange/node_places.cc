@@ -122,10 +122,10 @@ void CoordinateSystems::add(const TextFile &file, long number, const Card &card,
   const Eigen::Vector3d a = basic(0), z = (basic(1) - a).normalized(), y = z.cross((basic(2) - a).normalized());
   if (!a.allFinite() || !z.allFinite() || !y.allFinite())
     file.fail_at(card.line, "the points of coordinate system " + std::to_string(number) +
-                                " lie so far out that their distances are no numbers; check its columns");
+                                " are so far away that their distances are not finite; check its columns");
   if (!(y.norm() > on_a_line))
     file.fail_at(card.line, "the three points of coordinate system " + std::to_string(number) +
-                                " lie on a line, which says nothing of its axes");
+                                " are on a line, which leaves its axes undefined");
   System system;
   system.origin      = a;
   system.axes.col(2) = z;
@@ -163,7 +163,7 @@ constexpr int         most_files = 1000, deepest_file = 20; ///< that include ea
 
 std::string elsewhere(long node)
 {
-  return "node " + std::to_string(node) + " has a place already, another one; keep one of them";
+  return "node " + std::to_string(node) + " already has another position; remove one of them";
 }
 
 long number_of_system(const TextFile &file, std::string_view number)
@@ -179,11 +179,10 @@ const CoordinateSystems::System &system_of(const TextFile &file, const BulkCards
   const long id = number_of_system(file, number);
   if (const auto *system = systems.find(id))
     return *system;
-  file.fail_at(card.line(),
-               "grid point " + std::string(card.fields()[0]) + " counts its " + what + " in coordinate system " +
-                   std::to_string(id) +
-                   ", which no CORD2R card of this file gives; others than rectangular ones are not taken: "
-                   "write the point in the basic system, and the matrices with CD = 0 there");
+  file.fail_at(card.line(), "grid point " + std::string(card.fields()[0]) + " gives its " + what +
+                                " in coordinate system " + std::to_string(id) +
+                                ", which no CORD2R card of this file defines; only rectangular systems are supported: "
+                                "write the point in the basic system, and the matrices with CD = 0 there");
 }
 
 void read_grids(const std::string &name, UnknownPlaces unknown, Found &found)
@@ -226,7 +225,7 @@ void read_grids(const std::string &name, UnknownPlaces unknown, Found &found)
       const Eigen::Vector3d basic = of_place.origin + of_place.axes * Eigen::Vector3d(x[0], x[1], x[2]);
       x                           = {basic[0], basic[1], basic[2]};
       if (!basic.allFinite())
-        file.fail_at(cards.line(), "the place of grid point " + std::to_string(node) + " is beyond all numbers");
+        file.fail_at(cards.line(), "the position of grid point " + std::to_string(node) + " is not finite");
     }
     if (found.contradicts(node, x))
       file.fail_at(cards.line(), elsewhere(node));
@@ -243,11 +242,11 @@ public:
   {
     fem::InpLines lines(name);
     if (!lines.opened())
-      throw std::invalid_argument(name + ": cannot be read; it is the INPUT of another file, check its path");
+      throw std::invalid_argument(name + ": cannot be read; another file names it as INPUT, check its path");
     if (depth > deepest_file || ++n_files_ > most_files)
-      throw std::invalid_argument(name + ": is one of more than " + std::to_string(most_files) + " files, or " +
-                                  std::to_string(deepest_file) +
-                                  " deep, that include each other; does one include itself? Write one file");
+      throw std::invalid_argument(
+          name + ": is one of more than " + std::to_string(most_files) + " files, or " + std::to_string(deepest_file) +
+          " levels deep, that include each other; check whether one includes itself, or write one file");
     const auto refused = [&](const std::string &what)
     { return std::invalid_argument(name + ":" + std::to_string(lines.number()) + ": " + what); };
     std::string keyword_before;
@@ -257,12 +256,12 @@ public:
       {
         const fem::InpKeyword keyword = lines.keyword();
         if (keyword.name == "TRANSFORM")
-          throw refused("*TRANSFORM turns the directions of nodes, and the rows of the matrices with them; only global "
-                        "directions are taken, leave it out");
+          throw refused("*TRANSFORM rotates the directions of nodes and the rows of the matrices; only global "
+                        "directions are supported, remove it");
         in_nodes       = keyword.name == "NODE";
         keyword_before = keyword.name;
         if (in_nodes && keyword.has("SYSTEM") && keyword["SYSTEM"] != "R" && keyword["SYSTEM"] != "r")
-          throw refused("nodes in a system other than rectangular are not taken; write their x, y, z");
+          throw refused("only nodes in rectangular systems are supported; write their x, y, z");
         if (const std::string other = fem::input_of(keyword, name);
             !other.empty() && (in_nodes || keyword.name == "INCLUDE"))
           read(other, in_nodes, depth + 1);
@@ -288,7 +287,7 @@ private:
       {
         const auto coordinate = real_of(fields[d + 1]);
         if (!coordinate || !std::isfinite(*coordinate))
-          throw refused("'" + fields[d + 1] + "' is no coordinate; expected the number of a node and its x, y, z");
+          throw refused("'" + fields[d + 1] + "' is not a coordinate; expected the number of a node and its x, y, z");
         x[d] = *coordinate;
       }
     if (found_.wants(*node) && found_.contradicts(*node, x))
@@ -303,8 +302,8 @@ private:
     const auto is_zero = [](const std::string &field) { return field.empty() || real_of(field) == 0.; };
     if (!std::all_of(fields.begin(), fields.end(), is_zero))
       throw refused("*" + keyword +
-                    " moves or turns the nodes by this line; only places in the global system are "
-                    "taken: write the nodes there (Abaqus: a flat input file without parts), or give "
+                    " moves or rotates the nodes by this line; only positions in the global system are supported: "
+                    "write the nodes there (Abaqus: a flat input file without parts), or give "
                     "a table with the columns node, x, y, z");
   }
 
@@ -329,7 +328,8 @@ void read_nblocks(const std::string &name, Found &found)
     {
       const auto value = whole_of(found_form[i].str());
       if (!value || *value < 1 || *value > longest_line)
-        file.fail("'" + found_form[i].str() + "' is no number of columns; expected a format such as (3i9,6e21.13e3)");
+        file.fail("'" + found_form[i].str() +
+                  "' is not a number of columns; expected a format such as (3i9,6e21.13e3)");
       return std::size_t(*value);
     };
     const std::size_t integers = number(1), integer_width = number(2), width = number(4);
@@ -345,8 +345,8 @@ void read_nblocks(const std::string &name, Found &found)
           value[i] = file.real(field, "a coordinate");
       if (value[3] != 0. || value[4] != 0. || value[5] != 0.)
         file.fail("node " + std::to_string(node) +
-                  " counts its motions in a system turned against the global one; only "
-                  "global directions are taken: rotate it back (NROTAT, NMODIF) before the matrices are written");
+                  " has DOFs in a system rotated relative to the global one; only "
+                  "global directions are supported: rotate it back (NROTAT, NMODIF) before the matrices are written");
       if (found.contradicts(node, {value[0], value[1], value[2]}))
         file.fail(elsewhere(node));
     }

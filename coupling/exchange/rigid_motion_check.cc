@@ -208,9 +208,9 @@ std::string statement_of(const RigidMotionCheck &check)
   text += ", centre " + place_text({check.centre[0], check.centre[1], check.centre[2]});
   const std::string quiet = std::to_string(check.n_quiet) + " of " + std::to_string(check.n_rows) + " rows";
   if (check.n_quiet == 0)
-    return text + "; all rows feel supports, so that the stiffness cannot tell whether places belong to rows";
-  text += check.n_quiet == check.n_rows ? "; free: " : "; " + quiet + " feel no support: ";
-  return text + "of the forces that cancel in a row translations leave " +
+    return text + "; supports act on all rows, so the stiffness cannot verify the positions of the rows";
+  text += check.n_quiet == check.n_rows ? "; free: " : "; " + quiet + " are without support: ";
+  return text + "translations leave, relative to the forces that cancel in a row, " +
          (check.n_quiet == check.n_rows ? share_text(check.translation_residual) : "less than 0.001") + ", rotations " +
          share_text(check.rotation_residual);
 }
@@ -218,24 +218,23 @@ std::string statement_of(const RigidMotionCheck &check)
 std::string suspicion_of(const RigidMotionCheck &check, const std::vector<RowLabel> &rows)
 {
   if (check.n_disturbed > 0)
-    return "the places of nodes do not fit the stiffness: turned as a rigid body, " +
+    return "the positions of nodes do not match the stiffness: under rigid-body rotation, " +
            std::to_string(check.n_disturbed) + " of " + std::to_string(check.n_quiet) +
-           " rows without support answer with forces, the worst (" + text_of(rows[std::size_t(check.worst)]) +
-           ") with " + share_text(check.rotation_residual) +
-           " of those that cancel in it. Is the table of nodes of another model, in another unit or order, or are rows "
-           "of "
-           "rotations missing?";
+           " rows without support have forces, the worst (" + text_of(rows[std::size_t(check.worst)]) + ") with " +
+           share_text(check.rotation_residual) +
+           " of the forces that cancel in it. The table of nodes may be of another model, unit or order, or rows of "
+           "rotations may be missing";
   const bool is_free = check.n_free >= 6 || check.n_quiet == check.n_rows;
   if (check.n_free >= 6 && check.n_quiet < check.n_rows)
-    return "the stiffness leaves " + std::to_string(check.n_free) +
-           " motions free, but not those of a rigid body by the nodes: moved without turning, rows answer with " +
+    return "the stiffness has " + std::to_string(check.n_free) +
+           " free motions, but not the rigid-body modes of the nodes: under translation, rows have " +
            share_text(check.translation_residual) +
-           " of the forces that cancel in them. Do the rows belong to other nodes or directions?";
+           " of the forces that cancel in them. The rows may be of other nodes or directions";
   const double largest = check.mass.maxCoeff();
   const double least = (check.mass.array() > 0.).select(check.mass, largest).minCoeff(); // of directions that have rows
   if (is_free && least < (1. - alike) * largest)
-    return "the frame is free, but weighs " + rounded(check.mass[0]) + ", " + rounded(check.mass[1]) + " and " +
-           rounded(check.mass[2]) + " kg by motions in x, y and z; do the rows of mass and stiffness belong together?";
+    return "the frame is free, but its mass is " + rounded(check.mass[0]) + ", " + rounded(check.mass[1]) + " and " +
+           rounded(check.mass[2]) + " kg in x, y and z; check that mass and stiffness have the same rows";
   return "";
 }
 

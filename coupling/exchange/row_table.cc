@@ -23,7 +23,7 @@ RowLabel node_and_direction(const TextFile &file, std::string_view word)
   const long node      = file.node(word.substr(0, dot));
   const long direction = file.whole(word.substr(dot + 1), "a direction, 1 to 6");
   if (direction < 1 || direction > 6)
-    file.fail("direction " + std::to_string(direction) + " is no motion: 1 to 3 are displacements, 4 to 6 rotations");
+    file.fail("direction " + std::to_string(direction) + " is not a DOF: 1 to 3 are displacements, 4 to 6 rotations");
   return {node, int(direction)};
 }
 
@@ -31,7 +31,7 @@ RowLabel node_and_motion(const TextFile &file, std::string_view node, std::strin
 {
   const auto found = std::find(ansys_motions.begin(), ansys_motions.end(), capitals(motion));
   if (found == ansys_motions.end())
-    file.fail("'" + std::string(motion) + "' is no motion of a frame: UX, UY, UZ, ROTX, ROTY and ROTZ are");
+    file.fail("'" + std::string(motion) + "' is not a DOF of a frame; give UX, UY, UZ, ROTX, ROTY or ROTZ");
   return {file.node(node), int(found - ansys_motions.begin()) + 1};
 }
 
@@ -54,11 +54,11 @@ public:
   {
     const long row = file_.whole(number, "the number of a row");
     if (row < 1 || row > long(file_.size()))
-      file_.fail("rows count from 1, and a file of this length has not so many");
+      file_.fail("rows start at 1, and a file of this length has fewer");
     if (std::size_t(row) > rows_.size())
       rows_.resize(std::size_t(row));
     if (rows_[std::size_t(row) - 1].node != 0)
-      file_.fail("row " + std::to_string(row) + " is there already");
+      file_.fail("row " + std::to_string(row) + " already exists");
     rows_[std::size_t(row) - 1] = label;
   }
 
@@ -99,7 +99,7 @@ std::vector<RowLabel> read_row_table(const std::string &name)
     else
       file.fail("expected 'node.direction' of CalculiX or 'row node motion' of Ansys, such as 12.3 or 5 12 UZ");
     if (has_numbers && !listed.empty())
-      file.fail("lines of two kinds are mixed");
+      file.fail("lines of both forms are mixed");
   }
   if (has_numbers)
     listed = numbered.complete();

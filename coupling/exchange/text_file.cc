@@ -17,7 +17,7 @@ namespace
 constexpr std::size_t longest_number = 60, shown_letters = 60, judged_bytes = 4096;
 
 const char *const text_of_program =
-    "is no text: binary files of finite element programs are not read. Let the program write text: Nastran DMIG "
+    "is not text: binary files of finite element programs are not read. Let the program write text: Nastran DMIG "
     "(EXTSEOUT(...,DMIGPCH), PARAM,EXTOUT,DMIGPCH), Ansys HBMAT with Form = ASCII or *EXPORT,...,MMF, "
     "CalculiX *FREQUENCY,SOLVER=MATRIXSTORAGE";
 
@@ -31,7 +31,7 @@ std::string contents(const std::string &name)
   file.seekg(0);
   file.read(text.data(), std::streamsize(text.size()));
   if (std::size_t(file.gcount()) != text.size())
-    throw std::invalid_argument(name + ": cannot be read to its end; is it a file?");
+    throw std::invalid_argument(name + ": cannot be read to its end; check that it is a file");
   return text;
 }
 
@@ -111,7 +111,7 @@ double TextFile::real(std::string_view field, const char *what) const
     fail(std::string("expected ") + what);
   const auto value = real_of(field);
   if (!value)
-    fail("'" + std::string(field) + "' is no number; expected " + what);
+    fail("'" + std::string(field) + "' is not a number; expected " + what);
   if (!std::isfinite(*value))
     fail("'" + std::string(field) + "' is not a finite number; the program that wrote it failed, or divided by zero");
   return *value;
@@ -121,7 +121,7 @@ long TextFile::whole(std::string_view field, const char *what) const
 {
   const auto value = whole_of(field);
   if (!value)
-    fail("'" + std::string(trimmed(field)) + "' is no whole number; expected " + what);
+    fail("'" + std::string(trimmed(field)) + "' is not an integer; expected " + what);
   return *value;
 }
 
@@ -129,7 +129,7 @@ long TextFile::node(std::string_view field) const
 {
   const long number = whole(field, "the number of a node");
   if (number < 1)
-    fail("node " + std::to_string(number) + " is none: nodes count from 1; is the column another one?");
+    fail("node " + std::to_string(number) + " is invalid: numbers of nodes start at 1; check the column");
   return number;
 }
 

@@ -132,8 +132,8 @@ void add_joined(const DenseModes &modes, const Eigen::MatrixXd &B, const std::ve
 void require_finite_damping(const DenseModes &modes, const Eigen::MatrixXd &B)
 {
   if (!B.allFinite() || !modes.omega.allFinite())
-    throw std::invalid_argument("damped_modes: the damping of a mode is not finite; a damper is far too large beside a "
-                                "mass: check their units");
+    throw std::invalid_argument(
+        "damped_modes: the damping of a mode is not finite; a damper is far too large for a mass: check their units");
 }
 
 /// By |s|.

@@ -41,13 +41,14 @@ MatrixXd hankel(const MatrixXd &y)
   return Y;
 }
 
-/// z of the exponentials z^k.  Right singular vectors of Y are eigenvectors of Y^T Y: those kept lose eps / weakest^2, 2e-8.
+/// z of the exponentials z^k.  Right singular vectors of Y are eigenvectors of Y^T Y: those kept lose eps / weakest^2,
+/// 2e-8.
 VectorXcd poles(const MatrixXd &y)
 {
   const MatrixXd                       Y = hankel(y);
   const coupling::SymmetricEigenSolver squares(Y.transpose() * Y);
-  const VectorXd                       squared = squares.eigenvalues().reverse(); // of the singular values, largest first
-  Index                                r       = 0;
+  const VectorXd squared = squares.eigenvalues().reverse(); // of the singular values, largest first
+  Index          r       = 0;
   while (r < std::min(squared.size() - 1, most_poles) && squared[r] > weakest * weakest * squared[0])
     ++r;
   const MatrixXd V = squares.eigenvectors().rightCols(r);
@@ -93,7 +94,7 @@ PencilFit matrix_pencil(const MatrixXd &samples, double h, int most)
 {
   if (samples.rows() < fewest || samples.cols() < 1 || !(h > 0.))
     throw std::invalid_argument("matrix_pencil: " + std::to_string(samples.rows()) + " samples; at least " +
-                                std::to_string(fewest) + " at equal times are needed");
+                                std::to_string(fewest) + " samples at equal time steps are needed");
   VectorXd       range;
   const MatrixXd y = scaled(samples, range);
   PencilFit      fit;

@@ -27,8 +27,8 @@ GeneralEigenSolver solve_state(const Eigen::MatrixXd &state, const Eigen::Vector
   {
     std::ostringstream message;
     message << "modes: the highest frequency is " << omega.maxCoeff() / two_pi
-            << " Hz, beyond what can be computed with dampers; a mass is far too small for its spring or damper: "
-               "check its unit, or leave it out";
+            << " Hz, too high to compute with dampers; a mass is far too small for its spring or damper: check its "
+               "unit, or remove it";
     throw std::invalid_argument(message.str());
   }
   return GeneralEigenSolver(state);
@@ -218,7 +218,7 @@ void require_finite(const Machine &machine, const Linear &linear)
   };
   check(linear.M, "mass", "masses or inertias are");
   check(linear.B, "damping", "dampers are");
-  check(linear.K, "stiffness", "springs are, or the forces (such as weights) that turn with its motion are,");
+  check(linear.K, "stiffness", "springs are, or the forces (such as weights) that rotate with its motion are,");
 }
 
 Linear linearised(const Machine &machine, const Eigen::VectorXd &q, const Linearisation &linearisation)

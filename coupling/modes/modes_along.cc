@@ -67,10 +67,10 @@ public:
       const std::string &gap = along.positions.front().gap;
       std::ostringstream at_start;
       at_start << "; at the start of the scene it is " << swept_value(machine_, coordinate_, start.q) << " "
-               << coordinate_.unit << ", take a range around that, or go along another coordinate or measure";
+               << coordinate_.unit << "; choose a range around that, or another coordinate or measure";
       throw std::invalid_argument(
           "--along " + coordinate_.name + ": no position has modes; " +
-          (gap.empty() ? "joints and what is held leave nothing to move" : "the first: " + gap + at_start.str()));
+          (gap.empty() ? "joints and locked coordinates leave no DOF" : "the first: " + gap + at_start.str()));
     }
     for (ModesAt &one : along.positions)
       one.modes.resize(std::min(one.modes.size(), std::size_t(options_.lines)));
@@ -245,7 +245,7 @@ ModesAlong modes_along(Machine &machine, const SweptCoordinate &coordinate, cons
 {
   std::ostringstream message;
   if (options.positions < 2)
-    message << "--positions is " << options.positions << "; lines need two positions or more";
+    message << "--positions is " << options.positions << "; lines need at least two positions";
   else if (!(std::abs(options.to - options.from) > 0.) || !std::isfinite(options.to - options.from))
     message << "--from is " << options.from << " " << coordinate.unit << ", --to " << options.to << " "
             << coordinate.unit << "; they must differ";

@@ -212,8 +212,8 @@ public:
     }
     if (kink || worst > smooth * largest)
       throw std::invalid_argument("\"" + signal_.name +
-                                  "\" has a kink at the operating point, so that it has no response "
-                                  "in first order; take another operating point or another signal");
+                                  "\" has a kink at the operating point, so it has no linear response; choose another "
+                                  "operating point or another signal");
     return weights;
   }
 
@@ -339,13 +339,13 @@ Eigen::VectorXd force_along(const Machine &machine, const Signal &signal, const 
   const LinearAnswer answer = linear_signal(machine, signal, at);
   const bool only_q = answer.v.isZero(0.) && answer.a.isZero(0.) && answer.p.isZero(0.) && answer.lambda.isZero(0.);
   if ((signal.unit != "m" && signal.unit != "rad") || !only_q)
-    throw std::invalid_argument("\"" + signal.name + "\" tells [" + signal.unit +
-                                "], no displacement or angle that a force "
-                                "could act along; take a displacement [m] or an angle [rad]");
+    throw std::invalid_argument("\"" + signal.name + "\" has the unit [" + signal.unit +
+                                "] and is not a displacement or an angle that a force could act along; choose a "
+                                "displacement [m] or an angle [rad]");
   if (answer.q.isZero(0.))
-    throw std::invalid_argument("\"" + signal.name +
-                                "\" does not move with any coordinate of the machine, so that no "
-                                "force can act along it; take another one");
+    throw std::invalid_argument(
+        "\"" + signal.name +
+        "\" does not move with any coordinate of the machine, so no force can act along it; choose another one");
   return answer.q;
 }
 

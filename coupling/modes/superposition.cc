@@ -60,7 +60,7 @@ AveragedSystem averaged(const Machine &machine, const VectorXd &q, const std::ve
   throw std::invalid_argument(place + ": method = \"modal\" does not apply: " + reason + "; " + way_out);
 }
 
-const char *const other_methods = "take method = \"craig-bampton\", which keeps such coordinates as they are";
+const char *const other_methods = "use method = \"craig-bampton\", which retains such coordinates";
 
 /// The angle of a body that turns, or -1.
 int angle_of(const Body &body)
@@ -117,13 +117,12 @@ void refuse_free_motions(const Machine &machine, const SparseMatrix &M, const De
   for (Eigen::Index j = 0; j < modes.omega.size(); ++j)
   {
     if (j < modes.growth.size() && modes.growth[j] > 0.)
-      refuse(place, "the position is unstable, " + moving_most(machine, M, modes.V.col(j)) + " leaves it",
-             "superpose vibrations about a stable one");
+      refuse(place, "the position is unstable: " + moving_most(machine, M, modes.V.col(j)) + " leaves it",
+             "choose a stable position");
     if (modes.omega[j] == 0.)
       refuse(place,
-             moving_most(machine, M, modes.V.col(j)) +
-                 " moves freely: this motion has no stiffness, its frequency is zero",
-             std::string("hold it by a spring, or ") + other_methods);
+             moving_most(machine, M, modes.V.col(j)) + " moves freely: this motion has no stiffness (frequency zero)",
+             std::string("add a spring, or ") + other_methods);
   }
 }
 
@@ -136,7 +135,7 @@ SparseCholesky factor(const Machine &machine, const SparseMatrix &K, const std::
   catch (const NotPositiveDefinite &failure)
   {
     refuse(place, "the motion of \"" + machine.coordinate_name(failure.row) + "\" has no stiffness",
-           std::string("hold it by a spring, or ") + other_methods);
+           std::string("add a spring, or ") + other_methods);
   }
 }
 
@@ -227,7 +226,7 @@ public:
   {
     const auto wrong = [&](const std::string &text) { throw std::invalid_argument(options.place + ": " + text); };
     if (options.n_modes == 0)
-      wrong("modes is 0, but method = \"modal\" moves in modes alone; give one at least");
+      wrong("modes is 0, but method = \"modal\" needs at least one mode");
     if (options.n_modes > n_)
       wrong("modes is " + std::to_string(options.n_modes) + ", but frame and mechanism have " + std::to_string(n_) +
             " coordinates; give no more");
@@ -258,11 +257,11 @@ public:
     text.precision(4);
     const auto statics = [&]
     {
-      text << "as many as leave at most " << 100. * tolerance_ << " % of a static deflection "
-           << (elements_alone_ ? "under forces of elements out" : "out");
+      text << "as many as needed to miss at most " << 100. * tolerance_ << " % of a static deflection"
+           << (elements_alone_ ? " under forces of elements" : "");
     };
     if (options_.n_modes > 0)
-      text << "as many as reduction.modes says";
+      text << "number given by reduction.modes";
     else if (options_.frequency > 0.)
       text << "all up to reduction.frequency, " << options_.frequency << " Hz";
     else if (limit_ > 0.)
@@ -323,17 +322,17 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
   const VectorXd &omega = result.modes.omega;
   text << "modal superposition: " << omega.size() << " modes of frame and mechanism, " << rule << "; the highest has "
        << omega[omega.size() - 1] / two_pi << " Hz, static deflections under forces and loads are up to "
-       << 100. * result.static_residual << " % short";
+       << 100. * result.static_residual << " % too small";
   result.statements.push_back(text.str());
   if (result.static_residual > much_left)
     result.notes.push_back("modal superposition: static deflections under forces and loads are up to " +
                            std::to_string(int(std::lround(100. * result.static_residual))) +
-                           " % short of the full ones, as nothing stands for the modes left out; give more modes, or "
-                           "take method = \"craig-bampton\", whose statics are exact");
+                           " % too small without the truncated modes; use more modes, or method = \"craig-bampton\", "
+                           "whose statics are exact");
   if (options.diagonal_damping && result.coupling > considerable_share)
-    result.notes.push_back("modal superposition: damping = \"diagonal\" leaves out what couples two modes by up to " +
+    result.notes.push_back("modal superposition: damping = \"diagonal\" ignores coupling of modes by up to " +
                            std::to_string(int(std::lround(100. * result.coupling))) +
-                           " % of their own damping; damping = \"full\" keeps it");
+                           " % of their damping; damping = \"full\" includes it");
 }
 
 /// Notes loads above the highest mode kept, and forces of elements, whose frequencies are unknown.
@@ -348,14 +347,15 @@ void note_loads(const Machine &machine, const SuperpositionOptions &options, con
   const auto note      = [&](const std::string &way_out) { result.notes.push_back(text.str() + way_out); };
   if (fastest > highest)
   {
-    text << "a load has " << fastest / two_pi << " Hz, above the highest mode kept, " << highest / two_pi << " Hz; ";
-    note("give more modes");
+    text << "a load has " << fastest / two_pi << " Hz, above the highest retained mode, " << highest / two_pi
+         << " Hz; ";
+    note("use more modes");
     return;
   }
   if (rule.ended())
   {
-    text << "the search for modes ended at " << result.modes.omega.size() << ", of " << highest / two_pi << " Hz; ";
-    note("give reduction.modes, or take method = \"craig-bampton\"");
+    text << "the search for modes ended at " << result.modes.omega.size() << " modes, " << highest / two_pi << " Hz; ";
+    note("give reduction.modes, or use method = \"craig-bampton\"");
     return;
   }
   if (options.n_modes > 0 || options.frequency > 0.)
@@ -364,9 +364,9 @@ void note_loads(const Machine &machine, const SuperpositionOptions &options, con
     if (placement.element->work() == mechanism::Work::input)
     {
       text << "\"" << placement.name
-           << "\" feeds the machine with a force whose frequencies are not known, and modes up to " << highest / two_pi
-           << " Hz are kept without it; ";
-      note("give reduction.frequency, four times the highest that counts");
+           << "\" excites the machine by a force of unknown frequencies, and only modes up to " << highest / two_pi
+           << " Hz are retained; ";
+      note("give reduction.frequency, four times the highest relevant frequency");
       return;
     }
 }
@@ -376,13 +376,13 @@ void note_loads(const Machine &machine, const SuperpositionOptions &options, con
 void check_superposition(const Machine &machine, const std::string &place)
 {
   if (machine.joints().n_rows() > 0)
-    refuse(place, machine.joints().name(0) + " is an ideal joint, which no superposition of modes closes",
+    refuse(place, machine.joints().name(0) + " is an ideal joint, which modal superposition cannot satisfy",
            std::string("give it a compliance, or ") + other_methods);
   for (const int i : machine.linear().virtual_coordinates())
     refuse(place, "\"" + machine.coordinate_name(i) + "\" is a virtual coordinate without mass", other_methods);
   std::string drive;
   if (const std::string rotor = driven_body(machine, drive); !rotor.empty())
-    refuse(place, "\"" + drive + "\" turns \"" + rotor + "\", whose angle is no vibration about a position",
+    refuse(place, "\"" + drive + "\" turns \"" + rotor + "\", whose angle does not vibrate about a position",
            other_methods);
 }
 

@@ -110,7 +110,7 @@ SweptCoordinate swept_coordinate(const Machine &machine, const std::string &name
       names.push_back(one.measure);
   if (names.empty())
     throw std::invalid_argument("there is no coordinate \"" + name +
-                                "\": the machine has no body, measure or driven joint to move along");
+                                "\": the machine has no body, measure or driven joint to vary");
   throw std::invalid_argument("there is no coordinate \"" + name + "\"" + suggestion(name, names));
 }
 

@@ -36,7 +36,7 @@ void obey(int order)
   const fem::Ranks ranks;
   if (!serve_one_of<PrepareTask, DivideTask, ForgetFactorTask, FactoriseTask, ReleaseFactorTask, SolveDividedTask,
                     InertiaTask, SearchTask, FindTask, FoundTask, EndSearchTask>(order, ranks))
-    ranks.abort("there is no order " + std::to_string(order) + "; all ranks must run the same version of gestell");
+    ranks.abort("there is no command " + std::to_string(order) + "; all ranks must run the same version of gestell");
 }
 
 } // namespace gestell::coupling

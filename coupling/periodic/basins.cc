@@ -79,7 +79,7 @@ std::vector<Attractor> attractors_of(const PeriodicProblem &one, const std::vect
     attractors.push_back({int(k) + 1, states[k], near_motion * reach});
   }
   if (attractors.empty())
-    throw std::invalid_argument("basins: none of the periodic motions found is stable, so nothing settles to them");
+    throw std::invalid_argument("basins: none of the periodic solutions found is stable, so no motion settles to them");
   return attractors;
 }
 
@@ -170,10 +170,11 @@ private:
 void require_plane(const PeriodicProblem &problem, const StartPlane &plane)
 {
   if (problem.period_is_unknown())
-    throw std::invalid_argument("basins: the period is unknown, so starts differ in their phase alone; they are of "
-                                "machines whose loads tell the period");
+    throw std::invalid_argument("basins: the period is unknown, so initial states differ in their phase only; basins "
+                                "need a machine whose loads determine the period");
   if (plane.points < 1 || plane.x == plane.y || !(plane.x_end > plane.x_begin) || !(plane.y_end > plane.y_begin))
-    throw std::invalid_argument("basins: the starts need two different coordinates, each from a value to a larger one");
+    throw std::invalid_argument(
+        "basins: the initial states need two different coordinates, each from a value to a larger value");
 }
 
 } // namespace

@@ -174,7 +174,7 @@ void Tracker::note_special(const Point &a, const Point &b)
 {
   const bool fold = look("fold", a, b, slope_of);
   if (!fold && look("branch", a, b, [](const Point &p) { return p.regular; }) && new_branch_)
-    branch_.ended = "it meets the branch that it left";
+    branch_.ended = "it returns to the branch that it left";
   if (a.solution.multipliers.size() == b.solution.multipliers.size() && a.solution.stability_is_known())
   {
     look("period doubling", a, b, [](const Point &p) { return product(p.solution, -1.); });
@@ -230,7 +230,7 @@ bool Tracker::end_at(const Point &here, const Point &beyond)
   }
   add(last);
   if (back)
-    branch_.ended = "it came back to the first value of the parameter";
+    branch_.ended = "it returned to the first value of the parameter";
   return true;
 }
 
@@ -243,7 +243,7 @@ Branch Tracker::follow(Point here)
     {
       Point next;
       if (!next_point(here, next))
-        throw NoPeriodicMotion("no next motion was found beyond " + std::to_string(here.lambda));
+        throw NoPeriodicMotion("no next solution was found beyond " + std::to_string(here.lambda));
       const double share = (next.lambda - options_.from) / range_;
       if (share > 1. || share < 0.)
       {
@@ -264,9 +264,9 @@ Branch Tracker::follow(Point here)
     if (branch_.ended.empty())
     {
       std::ostringstream text;
-      text << "it has " << options_.most << " points, the last of them at " << here.lambda;
+      text << "it has " << options_.most << " points, the last at " << here.lambda;
       if (ds_ < short_part * wanted_)
-        text << ", and its steps have become short: take another method, or fewer harmonics";
+        text << ", and its steps have become short: use another method, or fewer harmonics";
       branch_.failed = goes_on;
       branch_.ended  = goes_on ? text.str() : "interrupted";
     }
@@ -298,8 +298,8 @@ Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, 
   follower.grow_size(here);
   here.tangent[z.size()] = 1.;
   if (!follower.at_parameter(z, options.from, Point(here), here))
-    throw NoPeriodicMotion("the branch does not begin: Newton's method does not close the motion at the first value of "
-                           "the parameter");
+    throw NoPeriodicMotion(
+        "the branch does not begin: Newton's method does not converge at the first value of the parameter");
   follower.size_from_rest(here);
   return Tracker(follower, options, progress, false).follow(here);
 }

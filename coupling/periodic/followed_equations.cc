@@ -125,8 +125,9 @@ public:
     newton.residual           = closing_;
     PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, newton, options_);
     const auto       left     = left_out();
-    solution.notes.push_back(left ? note_of_harmonics(*balance_, *left, left_out_of_branch, harmonics_of(options_) > 0)
-                                  : "what the harmonics leave out is not known: a mode without damping lies at one");
+    solution.notes.push_back(
+        left ? note_of_harmonics(*balance_, *left, left_out_of_branch, harmonics_of(options_) > 0)
+             : "the truncation error of the harmonics is unknown: an undamped mode coincides with a harmonic");
     return solution;
   }
 

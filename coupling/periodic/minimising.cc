@@ -156,8 +156,8 @@ public:
   std::string name() const override { return "minimise"; }
   std::string meaning() const override
   {
-    return "Least squares of (5.5.4/2) from many starts in a box: all solutions that are found, each once, with the "
-           "share of the starts that led there.";
+    return "Least squares of (5.5.4/2) from many initial states in a box: all solutions found, each once, with the "
+           "share of initial states that lead to it.";
   }
   std::string refuses(const PeriodicProblem &problem) const override
   {
@@ -346,9 +346,9 @@ std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, 
   for (int periods = 1; periods <= highest; ++periods)
     MotionSearch(problem, periods, box, options, found).from_all_starts();
   if (found.empty())
-    throw NoPeriodicMotion(
-        "no periodic motion was found from " + std::to_string(highest * starts_of(options)) +
-        " starts in the box about the start; give --starts a larger number, or a start nearer to it");
+    throw NoPeriodicMotion("no periodic solution was found from " + std::to_string(highest * starts_of(options)) +
+                           " initial states in the box about the given one; increase --starts, or give an initial "
+                           "state closer to a solution");
   for (PeriodicSolution &solution : found)
     solution.share /= highest * free_starts(options);
   return found;

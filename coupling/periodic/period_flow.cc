@@ -96,7 +96,7 @@ void PeriodFlow::carry_all()
 void PeriodFlow::start(const VectorXd &q, const VectorXd &v, double begin, double end, bool tangents)
 {
   if (tangents && !tangents_)
-    throw std::invalid_argument(method_name(integration_) + " carries no tangents; take exact, collocation");
+    throw std::invalid_argument(method_name(integration_) + " has no tangents; use exact, collocation");
   passage_         = {};
   passage_.q_begin = q;
   passage_.v_begin = v;
@@ -198,8 +198,9 @@ const PeriodPassage &PeriodFlow::pass_turn(const VectorXd &q, const VectorXd &v,
     return passage_;
   }
   std::ostringstream text;
-  text << "the coordinate " << system_.linear().coordinate_name(phase) << " does not come round in " << longest
-       << " s: it goes from " << from << " to " << integrator_.instant().q[phase] << ", a period ends at " << target;
+  text << "the coordinate " << system_.linear().coordinate_name(phase) << " does not complete a revolution in "
+       << longest << " s: it goes from " << from << " to " << integrator_.instant().q[phase]
+       << ", but a period ends at " << target;
   throw NoPeriodicMotion(text.str());
 }
 
@@ -209,7 +210,7 @@ void PeriodFlow::require_few(long steps) const
     throw SearchInterrupted();
   if (steps > problem_.most_steps)
     throw ConvergenceFailure("a period needs more than " + std::to_string(problem_.most_steps) +
-                             " steps; take a larger tolerance");
+                             " steps; use a larger tolerance");
 }
 
 void PeriodFlow::finish(const IntegrationWork &before)

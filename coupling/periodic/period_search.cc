@@ -220,21 +220,20 @@ void FreeMotion::follow()
     window_               = next_window(flow_, at_, length_);
     largest               = std::max(largest, excursion().norm());
     if (!(excursion().norm() < runs_away * first))
-      throw NoPeriodicMotion(
-          "nothing drives the machine, and from its start it swings more and more without end: it is "
-          "unstable, and nothing limits its motion; give it what does, such as a stop or friction");
+      throw NoPeriodicMotion("the machine has no drive, and its oscillation grows without limit: it is unstable; add "
+                             "an element that limits its motion, such as a stop or friction");
     if (excursion().norm() <= rests * largest)
-      throw NoPeriodicMotion("nothing drives the machine: it comes to rest" +
-                             std::string(pushed_ ? " from a push of 0.001 m/s and rad/s" : "") +
-                             "; give it a load with harmonics, a motor and a speed in [start], or a larger start from "
-                             "which it keeps swinging");
+      throw NoPeriodicMotion("the machine has no drive: it comes to rest" +
+                             std::string(pushed_ ? " after a disturbance of 0.001 m/s and rad/s" : "") +
+                             "; give it a load with harmonics, a motor and a speed in [start], or a larger initial "
+                             "state from which it keeps oscillating");
     if ((excursion() - before).norm() <= settled * excursion().norm())
       return;
   }
   std::ostringstream text;
-  text << "nothing drives the machine, and in " << most_windows * length_
-       << " s from its start it neither comes to rest "
-       << "nor to an oscillation that keeps its size; give [start] nearer to it, or a load with harmonics";
+  text << "the machine has no drive, and in " << most_windows * length_
+       << " s from its initial state it neither comes to rest "
+       << "nor to an oscillation of constant amplitude; give [start] closer to it, or a load with harmonics";
   throw NoPeriodicMotion(text.str());
 }
 
@@ -300,16 +299,14 @@ FreeOscillation free_oscillation(SecondOrderSystem &system, const MethodOptions 
     swings = motion.is_oscillation(found);
   }
   if (!swings)
-    throw NoPeriodicMotion(
-        "nothing drives the machine, and it moves on without swinging; hold it by a spring, or give it "
-        "a motor and a speed in [start]");
+    throw NoPeriodicMotion("the machine has no drive, and it moves on without oscillating; add a spring, or give it a "
+                           "motor and a speed in [start]");
   const double size = motion.excursion().norm();
   motion.enlarge(larger);
   motion.follow();
   if (std::abs(motion.excursion().norm() / size - 1.) > 0.5 * larger)
-    throw NoPeriodicMotion(
-        "nothing drives the machine, and it keeps whatever size of oscillation its start gives it, as a "
-        "system without damping does; give it damping, or a load with harmonics");
+    throw NoPeriodicMotion("the machine has no drive, and the amplitude of its oscillation is that of its initial "
+                           "state, as without damping; give it damping, or a load with harmonics");
   return found;
 }
 

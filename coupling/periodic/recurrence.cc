@@ -35,8 +35,7 @@ public:
       : problem_(problem), flow_(problem, integration), omega_(2. * M_PI / problem.period), q_(guess.q), v_(guess.v)
   {
     if (!flow_.has_tangents())
-      throw std::invalid_argument(method_name(integration) + " carries no tangents; the exponent of "
-                                                             "neighbouring motions needs them");
+      throw std::invalid_argument(method_name(integration) + " has no tangents; the Lyapunov exponent needs them");
     // No symmetry of a machine is one of this direction: it has a share in all that grows.
     direction_ = VectorXd::NullaryExpr(2 * q_.size(), [](Index i) { return std::cos(1. + double(i * i)); });
     direction_.normalize();
@@ -88,7 +87,7 @@ private:
     seconds_ = passage.period;
     work_.add({0, 1, passage.work});
     if (!q_.allFinite() || !v_.allFinite())
-      throw ConvergenceFailure("the motion runs away");
+      throw ConvergenceFailure("the motion diverges");
   }
 
   const PeriodicProblem &problem_;
@@ -199,8 +198,8 @@ Recurrence recurrence_of(const PeriodicProblem &problem, const PeriodicGuess &gu
                          int periods)
 {
   if (periods < least_section)
-    throw std::invalid_argument("a section of " + std::to_string(periods) +
-                                " periods tells too little; take at least " + std::to_string(least_section));
+    throw std::invalid_argument("a section of " + std::to_string(periods) + " periods is too short; use at least " +
+                                std::to_string(least_section));
   const PeriodicProblem one         = problem.of_one_period();
   MethodOptions         integration = options.integration;
   if (!(integration.step > 0.))

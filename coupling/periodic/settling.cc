@@ -204,8 +204,8 @@ PeriodicSolution reported(const PeriodicProblem &problem, const Settled &settled
   else
   {
     solution.multipliers = Eigen::VectorXcd::Constant(1, std::min(settled.contraction, 1. - 1e-9));
-    solution.notes.push_back("the multiplier is estimated from how the last periods came nearer: " +
-                             method_name(options.integration) + " carries no tangents");
+    solution.notes.push_back("the multiplier is estimated from the convergence of the last periods: " +
+                             method_name(options.integration) + " has no tangents");
   }
   solution.notes.push_back("settled in " + std::to_string(settled.periods) + " periods");
   return solution;
@@ -215,12 +215,12 @@ PeriodicSolution reported(const PeriodicProblem &problem, const Settled &settled
 {
   std::ostringstream text;
   text << "the motion does not repeat after " << settled.periods << " periods of " << problem.period
-       << " s: it still misses by " << settled.error << " of its speed";
+       << " s: it still misses the initial state by " << settled.error << " of its speed";
   if (settled.contraction > 0.9 && settled.contraction < 1.)
-    text << ", and comes nearer by " << 100. * (1. - settled.contraction)
-         << " % a period; let it settle longer, or take --method shooting";
+    text << " and converges by " << 100. * (1. - settled.contraction)
+         << " % a period; let it settle longer, or use --method shooting";
   else
-    text << " and comes no nearer: it may repeat after several periods (--ratio 2, 3 ...), or never";
+    text << " and does not converge: it may repeat after several periods (--ratio 2, 3 ...), or never";
   throw NoPeriodicMotion(text.str());
 }
 
@@ -230,9 +230,8 @@ public:
   std::string name() const override { return "settling"; }
   std::string meaning() const override
   {
-    return "Integrates period by period until (5.5.4/1) holds, with damping that may be raised at first; a second "
-           "start "
-           "looks for another motion.";
+    return "Integrates period by period until (5.5.4/1) is satisfied, optionally with more damping at first; a second "
+           "initial state searches for another solution.";
   }
   std::string                      refuses(const PeriodicProblem &) const override { return ""; }
   bool                             integrates() const override { return true; }
@@ -243,8 +242,7 @@ public:
   }
   std::vector<PeriodicOption> options() const override
   {
-    return {
-        {"damping", "of settling: share of critical by which the lowest mode is damped more at first", 0., 1e6, false}};
+    return {{"damping", "of settling: damping ratio added to the lowest mode at first", 0., 1e6, false}};
   }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
@@ -262,8 +260,8 @@ public:
     if (second.error <= options.tolerance && !alike(first.at, second.at, problem))
       found.push_back(reported(problem, second, options));
     else
-      found[0].notes.push_back("a second start, half as fast again, settled " +
-                               std::string(second.error <= options.tolerance ? "to the same motion" : "nowhere"));
+      found[0].notes.push_back("a second initial state, with 1.5 times the speed, settled " +
+                               std::string(second.error <= options.tolerance ? "to the same solution" : "nowhere"));
     return found;
   }
 
@@ -291,7 +289,7 @@ std::string why_not_propagated(const SecondOrderSystem &system, const std::strin
   }
   catch (const std::invalid_argument &reason)
   {
-    return std::string(reason.what()) + "; --method " + instead + " takes it";
+    return std::string(reason.what()) + "; use --method " + instead + "";
   }
 }
 

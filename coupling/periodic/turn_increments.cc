@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 
 constexpr int    most_turns_of_period = 64;   ///< of the slowest angle
 constexpr double consistent           = 1e-9; ///< turns
-constexpr double still                = 1e-9; ///< speed of what does not turn, of the speeds that it is the difference of
-constexpr double not_at_all           = 1e-9; ///< share of a coordinate in a shift of unit length
+constexpr double still      = 1e-9; ///< speed of what does not turn, of the speeds that it is the difference of
+constexpr double not_at_all = 1e-9; ///< share of a coordinate in a shift of unit length
 
 /// Speeds of the angles as everything that never repeats allows them.
 class TurningAngles
@@ -78,7 +78,8 @@ private:
   {
     std::ostringstream text;
     text.precision(6);
-    text << name(d) << ", on which " << d.element << " depends, turns " << turns << " times in " << period << " s";
+    text << name(d) << ", on which " << d.element << " depends, makes " << turns << " revolutions in " << period
+         << " s";
     return text.str();
   }
 
@@ -90,7 +91,7 @@ private:
 
 VectorXd on_all(const AngleInvariance &invariance, const VectorXd &of_angles, Index n)
 {
-  VectorXd all              = VectorXd::Zero(n);
+  VectorXd all             = VectorXd::Zero(n);
   all(invariance.angles()) = of_angles;
   return all;
 }
@@ -155,8 +156,8 @@ AngleIncrements increments_of(const AngleInvariance &invariance, const VectorXd 
   found.phase = phase_of(invariance, *slowest, found.free);
   if (found.phase < 0)
   {
-    found.refusal = slowest->element + " depends on " + angles.name(*slowest) + " together, but none of these angles "
-                                                                                "tells by itself when it comes round";
+    found.refusal = slowest->element + " depends on " + angles.name(*slowest) +
+                    " together, but none of these angles alone determines when a revolution is complete";
     return found;
   }
   std::string first_why;
@@ -172,8 +173,8 @@ AngleIncrements increments_of(const AngleInvariance &invariance, const VectorXd 
     if (turns == 1)
       first_why = why;
   }
-  found.refusal = "what turns has no common period of up to " + std::to_string(most_turns_of_period) + " turns of " +
-                  angles.name(*slowest) + ": " + first_why;
+  found.refusal = "the rotating bodies have no common period of up to " + std::to_string(most_turns_of_period) +
+                  " revolutions of " + angles.name(*slowest) + ": " + first_why;
   return found;
 }
 

@@ -109,7 +109,7 @@ void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution)
   std::ostringstream note;
   note.precision(2);
   if (verification.leaves)
-    note << "not called stable, although its multipliers are below 1: a run of " << verified_periods
+    note << "not rated stable, although its multipliers are below 1: a run of " << verified_periods
          << " periods from its initial values deviates from it by " << verification.departure
          << " of its largest speed";
   else if (!verification.failure.empty())

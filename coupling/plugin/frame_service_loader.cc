@@ -21,7 +21,7 @@ void *load_frame_library()
   const auto file = find_plugin(frame_library);
   if (file.empty())
     throw std::invalid_argument(std::string("frame_service: ") + frame_library +
-                                " not found beside the program: this build of gestell cannot mesh and reduce frames; "
+                                " not found next to the program: this build of gestell cannot mesh and reduce frames; "
                                 "build it with GESTELL_FEM=ON, or set GESTELL_PLUGIN_DIR to the folder of " +
                                 frame_library + ", or run from a reduced frame in the cache");
   setenv("OPENBLAS_NUM_THREADS", "1", 0); // read when the library loads: waiting threads spin

@@ -88,7 +88,7 @@ void *function_of_plugin(void *plugin, const char *name, const char *library)
 {
   void *const function = dlsym(plugin, name);
   if (!function)
-    throw std::invalid_argument(std::string("plugin: ") + library + " is not a plugin of Gestell: " + dlerror() +
+    throw std::invalid_argument(std::string("plugin: ") + library + " is not a Gestell plugin: " + dlerror() +
                                 "; rebuild it together with the program");
   return function;
 }

@@ -28,10 +28,9 @@ void require_mpi(const Launch &launched)
 {
   if (launched.by != std::string("srun") || std::getenv("PMIX_RANK") || std::getenv("PMIX_NAMESPACE"))
     return;
-  throw std::invalid_argument("srun: started " + std::to_string(launched.size) +
-                              " processes, but no MPI that they share, so that they cannot compute one thing together; "
-                              "use srun --mpi=pmix, or " +
-                              way_of_cases);
+  throw std::invalid_argument(
+      "srun: started " + std::to_string(launched.size) +
+      " processes without a common MPI, so they cannot share one computation; use srun --mpi=pmix, or " + way_of_cases);
 }
 
 void *team_plugin()
@@ -58,15 +57,15 @@ TeamService *load_team()
   if (team->size() != launched.size)
     throw std::invalid_argument(std::string(launched.by) + ": started " + std::to_string(launched.size) +
                                 " processes, but MPI finds " + std::to_string(team->size()) +
-                                ": the launcher belongs to another MPI than the one Gestell is built with; use the "
-                                "mpirun of that one (Debian: package openmpi-bin), or srun --mpi=pmix, or " +
+                                ": the launcher is of another MPI than Gestell; use the mpirun of Gestell's MPI "
+                                "(Debian: package openmpi-bin), or srun --mpi=pmix, or " +
                                 way_of_cases);
   return team;
 }
 
 } // namespace
 
-const char *const way_of_cases = "--apart (or GESTELL_APART=1) for a case of its own per process";
+const char *const way_of_cases = "--apart (or GESTELL_APART=1) for a separate case per process";
 
 Launch launch()
 {

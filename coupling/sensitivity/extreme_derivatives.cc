@@ -49,7 +49,7 @@ ExtremeDerivatives::ExtremeDerivatives(const RunResult &run, const std::vector<P
   for (const Extreme &extreme : extremes_)
     if (is_rounding(extreme))
       for (const bool instant : {false, true})
-        leave_out(output(extreme, instant), "it is zero but for rounding");
+        leave_out(output(extreme, instant), "it is zero within rounding");
 }
 
 std::set<double> ExtremeDerivatives::instants(double begin, double end) const
@@ -104,7 +104,7 @@ void ExtremeDerivatives::at_event(double t, const Told &reported, const VectorXd
     if (extreme.value != 0. && std::abs(extreme.value) <= located * sizes_[extreme.signal])
     {
       for (const bool instant : {false, true})
-        leave_out(output(extreme, instant), "it is zero but for where its event was located");
+        leave_out(output(extreme, instant), "it is zero within the accuracy of its event");
       continue;
     }
     if (!(off < extreme.off - rounding * std::abs(extreme.value)))
@@ -140,7 +140,7 @@ std::string ExtremeDerivatives::no_turn(const Extreme &extreme, const Turn &turn
     text << "the signal has a corner there, where its rate goes from " << turn.before << " to " << turn.after
          << " per second";
   else if (std::abs(turn.rate) * step > level * sizes_[extreme.signal])
-    text << "the signal does not turn there, its rate is " << turn.rate << " per second";
+    text << "the signal has no turning point there, its rate is " << turn.rate << " per second";
   return text.str();
 }
 
@@ -154,9 +154,10 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
   {
     set(extreme, turn.dy, VectorXd::Constant(turn.dy.size(), none));
     const std::string why = no_turn(extreme, turn, step);
-    leave_out(output(extreme, true), !why.empty() ? why
-                                     : flat       ? "the peak is flat"
-                                            : "where the signal turns is lost in rounding, or farther than a step");
+    leave_out(output(extreme, true),
+              !why.empty() ? why
+              : flat       ? "the peak is flat"
+                           : "the turning point of the signal is lost in rounding, or farther than a step");
     if (!why.empty())
       leave_out(output(extreme, false), why);
     return;
@@ -178,9 +179,10 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
     }
   set(extreme, turn.dy + shift * turn.d_rate, dt);
   if (lost)
-    output(extreme, true).note = "no derivative where the change of its rate is lost in rounding";
+    output(extreme, true).note = "no derivative: the change of its rate is lost in rounding";
   if (far)
-    output(extreme, true).note = "no derivative where one percent would move it by more than the run: the peak is flat";
+    output(extreme, true).note =
+        "no derivative: 1 % of the parameter would shift it by more than the run; the peak is flat";
 }
 
 void ExtremeDerivatives::at_window(double t, const Told &reported, const VectorXd &rates, const RowVectorXd &dt)

@@ -28,11 +28,11 @@ void require_same_structure(const ReducedFrame &at, const ReducedFrame &other)
     same = other.interfaces[i].name == at.interfaces[i].name &&
            other.interfaces[i].coordinate == at.interfaces[i].coordinate;
   if (!same)
-    throw std::invalid_argument("the frame at another value has " + std::to_string(other.n_interface) +
-                                " coordinates of interfaces and " + std::to_string(other.M.rows() - other.n_interface) +
+    throw std::invalid_argument("the frame at the other value has " + std::to_string(other.n_interface) +
+                                " interface DOFs and " + std::to_string(other.M.rows() - other.n_interface) +
                                 " modes, this one " + std::to_string(at.n_interface) + " and " +
                                 std::to_string(at.M.rows() - at.n_interface) +
-                                ": there is no difference of the two; give the number of modes (reduction.modes)");
+                                ": they cannot be compared; give the number of modes (reduction.modes)");
 }
 
 double distance_squared(const std::array<double, 3> &a, const std::array<double, 3> &b)
@@ -88,8 +88,8 @@ MatrixXd turned(const ReducedFrame &at, const ReducedFrame &other)
   const Eigen::JacobiSVD<MatrixXd> svd(nearest_combination(at, other), Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (!(svd.singularValues().minCoeff() > another))
     throw std::invalid_argument("among the " + std::to_string(m) +
-                                " modes of the frame are others at another value, for their order changes there; "
-                                "another number of modes (reduction.modes) may part them");
+                                " modes of the frame are different at the other value, because their order changes; "
+                                "use another number of modes (reduction.modes)");
   T.bottomRightCorner(m, m) = svd.matrixU() * svd.matrixV().transpose();
   return T;
 }

@@ -135,13 +135,13 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j)
 {
   const double f = modes[j].frequency_hz;
   if (modes[j].growth > 0. && f == 0.)
-    return "the motion grows without a frequency";
+    return "the motion grows without oscillation";
   if (f == 0.)
-    return "the motion is free, its frequency is zero";
+    return "it is a free motion with frequency zero";
   if (modes[j].growth != 0.) // its partner may be no longer among them
     return "the mode flutters";
   if (f <= rest * modes.back().frequency_hz)
-    return "the frequency is zero beside the highest one";
+    return "the frequency is zero compared with the highest one";
   for (const std::size_t other : {j - 1, j + 1})
     if (other < modes.size() && std::abs(modes[other].frequency_hz - f) <= meet * f)
       return "mode " + std::to_string(other + 1) + " has the same frequency";

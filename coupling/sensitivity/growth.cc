@@ -74,14 +74,14 @@ std::vector<std::string> Growth::warnings() const
     const Largest &most = largest_[k];
     if (!(one_percent * most.ratio > too_far))
       continue;
-    const std::string grown = most.early > 0. ? "; since the first tenth of the run it grew by the factor " +
+    const std::string grown = most.early > 0. ? "; since the first tenth of the run it grew by a factor of " +
                                                     short_text(most.ratio / most.early, 2)
                                               : "";
-    sentences.push_back("1 % of " + twins_[k].key + " would move " + machine_.coordinate_name(int(most.coordinate)) +
-                        " at t = " + short_text(most.t) + " s by " + short_text(one_percent * most.ratio, 2) +
-                        " times the whole way it goes" + grown +
-                        ": the motion is chaotic or unstable, and derivatives by this entry hold for changes below " +
-                        short_text(100. * believed / most.ratio, 2) + " % only");
+    sentences.push_back(
+        "1 % of " + twins_[k].key + " would move " + machine_.coordinate_name(int(most.coordinate)) + " at t = " +
+        short_text(most.t) + " s by " + short_text(one_percent * most.ratio, 2) + " times its total travel" + grown +
+        ": the motion is chaotic or unstable, and derivatives by this parameter are valid for changes below " +
+        short_text(100. * believed / most.ratio, 2) + " % only");
   }
   return sentences;
 }

@@ -34,7 +34,7 @@ std::vector<std::string> meeting_events(const std::vector<OutputDerivatives> &ou
     std::ostringstream text;
     text.precision(2);
     text << "a change of " << twins[std::size_t(k)].key << " by " << 100. * smallest << " % makes " << which
-         << " meet; its derivatives hold for less";
+         << " coincide; its derivatives are valid for smaller changes";
     sentences.push_back(text.str());
   }
   return sentences;

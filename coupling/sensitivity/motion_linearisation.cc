@@ -75,9 +75,9 @@ void MotionLinearisation::clear_rates(const MotionState &state, Linearised &at) 
 void require_variational(const Machine &machine)
 {
   if (machine.forces().need_multipliers())
-    throw std::invalid_argument("sensitivities: friction in an ideal joint follows from the force of the joint, which "
-                                "the variational equations do not carry yet; make the joint compliant, or take "
-                                "differences of two runs with --set");
+    throw std::invalid_argument(
+        "sensitivities: friction in an ideal joint depends on the joint force, which the variational equations do not "
+        "include; make the joint compliant, or use differences of two runs with --set");
 }
 
 MotionLinearisation::MotionLinearisation(Machine &machine, const std::vector<ParameterTwins> &twins)

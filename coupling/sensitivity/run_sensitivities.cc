@@ -180,10 +180,9 @@ void Passage::compare_structures(double t, const std::string &after)
       if (same)
         continue;
       std::ostringstream text;
-      text << "sensitivities: behind " << after << " at t = " << t << " s the machine is in other branches with "
+      text << "sensitivities: after " << after << " at t = " << t << " s the machine has other branches with "
            << twins.key << " = " << twins.value << " -+ " << twins.step
-           << ": there the run changes its course, and has no derivative by this parameter; leave it out, or take a "
-              "value away from that point";
+           << ": there the run has no derivative by this parameter; remove it, or choose a value away from that point";
       throw std::invalid_argument(text.str());
     }
 }
@@ -217,8 +216,8 @@ RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state,
     const ActiveGuard  active = machine_.events().guard(guard);
     std::ostringstream text;
     text << "sensitivities: at t = " << state.t << " s \"" << active.name << "\" (" << active.kind
-         << ") touches its switching point rather than crosses it: behind it nothing has a derivative; end the run "
-            "before (run.end), or move a parameter away from the grazing motion";
+         << ") touches its switching point instead of crossing it: there are no derivatives after it; end the run "
+            "before (run.end), or change a parameter to avoid the grazing motion";
     throw std::invalid_argument(text.str());
   }
   return dt;
@@ -289,9 +288,9 @@ void Passage::take_events(std::size_t number)
       if (std::abs(change[i]) > jump * state.v.cwiseAbs().maxCoeff() && dt_.cwiseAbs().maxCoeff() > 0.)
       {
         std::ostringstream text;
-        text << "sensitivities: the law of a motor or another element of first order changes at t = " << state.t
-             << ", an instant that depends on the entries asked for; its jump is not carried: take differences of two "
-                "runs with --set";
+        text << "sensitivities: the law of a motor or another first-order element changes at t = " << state.t
+             << ", an instant that depends on the parameters; its jump is not supported: use differences of two runs "
+                "with --set";
         throw std::invalid_argument(text.str());
       }
       change[i] = 0.;
@@ -300,8 +299,8 @@ void Passage::take_events(std::size_t number)
     {
       std::ostringstream text;
       text << "sensitivities: velocities jump at t = " << state.t
-           << " s, as where a motion is prescribed with a sudden speed; derivatives over an impulse are not carried: "
-              "give the profile a ramp, or take differences of two runs with --set";
+           << " s, as at a prescribed motion with a sudden speed; derivatives over an impulse are not supported: give "
+              "the profile a ramp, or use differences of two runs with --set";
       throw std::invalid_argument(text.str());
     }
   }
@@ -397,11 +396,12 @@ std::string coarse_motion(const VariationalAccuracy &accuracy, const Sensitivity
   const auto   n      = (accuracy.off.array() > VariationalAccuracy::believed).count();
   const auto  &method = problem.options.method;
   return "derivatives by " + problem.twins[std::size_t(worst)].key +
-         (n > 1 ? " and " + std::to_string(n - 1) + (n > 2 ? " other entries" : " other entry") : "") +
-         " behind t = " + short_text(accuracy.after) + " s may be off by about " + short_text(100. * off, 2) + " %: " +
-         (controlled(method) ? "nodes of the run lie too far apart for what moves there; give a smaller run.tolerance"
-                             : "steps of " + short_text(method.step) +
-                                   " s are too long for what moves there; give run.tolerance or a smaller run.step");
+         (n > 1 ? " and " + std::to_string(n - 1) + (n > 2 ? " other parameters" : " other parameter") : "") +
+         " after t = " + short_text(accuracy.after) + " s may be off by about " + short_text(100. * off, 2) + " %: " +
+         (controlled(method)
+              ? "the points of the run are too far apart for the motion there; use a smaller run.tolerance"
+              : "steps of " + short_text(method.step) +
+                    " s are too long for the motion there; use run.tolerance or a smaller run.step");
 }
 
 RunSensitivities Passage::result()
@@ -435,8 +435,8 @@ void refuse_unlocated(const SensitivityProblem &problem)
     throw std::invalid_argument("sensitivities need the instants of events: run.events = true");
   if (problem.run.work.chatter > 0)
     throw std::invalid_argument("sensitivities: " + std::to_string(problem.run.work.chatter) +
-                                " steps had more events than are located (chatter) and were gone over; behind them "
-                                "nothing has a derivative. Soften the contact or the friction, or end the run before");
+                                " steps had too many events to locate (chatter); there are no derivatives after them. "
+                                "Soften the contact or the friction, or end the run before");
 }
 
 } // namespace

@@ -260,8 +260,8 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     if (!made || (!(err <= 1.) && length > shortest_share * reader_.spacing()))
     {
       if (++halvings > most_halvings)
-        throw ConvergenceFailure("the derivatives of the motion cannot be carried beyond t = " + std::to_string(from) +
-                                 " s: their steps became too short");
+        throw ConvergenceFailure("the derivatives of the motion cannot be integrated beyond t = " +
+                                 std::to_string(from) + " s: their steps became too short");
       while (nearly * step_ >= length)
         step_ *= 0.5;
       continue;

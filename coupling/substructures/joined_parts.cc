@@ -207,20 +207,19 @@ void tell_preloads(ReducedFrame &whole, const FrameOfParts &frame, const std::ve
   {
     const FrameJoint &joint = frame.joints[j];
     if (joint.kind == JointKind::tie_rod)
-      whole.statements.push_back("joint " + joint.name + ": the tie rod pulls with " + force_text(joint.rod.prestress) +
+      whole.statements.push_back("joint " + joint.name + ": the tie rod force is " + force_text(joint.rod.prestress) +
                                  " in the tightened frame at rest");
     if (!joint.closes())
       continue;
     const double pressed = preloads[j].pressed;
     if (pressed > 0.)
-      whole.statements.push_back("joint " + joint.name + ": pressed together with " + force_text(pressed) +
+      whole.statements.push_back("joint " + joint.name + ": clamping force " + force_text(pressed) +
                                  " at rest, without weight");
     else
-      whole.notes.push_back(joint.place + ": nothing presses this joint together at rest (normal force " +
-                            force_text(pressed) +
-                            " without weight); it opens under any pull, which the linear frame does not know. Give a "
-                            "tie rod a prestress, turn 'normal' round if it points from the second part to the first, "
-                            "or make it a weld");
+      whole.notes.push_back(
+          joint.place + ": this joint has no clamping force at rest (normal force " + force_text(pressed) +
+          " without weight); it opens under any tension, which a linear frame cannot model. Give a tie rod a "
+          "prestress, reverse 'normal' if it points from the second part to the first, or make it a weld");
   }
 }
 
@@ -248,8 +247,8 @@ void require_held_parts(const DenseModes &modes, const MatrixXd &M, const Matrix
   for (Index k = 0; k < n_free; ++k)
     if (rest.col(k).dot(M * rest.col(k)) > rest_share)
       throw std::invalid_argument(place + ": the joints let part '" + part_moved_by(rest.col(k)) +
-                                  "' move freely against the others; hold it by a weld, or by bolts with stiffness in "
-                                  "all directions and against turning");
+                                  "' move freely relative to the others; join it by a weld, or by bolts with stiffness "
+                                  "in all directions and against rotation");
 }
 
 /// Of the modes that parts leave out.
@@ -262,8 +261,8 @@ void tell_errors(ReducedFrame &whole, const VectorXd &omega, const VectorXd &err
     worst = std::max(worst, errors[j]);
     known = omega[j] / two_pi;
   }
-  whole.statements.push_back("parts: what their reduction leaves out makes frequencies up to " + rounded(known) +
-                             " Hz too high by " + percent(worst) + " at most, to first order");
+  whole.statements.push_back("parts: their reduction makes frequencies up to " + rounded(known) + " Hz too high by " +
+                             percent(worst) + " at most (first-order estimate)");
 }
 
 /// Rows of the union that stay coordinates.

@@ -59,9 +59,8 @@ Eigen::VectorXd elongation(const FrameJoint &joint, const PartUnion &parts)
 {
   const Vector3d d = span(joint, parts);
   if (d.norm() == 0.)
-    throw std::invalid_argument(joint.place +
-                                ": both ends of the tie rod are at one place, so that it has no direction;"
-                                " give its interfaces a 'position' where the rod is anchored");
+    throw std::invalid_argument(joint.place + ": both ends of the tie rod are at the same point, so it has no "
+                                              "direction; give its interfaces the 'position' of the anchor points");
   const auto n = parts.size();
   return (motions_of(parts.at(joint.between[1]), n) - motions_of(parts.at(joint.between[0]), n))
              .topRows<3>()

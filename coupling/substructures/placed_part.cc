@@ -42,7 +42,7 @@ void turn_three(MatrixXd &S, const fem::Interface &interface, int first, const M
     return;
   if (!is_whole(interface, first) && !turn.isIdentity(0.))
     throw std::invalid_argument("interface '" + interface.name +
-                                "' is held in some directions, so that its part cannot be turned or mirrored");
+                                "' is supported in some directions, so its part cannot be rotated or mirrored");
   for (int i = 0; i < 3; ++i)
     if (const int row = interface.coordinate[first + i]; row >= 0)
     {

@@ -50,7 +50,7 @@ void require_end(const FrameOfParts &frame, const FrameJoint &joint, const Joint
                             suggestion(end.interface, interfaces_of(*part)));
   if (interface->coupling == fem::InterfaceCoupling::node)
     refuse(joint.place, "interface '" + end.name() +
-                            "' is a node of the mesh, which has no rotations to be joined; make it coupling = "
+                            "' is a node of the mesh, which has no rotations to join; set coupling = "
                             "\"rigid\" or \"average\"");
 }
 
@@ -78,8 +78,8 @@ void require_alike(const FrameOfParts &frame, const FrameJoint &joint)
   if (!is_flexible(first) && !is_flexible(second))
     return;
   if (joint.kind == JointKind::bolts || joint.kind == JointKind::tie_rod)
-    refuse(joint.place, "holds a flexible face by springs at one node; give the interface coupling = \"average\", or "
-                        "make the joint a weld or a contact");
+    refuse(joint.place, "connects a flexible face by springs at one node; give the interface coupling = \"average\", "
+                        "or make the joint a weld or a contact");
   if (first.degree != second.degree || is_flexible(first) != is_flexible(second))
     refuse(joint.place, "'" + joint.between[0].name() + "' is " + coupling_text(first) + ", '" +
                             joint.between[1].name() + "' " + coupling_text(second) +
@@ -97,7 +97,7 @@ void require_joined_faces(const FrameOfParts &frame)
     for (const fem::InterfaceSpecification &interface : part.geometry.interfaces)
       if (is_flexible(interface) && joined.count(JointEnd{part.name, interface.name}.name()) == 0)
         refuse(part.place, "interface '" + interface.name +
-                               "' is flexible, but no joint holds it; make it coupling = \"rigid\" or \"average\"");
+                               "' is flexible, but has no joint; set coupling = \"rigid\" or \"average\"");
 }
 
 /// Joints that fasten faces: an interface takes part in one of them.
@@ -109,7 +109,7 @@ void require_single_use(const FrameOfParts &frame)
       for (const JointEnd &end : joint.between)
         if (const auto [other, is_new] = user.emplace(end.name(), joint.name); !is_new)
           refuse(joint.place, "interface '" + end.name() + "' is joined by '" + other->second +
-                                  "' already; divide its surfaces into an interface for each joint");
+                                  "' already; divide its surfaces into one interface for each joint");
 }
 
 /// Parts that joints connect with the first one.
@@ -163,9 +163,9 @@ void require_meeting(const FrameJoint &joint, const Eigen::Vector3d &first, cons
   if (distance > tolerance)
     refuse(joint.place, "the interfaces do not meet: '" + joint.between[0].name() + "' is at " + text_of(first) +
                             ", '" + joint.between[1].name() + "' at " + text_of(second) + ", " +
-                            rounded(1e3 * distance) + " mm apart, but they may be " + rounded(1e3 * tolerance) +
-                            " mm apart; move a part by its 'placement', give the interfaces the same 'position', or "
-                            "allow the distance by tolerance = \"" +
+                            rounded(1e3 * distance) + " mm apart, but the tolerance is " + rounded(1e3 * tolerance) +
+                            " mm; move a part by its 'placement', give the interfaces the same 'position', or allow "
+                            "the distance by tolerance = \"" +
                             rounded(1.1e3 * distance) + " mm\"");
 }
 
@@ -197,7 +197,7 @@ void require_joints(const FrameOfParts &frame)
     if (joint.between[0].part == joint.between[1].part)
       refuse(joint.place, joint.kind == JointKind::tie_rod
                               ? "both ends of the tie rod are on part '" + joint.between[0].part +
-                                    "'; a rod within a part is a [element.NAME] type = \"spring-damper\" between its "
+                                    "'; a rod within a part is an [element.NAME] type = \"spring-damper\" between its "
                                     "interfaces"
                               : "joins part '" + joint.between[0].part +
                                     "' with itself; name an interface of another "

@@ -71,12 +71,11 @@ MatrixXd following(const FrameJoint &joint, const fem::Interface &first, const f
     return carried(position_of(first), position_of(second));
   if (!first.face.overlaps(second.face))
     throw std::invalid_argument(joint.place + ": the flexible faces '" + first.name + "' and '" + second.name +
-                                "' lie beside each other; choose faces that touch, or join them by coupling = "
-                                "\"rigid\"");
+                                "' do not overlap; choose faces that touch, or join them by coupling = \"rigid\"");
   constexpr double parallel = 0.9998; // cosine of a degree
   if (std::abs(first.face.axes.col(2).dot(second.face.axes.col(2))) < parallel)
     throw std::invalid_argument(joint.place + ": the flexible faces '" + first.name + "' and '" + second.name +
-                                "' do not lie in parallel planes; turn a part by its 'placement', or join them by "
+                                "' are not in parallel planes; rotate a part by its 'placement', or join them by "
                                 "coupling = \"rigid\"");
   const auto points = samples_of(first.face);
   const auto rows   = Index(3 * points.size());
@@ -99,7 +98,7 @@ void require_facing(const FrameJoint &joint, const fem::Interface &first, const 
   for (const fem::Interface *side : {&first, &second})
     if (const double cosine = std::abs(joint.normal.dot(side->face.axes.col(2)));
         side->face.known() && cosine < along_the_face)
-      throw std::invalid_argument(joint.place + ": 'normal' is to point across the faces, but is " +
+      throw std::invalid_argument(joint.place + ": 'normal' must be normal to the faces, but is " +
                                   rounded(std::acos(cosine) * 180. / M_PI) + " degrees off the normal of '" +
                                   side->name + "'");
 }

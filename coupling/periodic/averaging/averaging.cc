@@ -29,16 +29,15 @@ public:
   std::string name() const override { return "averaging"; }
   std::string meaning() const override
   {
-    return "slow flow of one mode with the describing functions of the elements (Bogoliubov, Mitropolsky 1961): a "
-           "quick "
-           "look, of first order";
+    return "slow flow of one mode with the describing functions of the elements (Bogoliubov, Mitropolsky 1961): quick, "
+           "first order";
   }
   std::string refuses(const PeriodicProblem &problem) const override;
   bool        integrates() const override { return false; }
   std::string follows_none() const override
   {
-    return "averaging follows no branch; take --method harmonic-balance --harmonics 1, which has its equations without "
-           "the limit of small changes";
+    return "averaging cannot follow a branch; use --method harmonic-balance --harmonics 1, which has the same "
+           "equations without the limit of small changes";
   }
   std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
                                           const PeriodicOptions &options, int) const override
@@ -84,7 +83,7 @@ FourierSeries AveragingMethod::series_of(const PeriodicProblem &problem, SlowFlo
     const double x = (problem.phase_value - flow.mean()[problem.phase]) / (a * flow.shape()[problem.phase]);
     if (!(std::abs(x) <= 1.))
       throw std::invalid_argument(
-          "averaging: the coordinate that fixes the phase does not come to its value in this motion; give its mean");
+          "averaging: the coordinate that fixes the phase does not reach its value in this motion; give its mean");
     const double side = (flow.shape()[problem.phase] > 0.) != problem.phase_falls ? 1. : -1.;
     z                 = a * std::exp(Complex(0., -side * std::acos(x) - series.omega * problem.begin));
   }
@@ -119,7 +118,7 @@ PeriodicSolution AveragingMethod::solution_of(const PeriodicProblem &problem, Sl
   solution.integration        = options.integration;
   std::ostringstream note;
   note.precision(2);
-  note << "first order in what the elements add to the frequency of the mode, here "
+  note << "first order in the frequency shift of the mode by the elements, here "
        << std::abs(rates.omega / flow.omega_0() - 1.) << " of it; multipliers are those of this mode";
   solution.notes.push_back(note.str());
   solution.notes.push_back(left_out(problem, solution, options));
@@ -183,7 +182,7 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
         note << " and by " << std::abs(other.period / solution.period - 1.) << " of its period";
       return note.str();
     }
-    note << "harmonic balance with " << H << " harmonics leads to another motion from here";
+    note << "harmonic balance with " << H << " harmonics leads to another solution from here";
   }
   catch (const SearchInterrupted &)
   {
@@ -191,9 +190,9 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
   }
   catch (const std::exception &) // a law that harmonic balance does not take, or no motion
   {
-    note << "harmonic balance finds no motion near it";
+    note << "harmonic balance finds no solution near it";
   }
-  note << ": how much averaging leaves out is not known; --check shooting tells";
+  note << ": the error of averaging is unknown; use --check shooting";
   return note.str();
 }
 
@@ -208,7 +207,7 @@ std::vector<PeriodicSolution> AveragingMethod::solve(const PeriodicProblem &prob
   {
     std::ostringstream message;
     message << "averaging: the mode of " << flow.omega_0() / (2. * M_PI)
-            << " Hz has no steady amplitude; take settling to see what the motion does";
+            << " Hz has no steady amplitude; use settling to see the motion";
     throw NoPeriodicMotion(message.str());
   }
   return found;

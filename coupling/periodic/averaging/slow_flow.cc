@@ -38,11 +38,11 @@ SlowFlow::SlowFlow(const PeriodicProblem &problem, int mode)
 {
   const SecondOrderSystem &system = *problem.system;
   if (system.joints().n_rows() > 0)
-    refuse_averaging("ideal joints are not averaged by it; take shooting, or compliant joints");
+    refuse_averaging("it does not support ideal joints; use shooting, or compliant joints");
   if (!system.linear().dense_matrices(M_, B_, C_))
     refuse_averaging("it works in a mode of the base system, and an unreduced frame has too many; reduce the frame");
   if (problem.turn.size() > 0 && !problem.turn.isZero(0.))
-    refuse_averaging("a motion that turns is no vibration about a place of rest; take shooting");
+    refuse_averaging("a rotating motion is not a vibration about an equilibrium; use shooting");
   W_ = MatrixXd(system.forces().directions());
   problem.system->events().follow_history(false);
   find_rest();
@@ -75,7 +75,7 @@ void SlowFlow::find_rest()
     linear_C_           = C_ - W_ * dp_du * W_.transpose();
     const VectorXd step = lu_solution(linear_C_, load + W_ * state.p - C_ * rest_);
     if (!step.allFinite())
-      refuse_averaging("nothing holds a motion of the system, so that it has no place of rest; take shooting");
+      refuse_averaging("the system has an unconstrained DOF, so it has no equilibrium; use shooting");
     rest_ += step;
     if (step.norm() <= rest_tolerance * (1e-300 + rest_.norm()))
     {
@@ -85,14 +85,14 @@ void SlowFlow::find_rest()
       return;
     }
   }
-  refuse_averaging("the place where the system rests is not found; take settling");
+  refuse_averaging("the equilibrium of the system is not found; use settling");
 }
 
 void SlowFlow::find_load()
 {
   const Excitation &excitation = problem_.system->linear().excitation();
   if (excitation.has_rest() || excitation.harmonics().size() > 1)
-    refuse_averaging("loads of one frequency only are averaged; take harmonic-balance for more");
+    refuse_averaging("it supports loads of one frequency only; use harmonic-balance for more");
   if (!excitation.harmonics().empty())
     load_omega_ = excitation.harmonics()[0].omega;
 }
@@ -120,9 +120,8 @@ double SlowFlow::nearness(int mode, const VectorXd &omega, const MatrixXd &shape
 void SlowFlow::find_mode(int mode)
 {
   if ((linear_C_ - linear_C_.transpose()).cwiseAbs().maxCoeff() > symmetric * linear_C_.cwiseAbs().maxCoeff())
-    refuse_averaging(
-        "forces follow the motion (loads with carried_by, friction under a load that moves), so that it has "
-        "no modes at right angles to each other to be averaged in; take shooting or harmonic-balance");
+    refuse_averaging("follower forces (loads with carried_by, friction under a moving load) make its modes "
+                     "non-orthogonal; use shooting or harmonic-balance");
   const SymmetricPencilSolver modes(0.5 * (linear_C_ + linear_C_.transpose()), M_);
   if (!modes.converged())
     refuse_averaging("the modes of the base system were not found: its mass matrix is singular");
@@ -137,8 +136,8 @@ void SlowFlow::find_mode(int mode)
         mode = j;
       }
     if (mode < 0)
-      refuse_averaging(load_omega_ > 0. ? "no mode is moved by the load"
-                                        : "there is no load, and no mode is excited by itself about its place of rest");
+      refuse_averaging(load_omega_ > 0. ? "the load excites no mode"
+                                        : "there is no load, and no mode is self-excited about its equilibrium");
   }
   if (mode >= omega.size() || !(omega[mode] > 0.))
     refuse_averaging("there is no vibration of mode " + std::to_string(mode + 1));

@@ -299,8 +299,8 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
     evaluate(P, r, &J);
     const VectorXd dP = lu_solution(J, r);
     if (!dP.allFinite())
-      throw NoPeriodicMotion("collocation: nothing determines the motion: no element acts where the mesh looks; begin "
-                             "nearer to the motion (--lead-in), or take shooting");
+      throw NoPeriodicMotion("collocation: the motion is undetermined: no element acts at the points of the mesh; "
+                             "begin closer to the motion (--lead-in), or use shooting");
     const Index n    = u_0_.size(); // forces; free states and the period follow them
     const bool  done = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
                       (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
@@ -320,7 +320,7 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
       return k;
   }
   std::ostringstream text;
-  text << "collocation: Newton's method does not converge; begin nearer to the motion (--lead-in), or take shooting";
+  text << "collocation: Newton's method does not converge; begin closer to the motion (--lead-in), or use shooting";
   throw NoPeriodicMotion(text.str());
 }
 

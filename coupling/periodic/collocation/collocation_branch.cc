@@ -48,7 +48,7 @@ std::vector<double> stretched(std::vector<double> mesh, std::vector<double> from
   return mesh;
 }
 
-const std::string by_shooting = ", beyond which the mesh does not follow it; take --method shooting";
+const std::string by_shooting = ", beyond which the mesh cannot follow it; use --method shooting";
 
 /// z = (y of PeriodicCollocation, weighted; places of the events in the mesh).  Newton's method leaves the places as
 /// they are: F is zero in their rows.  follow_motion() moves them.
@@ -78,7 +78,7 @@ public:
     const Index n = weights_.size(), m = z.size();
     y_ = z.head(n).cwiseQuotient(weights_);
     if (member_.problem.period_is_unknown() && !(y_.tail(1)[0] > 0.))
-      throw ConvergenceFailure("Newton's method asks for a period that is not positive");
+      throw ConvergenceFailure("Newton's method gives a period that is not positive");
     form(lambda, y_.tail(1)[0]);
     const VectorXd places = z.tail(m - n) / event_scale_;
     move_events(std::vector<double>(places.begin(), places.end()));
@@ -107,13 +107,13 @@ public:
     const PeriodicGuess start = start_of_motion();
     if (tangents_)
       if (const std::string why = why_no_mesh(member_.problem, *flow_, start); !why.empty())
-        throw NoPeriodicMotion("beyond it " + why + "; take shooting");
+        throw NoPeriodicMotion("beyond it " + why + "; use shooting");
     PeriodicSolution solution =
         collocated(member_.problem, options_.integration, *flow_, start, tangents_ && flow_->has_tangents());
     if (const double error = tangents_ ? collocation_->errors(y_).maxCoeff() : 0.; error > 10. * mesh_tolerance)
     {
       std::ostringstream note;
-      note << "the mesh of collocation errs by what would move the measures by " << error << " of their excursions";
+      note << "the mesh error of collocation would change the measures by " << error << " of their ranges";
       solution.notes.push_back(note.str());
     }
     return solution;
@@ -245,7 +245,7 @@ void CollocationBranch::move_events(const std::vector<double> &events)
     throw ConvergenceFailure("the number of events changes" + by_shooting);
   for (std::size_t k = 0; k < events.size(); ++k)
     if (std::abs(events[k] - events_[k]) > longest_move)
-      throw ConvergenceFailure("an event of the motion passes the begin of the period" + by_shooting);
+      throw ConvergenceFailure("an event of the motion passes the beginning of the period" + by_shooting);
   if (!std::is_sorted(events.begin(), events.end()) || !(events.front() > 0.) || !(events.back() < 1.))
     throw ConvergenceFailure("events of the motion change their order" + by_shooting);
   mesh_   = stretched(mesh_, events_, events);

@@ -17,8 +17,8 @@ public:
   std::string name() const override { return "collocation"; }
   std::string meaning() const override
   {
-    return "Orthogonal collocation on a mesh that is divided where it errs, with points at the events; condensed to "
-           "the forces of the elements by the base that closes by itself.";
+    return "Orthogonal collocation on an adaptive mesh with points at the events; condensed to the forces of the "
+           "elements by the periodic base system.";
   }
   std::string refuses(const PeriodicProblem &problem) const override
   {

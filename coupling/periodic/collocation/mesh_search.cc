@@ -87,7 +87,7 @@ std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const 
   flow.pass(start.q, start.v, start.period, false);
   flow.look_on(0, {});
   if (held >= 0)
-    return forces.element_of(held) + " sticks, and what holds has no law of force";
+    return forces.element_of(held) + " sticks, and its sticking force has no force law";
   problem.system->events().follow_history(false);
   VectorXd p = VectorXd::Zero(states.front().p.size()), largest = p, differs = p;
   for (LocalState &state : states)
@@ -105,8 +105,8 @@ std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const 
       continue;
     std::ostringstream text;
     text.precision(2);
-    text << forces.element_of(block.first_measure) << " remembers what was before, by " << error / size
-         << " of its largest force, which a law of the motion alone does not";
+    text << forces.element_of(block.first_measure) << " has hysteresis, by " << error / size
+         << " of its largest force: its force depends on the past";
     return text.str();
   }
   return "";
@@ -115,7 +115,7 @@ std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const 
 void MeshSearch::refuse_memory(const PeriodicGuess &start)
 {
   if (const std::string why = why_no_mesh(problem_, flow_, start); !why.empty())
-    throw std::invalid_argument("collocation: " + why + "; take shooting");
+    throw std::invalid_argument("collocation: " + why + "; use shooting");
 }
 
 void MeshSearch::begin(const PeriodicGuess &guess)
@@ -181,8 +181,8 @@ void MeshSearch::run(const PeriodicGuess &guess)
   if (!(error() <= far_off))
   {
     std::ostringstream text;
-    text << "collocation: on the finest mesh the forces still err by what would move the measures by " << error()
-         << " of their excursions; take shooting";
+    text << "collocation: on the finest mesh the error of the forces would still change the measures by " << error()
+         << " of their ranges; use shooting";
     throw NoPeriodicMotion(text.str());
   }
   refuse_memory({q_, v_, collocation_.period()});
@@ -194,10 +194,10 @@ PeriodicSolution MeshSearch::solution()
       collocated(problem_, options_.integration, flow_, {q_, v_, collocation_.period()}, flow_.has_tangents());
   solution.work.iterations = iterations_;
   std::ostringstream note;
-  note << errors_.size() << " intervals; their forces err by what would move the measures by " << error()
-       << " of their excursions" << (error() > options_.tolerance ? ", not the " : "");
+  note << errors_.size() << " intervals; the error of the forces would change the measures by " << error()
+       << " of their ranges" << (error() > options_.tolerance ? ", not the " : "");
   if (error() > options_.tolerance)
-    note << options_.tolerance << " asked for: the mesh is as fine as it may become";
+    note << options_.tolerance << " requested: the mesh has reached its finest level";
   solution.notes.push_back(note.str());
   return solution;
 }

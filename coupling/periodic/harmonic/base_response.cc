@@ -71,8 +71,9 @@ void BaseResponse::check_turn(const PeriodicProblem &problem) const
   const VectorXd force = C * problem.turn, terms = C.cwiseAbs() * problem.turn.cwiseAbs();
   for (Eigen::Index i = 0; i < force.size(); ++i)
     if (std::abs(force[i]) > no_stiffness_turned * terms[i])
-      refuse_harmonics("a motion that turns in every period stretches a linear spring at " +
-                       problem.system->linear().coordinate_name(int(i)) + "; what turns must be free of the base");
+      refuse_harmonics("a motion that rotates in every period stretches a linear spring at " +
+                       problem.system->linear().coordinate_name(int(i)) +
+                       "; rotating coordinates must have no linear springs");
 }
 
 void BaseResponse::gather_loads(const PeriodicProblem &problem)
@@ -104,7 +105,7 @@ void BaseResponse::gather_loads(const PeriodicProblem &problem)
       std::ostringstream message;
       message.precision(12);
       message << "the load of " << harmonic.omega / two_pi << " Hz has " << periods << " periods in the period of "
-              << problem.period << " s; a whole number is needed: give another period";
+              << problem.period << " s; an integer is needed: give another period";
       refuse_harmonics(message.str());
     }
     VectorXcd force = VectorXcd::Zero(modes_.G.cols());
@@ -159,8 +160,8 @@ void BaseResponse::check_resonance() const
     if (h < 1. || h > harmonics_ || std::hypot(block.s, std::abs(block.w) - h * omega_) > no_response * h * omega_)
       continue;
     std::ostringstream message;
-    message << "an undamped mode at " << std::abs(block.w) / two_pi << " Hz stands at harmonic " << h
-            << " of the period, where the base system has no response; give it damping, or take shooting";
+    message << "an undamped mode at " << std::abs(block.w) / two_pi << " Hz coincides with harmonic " << h
+            << " of the period, where the base system has no response; give it damping, or use shooting";
     refuse_harmonics(message.str());
   }
 }

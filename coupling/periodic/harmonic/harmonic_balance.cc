@@ -48,9 +48,9 @@ void HarmonicBalance::require_load() const
 {
   if (const int load = largest_load(); load > harmonics_)
     throw std::invalid_argument("harmonic balance: " + std::to_string(harmonics_) +
-                                " harmonics would leave out a load of harmonic " + std::to_string(load) +
-                                " of the period; ask for at least " + std::to_string(load) +
-                                " harmonics, or leave their number out");
+                                " harmonics would omit a load of harmonic " + std::to_string(load) +
+                                " of the period; request at least " + std::to_string(load) +
+                                " harmonics, or omit their number");
 }
 
 void HarmonicBalance::set_period(double period)
@@ -343,7 +343,7 @@ HarmonicBalance::LeftOut HarmonicBalance::left_out(const VectorXd &z)
     sampled += square;
   }
   LeftOut        left{sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff(), 0.,
-                      sampled.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff()};
+               sampled.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff()};
   const VectorXd ranges = forces_->ranges(), changes = forces_->changes(here, u, 2. * M_PI / period_);
   const double   least = negligible_force * ranges.maxCoeff();
   for (int i = 0; i < n_u_; ++i)

@@ -154,7 +154,8 @@ void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &s
   }
   std::ostringstream note;
   note.precision(2);
-  note << "whether it lasts is not known: followed for a period, it misses by " << closing << " of its speed";
+  note << "its stability is unknown: integrated over a period, it misses the initial state by " << closing
+       << " of its speed";
   solution.multipliers.resize(0);
   solution.notes.push_back(note.str());
 }
@@ -205,10 +206,10 @@ std::string note_of_harmonics(const HarmonicBalance &balance, const HarmonicBala
 {
   std::ostringstream note;
   note.precision(2);
-  note << balance.harmonics() << " harmonics of " << balance.samples() << " samples; what they leave out would add "
+  note << balance.harmonics() << " harmonics of " << balance.samples() << " samples; the omitted harmonics would add "
        << left.motion << " of the motion and change the forces by " << left.forces << " of their range";
   if (left.motion > tolerance)
-    note << (given ? ", ask for more harmonics" : ", as kinks of a law do; shooting is exact there");
+    note << (given ? "; request more harmonics" : ", as kinks of a force law do; shooting is exact there");
   return note.str();
 }
 
@@ -220,14 +221,16 @@ void require_unknowns(const PeriodicProblem &problem, int harmonics)
 {
   const auto   n_u = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
   const double n   = double(n_u) * (2. * harmonics + 1.);
-  if (harmonics > 0)
-    fem::require_available("harmonic balance: the equations of " + std::to_string(harmonics) + " harmonics",
-                           16. * n * n + 128. * n, "Ask for fewer harmonics, or leave their number out.");
   if (n <= most_asked)
+  {
+    if (harmonics > 0)
+      fem::require_available("harmonic balance: the equations of " + std::to_string(harmonics) + " harmonics",
+                             16. * n * n + 128. * n, "Request fewer harmonics, or omit their number.");
     return;
+  }
   std::ostringstream text;
-  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are " << n << " unknowns; up to "
-       << most_asked << " are handled: ask for at most " << (most_asked / n_u - 1) / 2 << " harmonics";
+  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are " << n << " unknowns; at most "
+       << most_asked << " are possible: request at most " << (most_asked / n_u - 1) / 2 << " harmonics";
   throw std::invalid_argument(text.str());
 }
 
@@ -244,7 +247,8 @@ public:
 
   std::vector<PeriodicOption> options() const override
   {
-    return {{"harmonics", "of harmonic balance (default: until what is left out is small)", 1., 1e4}, lead_in_option()};
+    return {{"harmonics", "of harmonic balance (default: until the truncation error is small)", 1., 1e4},
+            lead_in_option()};
   }
   bool                             integrates() const override { return false; }
   std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
@@ -262,18 +266,18 @@ std::string HarmonicBalanceMethod::refuses(const PeriodicProblem &problem) const
   const SecondOrderSystem &system = *problem.system;
   if (const int n = system.joints().n_rows(); n > 0)
     return "harmonic balance: " + std::to_string(n) + " equations of ideal joints, the first of " +
-           system.joints().name(0) + ", are not balanced by it; take shooting, or compliant joints";
+           system.joints().name(0) + ", are not supported; use shooting, or compliant joints";
   if (system.linear().excitation().has_rest())
-    return "harmonic balance: the load is no sum of harmonics; take shooting";
+    return "harmonic balance: the load is not a sum of harmonics; use shooting";
   MatrixXd M, B, C;
   if (!system.linear().dense_matrices(M, B, C))
     return "harmonic balance: it works in the modes of the base system, and an unreduced frame has too many; reduce "
-           "the frame, or take shooting";
+           "the frame, or use shooting";
   if (problem.has_free_shifts())
-    return "harmonic balance: nothing depends on the angle of " + free_coordinate(problem) +
-           ", so that it may turn by any angle in a period, but a series needs that angle beforehand; take shooting";
+    return "harmonic balance: no force depends on the angle of " + free_coordinate(problem) +
+           ", so its rotation in a period is arbitrary, but a series needs that angle beforehand; use shooting";
   if (problem.period_is_unknown() && !system.linear().excitation().is_constant())
-    return "harmonic balance: the load gives the period, and a phase condition asks for another; leave one of them out";
+    return "harmonic balance: the load determines the period, and a phase condition another one; remove one of them";
   return "";
 }
 
@@ -367,9 +371,9 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
   check_memory();
   std::ostringstream message;
   message.precision(2);
-  message << "harmonic balance: Newton's method with " << balance_.harmonics()
-          << " harmonics has come to a residual of " << newton_.residual << " of the motion after " << iterations_
-          << " iterations; begin nearer to the motion, or take shooting or settling";
+  message << "harmonic balance: Newton's method with " << balance_.harmonics() << " harmonics reached a residual of "
+          << newton_.residual << " of the motion after " << iterations_
+          << " iterations; begin closer to the motion, or use shooting or settling";
   throw ConvergenceFailure(message.str());
 }
 
@@ -398,7 +402,7 @@ void BalanceSearch::grow()
       continue;
     }
     if ((z_ - start).norm() > another_motion * start.norm())
-      others_ = "with fewer than " + std::to_string(tried) + " harmonics another motion was found than with these";
+      others_ = "with fewer than " + std::to_string(tried) + " harmonics another solution was found than with these";
     left_out_ = balance_.left_out(z_);
   }
 }
@@ -428,8 +432,8 @@ void BalanceSearch::check_memory()
     return;
   std::ostringstream message;
   message.precision(2);
-  message << "harmonic balance: " << memory.element << " remembers what was before, by " << memory.share
-          << " of the largest force, which a law of the motion alone does not; take shooting";
+  message << "harmonic balance: " << memory.element << " has hysteresis, by " << memory.share
+          << " of the largest force: its force depends on the past; use shooting";
   throw std::invalid_argument(message.str());
 }
 

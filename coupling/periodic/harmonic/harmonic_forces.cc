@@ -109,8 +109,8 @@ void HarmonicForces::start_elements()
   problem_.system->events().follow_history(false); // an integration in between may have changed it
   problem_.system->events().start(state_);
   if (!problem_.system->forces().held().empty())
-    throw std::invalid_argument("harmonic balance: an element sticks at the begin of the period, and what holds has no "
-                                "law of force; give its friction a regularised law, or take shooting");
+    throw std::invalid_argument("harmonic balance: an element sticks at the beginning of the period, and its sticking "
+                                "force has no force law; give its friction a regularised law, or use shooting");
 }
 
 void HarmonicForces::set_state(int k)

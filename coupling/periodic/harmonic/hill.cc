@@ -34,13 +34,13 @@ public:
   {
     MatrixXd M, B, C;
     if (!problem.system->linear().dense_matrices(M, B, C))
-      throw std::invalid_argument("Hill's matrix: the base system is not dense; take a shooting pass");
+      throw std::invalid_argument("Hill's matrix: the base system is not dense; use a shooting pass");
     const Eigen::LLT<MatrixXd> mass(M);
     if (mass.info() != Eigen::Success)
-      throw std::invalid_argument("Hill's matrix: the mass matrix is singular; take a shooting pass");
+      throw std::invalid_argument("Hill's matrix: the mass matrix is singular; use a shooting pass");
     for (const HarmonicForces::Derivative &d : derivatives)
       if (d.of_a.size() > 0)
-        throw std::invalid_argument("Hill's matrix: forces depend on accelerations; take a shooting pass");
+        throw std::invalid_argument("Hill's matrix: forces depend on accelerations; use a shooting pass");
     damping_   = -mass.solve(B) / omega;
     stiffness_ = -mass.solve(C) / (omega * omega);
     W_         = MatrixXd(problem.system->forces().directions());
@@ -111,7 +111,7 @@ MatrixXd projected(const MatrixXd &H, Eigen::Index m, double &outside)
 {
   const GeneralEigenSolver solver(H);
   if (!solver.converged())
-    throw std::invalid_argument("Hill's matrix: its eigenvalues were not found; take a shooting pass");
+    throw std::invalid_argument("Hill's matrix: its eigenvalues were not found; use a shooting pass");
   MatrixXcd start = MatrixXcd::Zero(H.rows(), m);
   start.topRows(m).setIdentity();
   const MatrixXcd shares = solver.eigenvectors().partialPivLu().solve(start);

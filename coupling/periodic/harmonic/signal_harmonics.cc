@@ -36,8 +36,8 @@ SignalHarmonics signal_harmonics(const std::vector<double> &samples, double begi
   const int n = int(samples.size()) - 1;
   if (2 * count * ratio >= n)
     throw std::invalid_argument("signal_harmonics: " + std::to_string(n) +
-                                " samples of a period cannot tell harmonic " + std::to_string(count * ratio) +
-                                " of it; give more than " + std::to_string(2 * count * ratio));
+                                " samples of a period do not resolve harmonic " + std::to_string(count * ratio) +
+                                "; give more than " + std::to_string(2 * count * ratio));
   const FourierTransform transform(n);
   SignalHarmonics        result;
   result.mean = std::accumulate(samples.begin(), samples.end() - 1, 0.) / n;

@@ -273,8 +273,8 @@ LinearResponse::LinearResponse(const SecondOrderSystem &system, const OperatingP
                                 std::to_string(system.linear().size()) +
                                 " coordinates; reduce the frame (reduction.method = \"craig-bampton\")");
   if (system.forces().need_multipliers())
-    throw std::invalid_argument("frequency response: friction in ideal joints depends on their forces, of which no "
-                                "derivative is known; leave it out, or make the joint compliant");
+    throw std::invalid_argument("frequency response: friction in ideal joints depends on their forces, whose "
+                                "derivatives are not available; remove it, or make the joint compliant");
   own.base = entries(own.M, own.B, own.C);
   own.W    = system.forces().directions();
   linearise_elements(system, point.local, own);
@@ -324,10 +324,9 @@ Vibration LinearResponse::at(double omega, const MatrixXd &forces) const
   {
     std::ostringstream message;
     message.precision(10);
-    message
-        << "frequency response: at " << omega / 6.283185307179586
-        << " Hz the vibration is not finite: an undamped mode lies there, or a motion has neither mass nor stiffness; "
-           "give it damping, or take other frequencies";
+    message << "frequency response: at " << omega / 6.283185307179586
+            << " Hz the vibration is not finite: there is an undamped mode, or a motion has neither mass nor "
+               "stiffness; give it damping, or choose other frequencies";
     throw ConvergenceFailure(message.str());
   }
   return {omega, std::move(x->q), std::move(x->p), x->mu.topRows(parts_->n_c)};

@@ -41,17 +41,16 @@ MatrixXd divided_by_mass(const MatrixXd &M_r, const MatrixXd &R)
   for (double &size : scale)
   {
     if (!(size > 0.))
-      throw std::invalid_argument("a coordinate has no mass, such as the lag of a drive or a massless place of the "
-                                  "frame: the machine is no system of x' = A x + B u; give it mass, or take its "
-                                  "frequency responses");
+      throw std::invalid_argument(
+          "a coordinate has no mass, such as the state of a drive or a massless point of the frame: the machine has no "
+          "form x' = A x + B u; give it mass, or use its frequency responses");
     size = 1. / std::sqrt(size);
   }
   Eigen::FullPivLU<MatrixXd> lu(scale.asDiagonal() * M_r * scale.asDiagonal());
   lu.setThreshold(least_mass);
   if (!lu.isInvertible())
-    throw std::invalid_argument(
-        "a motion has no mass, though each coordinate has: the machine is no system of x' = A x "
-        "+ B u; give it mass, or take its frequency responses");
+    throw std::invalid_argument("a motion has no mass, although each coordinate has: the machine has no form x' = A x "
+                                "+ B u; give it mass, or use its frequency responses");
   return scale.asDiagonal() * lu.solve(scale.asDiagonal() * R);
 }
 

@@ -90,14 +90,14 @@ SegmentEquations::SegmentEquations(const PeriodicProblem &problem, const MethodO
   problem_.most_steps = std::max(least_steps, problem.most_steps / std::max(segments, 1));
   if (segments < 1)
     throw std::invalid_argument("multiple shooting: " + std::to_string(segments) +
-                                " segments, but 1 at least are needed");
+                                " segments, but at least 1 is needed");
 }
 
 double SegmentEquations::period_of(const VectorXd &z) const
 {
   const double period = problem_.period_is_unknown() ? z.tail(1)[0] : problem_.period;
   if (!(period > 0.))
-    throw ConvergenceFailure("Newton's method asks for a period that is not positive");
+    throw ConvergenceFailure("Newton's method gives a period that is not positive");
   return period;
 }
 
@@ -190,9 +190,9 @@ void SegmentEquations::evaluate(const VectorXd &z)
     if (i + 1 == M_)
       dq.col(i) -= problem_.turn;
     else if (flow_.remembers_at_end())
-      throw ConvergenceFailure("elements remember more than the state at " +
+      throw ConvergenceFailure("elements have hysteresis at " +
                                std::to_string(problem_.begin + whole_.period * share(i + 1)) +
-                               " s, where a segment ends; only one segment (shooting) keeps that");
+                               " s, where a segment ends; use one segment only (shooting)");
     residual_.segment(2 * n * i, 2 * n) << omega_ * dq.col(i), dv.col(i);
   }
   closing_ = closing_error(dq.reshaped(), dv.reshaped(), 2. * M_PI / whole_.period, whole_.fastest);
@@ -274,18 +274,19 @@ bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, Ve
 std::string note_of(SegmentEquations &equations, const VectorXd &z)
 {
   std::ostringstream text;
-  text << "closed by multiple shooting in " << equations.segments() << " segments; ";
+  text << "solved by multiple shooting in " << equations.segments() << " segments; ";
   try
   {
-    text << "followed from its start in one go it misses by " << equations.closing_in_one(z) << " of its speed";
+    text << "integrated from its initial state in a single pass it misses it by " << equations.closing_in_one(z)
+         << " of its speed";
   }
   catch (const SearchInterrupted &)
   {
-    text << "whether it can be followed in one go was not tried";
+    text << "integration in a single pass was not tried";
   }
   catch (const ConvergenceFailure &)
   {
-    text << "it cannot be followed from its start in one go";
+    text << "integration from its initial state in a single pass fails";
   }
   return text.str();
 }
@@ -327,7 +328,7 @@ PeriodicSolution shoot_in_segments(const PeriodicProblem &problem, const Periodi
 {
   const int few        = options.segments > 0 ? options.segments : few_segments,
             many       = options.segments > 0 ? options.segments : many_segments;
-  std::string failures = "multiple shooting does not close the motion";
+  std::string failures = "multiple shooting does not converge";
   for (const auto &[segments, follows] : {std::pair(few, true), std::pair(many, true), std::pair(many, false)})
     try
     {

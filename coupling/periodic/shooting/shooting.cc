@@ -45,7 +45,7 @@ const PeriodPassage &ShootingEquations::pass(const VectorXd &z, bool tangents)
   const Index  n      = problem_.turn.size();
   const double period = problem_.period_is_unknown() ? z[2 * n] : problem_.period;
   if (!(period > 0.))
-    throw ConvergenceFailure("Newton's method asks for a period that is not positive");
+    throw ConvergenceFailure("Newton's method gives a period that is not positive");
   const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, tangents);
   ++passages_;
   PeriodicWork sum{0, 0, work_};
@@ -121,11 +121,10 @@ PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions
     solution.multipliers = multipliers_of(passage.monodromy, problem);
   for (const std::string &event : passage.grazing)
     solution.notes.push_back("grazing: " + event +
-                             ": the motion touches this event rather than crosses it; stability "
-                             "is that of the motion on one side");
+                             ": the motion touches this event instead of crossing it; stability is one-sided");
   if (passage.chattering > 0.)
     solution.notes.push_back("chatter: events in " + std::to_string(100. * passage.chattering) +
-                             " % of the period were gone over; its derivative leaves them out");
+                             " % of the period were not located; its derivative ignores them");
   return solution;
 }
 
@@ -137,8 +136,7 @@ void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, con
                meant = guess.v.norm() + omega * guess.q.norm();
   if (!(moves > at_rest * meant))
     throw NoPeriodicMotion(
-        "the search fell to rest, which repeats after any time; begin on a motion, nearer to the one "
-        "that is meant (--lead-in)");
+        "the search converged to rest, which has no period; begin closer to the intended motion (--lead-in)");
 }
 
 std::string closing_note(double closing, double tolerance)
@@ -146,8 +144,8 @@ std::string closing_note(double closing, double tolerance)
   if (!(closing > tolerance))
     return "";
   std::ostringstream text;
-  text << "the motion closes to " << closing << " of its speed, not to " << tolerance
-       << ": what the integration leaves; give it a smaller tolerance";
+  text << "the periodicity residual is " << closing << " of its speed, not to " << tolerance
+       << ", because of the integration error; use a smaller tolerance";
   return text.str();
 }
 
@@ -169,17 +167,16 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
 [[noreturn]] void give_up(const ShootingEquations &equations, const PeriodicProblem &problem, int iterations)
 {
   std::ostringstream text;
-  text << "shooting does not close the motion: after " << iterations << " Newton steps it still misses by "
+  text << "shooting does not converge: after " << iterations << " Newton steps it still misses the initial state by "
        << equations.closing() << " of its speed";
   if (const auto &held = problem.system->forces().held(); !held.empty())
     text << "; " << problem.system->forces().element_of(held.front().measure)
-         << " holds its motion at the end of the period: where it does all the time, every place near by is such a "
-            "motion";
+         << " sticks at the end of the period: if it sticks throughout, the solution is not isolated (any nearby "
+            "position also works)";
   else if (equations.jacobian().size() > 0)
     if (const std::string free = free_motion(equations.jacobian(), problem.system->linear()); !free.empty())
-      throw UndeterminedMotion(text.str() + "; nothing determines the motion of " + free +
-                               ": hold it by a spring, or give it a drive");
-  text << "; begin nearer to it (more periods of lead-in), or try --method settling or minimise";
+      throw UndeterminedMotion(text.str() + "; undetermined DOF " + free + ": add a spring, or give it a drive");
+  text << "; begin closer to it (more periods of lead-in), or try --method settling or minimise";
   throw NoPeriodicMotion(text.str());
 }
 

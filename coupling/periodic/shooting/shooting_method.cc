@@ -146,10 +146,10 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &sl
   solution.work.add(roughly.equations().solution("shooting").work);
   solution.work.iterations = roughly.iterations() + finely.iterations();
   std::ostringstream note;
-  note << "the " << solution.multipliers.size() << " largest multipliers are told; motions that lose more than "
-       << 100. * (1. - slow.share()) << " % of themselves in a period have smaller ones";
+  note << "the " << solution.multipliers.size() << " largest multipliers are listed; motions that decay by more than "
+       << 100. * (1. - slow.share()) << " % in a period have smaller ones";
   if (!multipliers.converged())
-    note << "; the largest are known to " << multipliers.leaves();
+    note << "; the error of the largest is " << multipliers.leaves();
   solution.notes.push_back(note.str());
   return solution;
 }
@@ -210,8 +210,8 @@ public:
   std::string name() const override { return "shooting"; }
   std::string meaning() const override
   {
-    return "Newton's method on q(T) - q(0), q'(T) - q'(0) (5.5.4/1), its matrix by tangents that ride with the "
-           "integrator, through events by saltation.";
+    return "Newton's method on q(T) - q(0), q'(T) - q'(0) (5.5.4/1), its matrix by tangents integrated along with the "
+           "motion, through events by saltation.";
   }
   std::string refuses(const PeriodicProblem &problem) const override
   {

@@ -225,18 +225,18 @@ std::string enough(const ConvergedQuantity &worst, int n_coordinates, double tol
   std::string  order  = std::to_string(k);
   order.erase(order.find('.') + 2);
   return "; " + worst.name + " would need about " + std::to_string(std::llround(std::ceil(n / digits) * digits)) +
-         " coordinates if its error falls with their number to the power -" + order;
+         " DOFs if its error falls with their number to the power -" + order;
 }
 
 void check(const fem::FrameSpecification &specification, const ConvergenceOptions &options)
 {
   require(options.tolerance > 0. && options.tolerance < 1.,
-          "the tolerance is " + std::to_string(options.tolerance) + "; give a share such as 0.01 for 1 %.");
-  require(options.n_frequencies >= 1, "at least one frequency must be watched.");
-  require(options.max_meshes >= 2, "two meshes at least are needed to see a difference.");
+          "the tolerance is " + std::to_string(options.tolerance) + "; give a ratio such as 0.01 for 1 %.");
+  require(options.n_frequencies >= 1, "at least one frequency is needed.");
+  require(options.max_meshes >= 2, "at least two meshes are needed for a difference.");
   require(specification.mesh.size > 0., specification.cad +
                                             " is a mesh, which cannot be refined; give the geometry (.step, .brep, "
-                                            ".geo), or mesh finer where it was made.");
+                                            ".geo), or use a finer mesh in the program that made it.");
 }
 
 /// Whether the first mesh has all frequencies that are to be watched.
@@ -244,14 +244,11 @@ void check(const Computed &first, const ConvergenceOptions &options)
 {
   const auto n =
       std::count_if(first.watched.begin(), first.watched.end(), [](const Watched &w) { return w.is_frequency; });
-  require(n == options.n_frequencies, std::to_string(options.n_frequencies) +
-                                          " frequencies are to be watched, but the reduced frame of the first "
-                                          "mesh has " +
-                                          std::to_string(n) +
-                                          " elastic modes with a known error; watch no more than these "
-                                          "(--frequencies " +
-                                          std::to_string(std::max<long>(1, n)) +
-                                          "), or keep more modes ([reduction] modes).");
+  require(n == options.n_frequencies,
+          std::to_string(options.n_frequencies) +
+              " frequencies are requested, but the reduced frame of the first mesh has " + std::to_string(n) +
+              " elastic modes with a known error; request at most these (--frequencies " +
+              std::to_string(std::max<long>(1, n)) + "), or retain more modes ([reduction] modes).");
 }
 
 double skin_area(const fem::Mesh &mesh)
@@ -325,7 +322,7 @@ public:
       if (trial == most_trials || (!fits && room < distinctly_finer * n0))
       {
         stopped_ =
-            fits ? "gmsh makes no mesh with distinctly more than " + std::to_string(std::lround(n0)) + " coordinates"
+            fits ? "gmsh cannot make a mesh with clearly more than " + std::to_string(std::lround(n0)) + " coordinates"
                  : "the next mesh would have " + std::to_string(std::lround(n)) + " coordinates, more than the " +
                        (allowed < options_.max_coordinates
                             ? std::to_string(std::lround(allowed)) + " that the available memory of " +
@@ -418,7 +415,7 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
       break;
     if (number++ == options.max_meshes)
     {
-      result.stopped = std::to_string(options.max_meshes) + " meshes were allowed";
+      result.stopped = std::to_string(options.max_meshes) + " meshes is the limit";
       break;
     }
     begin               = cpu_seconds();

@@ -111,13 +111,12 @@ std::vector<std::string> features_of(const fem::GeometryReport &geometry)
   if (!geometry.smallest.empty())
     lines.push_back(geometry.smallest);
   if (const fem::WallThickness &walls = geometry.walls; walls.thin_share > 0.)
-    lines.push_back(fem::text(std::round(100. * walls.thin_share)) +
-                    " % of the surface belong to walls thinner than the elements, down to " +
-                    fem::text(1e3 * walls.thinnest) + " mm; there elements are " + fem::text(walls.median_ratio) +
-                    " times as large as the wall is thick (median)" +
-                    (walls.median_ratio > 2. && geometry.n_of_kind[0] > 0
-                         ? ": bending comes out too stiff, see gestell modes --converge"
-                         : ""));
+    lines.push_back(
+        fem::text(std::round(100. * walls.thin_share)) +
+        " % of the surface is on walls thinner than the elements, down to " + fem::text(1e3 * walls.thinnest) +
+        " mm; there elements are " + fem::text(walls.median_ratio) + " times as large as the wall thickness (median)" +
+        (walls.median_ratio > 2. && geometry.n_of_kind[0] > 0 ? ": bending is too stiff, see gestell modes --converge"
+                                                              : ""));
   return lines;
 }
 

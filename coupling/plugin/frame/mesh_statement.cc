@@ -123,18 +123,18 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
   if (error.size() > 0)
   {
     const double low = error.minCoeff(), high = error.maxCoeff();
-    text += std::string("; judged by ") + (raised ? "elements of degree three" : "the stresses of the modes") +
+    text += std::string("; estimated by ") + (raised ? "elements of degree three" : "the stresses of the modes") +
             ", frequencies up to " + rounded(highest, 3) + " Hz are ";
     if (!raised && thin_walls)
       text += "at least ";
     text += std::isfinite(high) ? percent(low, 2) + (low < high ? " to " + percent(high, 2) : "") +
                                       " too high, the first by " + percent(error[0], 2)
-                                : "of no use: errors take up the whole energy";
+                                : "useless: the error is as large as the energy";
     if (thin_walls)
-      text += "; " + percent(walls.thin_share, 2) + " of the surface belongs to walls thinner than the elements, " +
-              rounded(walls.median_ratio, 3) + " times on the average (thinnest wall " +
+      text += "; " + percent(walls.thin_share, 2) + " of the surface is on walls thinner than the elements, " +
+              rounded(walls.median_ratio, 3) + " times on average (thinnest wall " +
               rounded(1000. * walls.thinnest, 3) + " mm)" +
-              (raised ? "" : ", whose stresses do not show how much too stiff they are in bending");
+              (raised ? "" : ", whose bending error the stresses do not show");
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)
       text += std::string("; `gestell modes --converge 0.01` of a frame from CAD refines until they are within 1 %") +

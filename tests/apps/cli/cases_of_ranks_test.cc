@@ -133,7 +133,7 @@ TEST(CasesOfRanks, TasksOfSlurmWithoutMpiAreRefusedAndThoseOfABatchScriptRun)
                  " SLURM_LOCALID=" + rank + "; " + call + options);
   };
   expect_answer(task("0"), 2,
-                {"gestell: srun: started 2 processes, but no MPI that they share", "srun --mpi=pmix", "--apart"});
+                {"gestell: srun: started 2 processes without a common MPI", "srun --mpi=pmix", "--apart"});
   EXPECT_EQ(task("1").exit_code, 2);
   EXPECT_EQ(cases.n_done(), 0);
   expect_answer(task("1", "--apart"), 0, {"report: "});

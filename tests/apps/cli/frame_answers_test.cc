@@ -296,7 +296,7 @@ TEST_F(FrameAnswers, AStaticStartOfAFreeFrameNamesTheFrameAndWhatHelps)
   const Answer answer = ask("run", block(rest));
   EXPECT_EQ(answer.exit_code, 2);
   for (const char *part :
-       {"the frame moves as a whole", "translation along x, translation along y, translation along z",
+       {"the frame moves as a rigid body", "translation along x, translation along y, translation along z",
         "rotation about z", "[frame.support.NAME]", "inertia_relief = true"})
     EXPECT_TRUE(answer.says(part)) << part << "\n" << answer.text;
   const Answer floats = ask("run", block(rest + "inertia_relief = true\n"));

@@ -42,7 +42,7 @@ TEST(TieRodPress, IsMadeOfThreeReductionsThatAChangeOfTheRodsKeeps)
   EXPECT_EQ(list(), 3); // crown, column, bed
   expect_answer(call("reduce " + scene("tie_rod_press.toml") + coarse), 0, {"reduced frame from the cache"});
   expect_answer(call("reduce " + scene("tie_rod_press.toml") + coarse + " --set parameters.F_0='\"700 kN\"'"), 0,
-                {"reduced frame made", "pressed together with 69"});
+                {"reduced frame made", "clamping force 69"});
   EXPECT_EQ(list(), 3);
 }
 

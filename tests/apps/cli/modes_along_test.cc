@@ -325,7 +325,7 @@ TEST(ModesAlong, BadInputIsTold)
   expect_words(complaint(slider_crank, options), "--band");
   options      = of("crank");
   options.hold = {"crank"};
-  expect_words(complaint(slider_crank, options), "leave nothing to move");
+  expect_words(complaint(slider_crank, options), "leave no DOF");
 }
 
 } // namespace gestell::tests

@@ -73,7 +73,7 @@ std::string judgement(const coupling::ReducedFrame &frame)
 {
   for (const auto *texts : {&frame.notes, &frame.statements})
     for (const std::string &text : *texts)
-      if (text.find("judged by elements of degree three") != std::string::npos)
+      if (text.find("estimated by elements of degree three") != std::string::npos)
         return text;
   return "";
 }
@@ -209,7 +209,7 @@ TEST(Mpi, AnotherLauncherIsRefused)
   const std::string other  = "PMI_SIZE=2 PMI_RANK=";
   const Answer      first  = call(folder, other + "0 ", "check " + scene("press.toml"));
   const Answer      second = call(folder, other + "1 ", "check " + scene("press.toml"));
-  expect_answer(first, 2, {"belongs to another MPI"});
+  expect_answer(first, 2, {"is of another MPI"});
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_FALSE(second.says("gestell")) << second.text;
 }

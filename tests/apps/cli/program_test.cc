@@ -176,7 +176,7 @@ TEST(Program, StartOfABodyThatNothingHoldsNamesIt)
                           element("rubbing", "friction",
                                   {{"from", "block"}, {"to", "ground"}, {"force", "200 N"}, {"speed", "1 mm/s"}}) +
                           start("rule = 'steady'") + steps("1 ms", "1 s") + signals("x = 'block.displacement'"));
-  expect_answer(gestell("run " + falling + folder.option()), 2, {"nothing holds the motion of block"});
+  expect_answer(gestell("run " + falling + folder.option()), 2, {"unconstrained DOF block"});
   EXPECT_FALSE(std::filesystem::exists(folder.results()));
 }
 

@@ -272,18 +272,19 @@ TEST_F(ImportedFrame, WarnsOfPlacesThatBelongToOtherRows)
   EXPECT_EQ(warning(loose, ""), "no warning");
   auto exchanged = loose;
   std::swap(exchanged.nodes[0].first, exchanged.nodes[3].first);
-  expect(warning(exchanged, ""), {"places of nodes do not fit the stiffness", "rows without support", "the worst"});
+  expect(warning(exchanged, ""),
+         {"positions of nodes do not match the stiffness", "rows without support", "the worst"});
   auto in_millimetres = loose;
   for (auto &[number, x] : in_millimetres.nodes)
     for (double &coordinate : x)
       coordinate *= 1e3;
-  expect(warning(in_millimetres, ""), {"in another unit"});
+  expect(warning(in_millimetres, ""), {"of another model, unit or order"});
   auto other_directions = loose; // ux and rx of a node exchanged
   std::swap(other_directions.rows[0].second, other_directions.rows[3].second);
-  expect(warning(other_directions, ""), {"leaves 6 motions free", "other nodes or directions"});
+  expect(warning(other_directions, ""), {"has 6 free motions", "other nodes or directions"});
   auto other_mass    = loose;
   other_mass.M(0, 0) = 60.;
-  expect(warning(other_mass, ""), {"the frame is free, but weighs 180, 140 and 140 kg"});
+  expect(warning(other_mass, ""), {"the frame is free, but its mass is 180, 140 and 140 kg"});
 }
 
 } // namespace

@@ -73,7 +73,7 @@ TEST(JointRules, WhatCannotBeFollowedIsRefused)
   EXPECT_NE(complaint(arm + "[element.lump]\ntype = \"point mass\"\non = \"arm\"\nmass = 1\noffset = [1, 0, 0]\n")
                 .find("would turn with it"),
             std::string::npos);
-  expect_refusal([&] { run(driven_slide + "[start]\nrule = \"steady\"\n" + settings); }, "do not close joints");
+  expect_refusal([&] { run(driven_slide + "[start]\nrule = \"steady\"\n" + settings); }, "do not work with joints");
 }
 
 /// A four-bar linkage of bodies in space: cranks of 0.1 and 0.3 m on the ground, a coupler between them.

@@ -116,7 +116,7 @@ TEST(FollowerStates, AMachineThatNothingHoldsIsNotRelievedOfAThrust)
                                      {"constant", "3"}}) +
                             start("rule = 'static'\ninertia_relief = true") + steps("1 ms", "2 ms") +
                             signals("a = 'p.angle'");
-  expect_refusal([&] { run(flies); }, "forces that follow the motion");
+  expect_refusal([&] { run(flies); }, "follower forces");
 }
 
 /// The guard of a method over the plate at rest.

@@ -402,8 +402,8 @@ TEST(FrequencyResponse, RefusesWhatItCannotAnswer)
   using ::testing::HasSubstr;
   EXPECT_THAT(refused(options_of({"slde"}, {"slide"})), HasSubstr("--from: signal \"slde\""));
   EXPECT_THAT(refused(options_of({"slide"}, {"spring.forc"})), HasSubstr("spring.force"));
-  EXPECT_THAT(refused(options_of({"spring.force"}, {"slide"})), HasSubstr("no displacement or angle"));
-  EXPECT_THAT(refused(options_of({"slide.velocity"}, {"slide"})), HasSubstr("no displacement or angle"));
+  EXPECT_THAT(refused(options_of({"spring.force"}, {"slide"})), HasSubstr("not a displacement or an angle"));
+  EXPECT_THAT(refused(options_of({"slide.velocity"}, {"slide"})), HasSubstr("not a displacement or an angle"));
   EXPECT_THAT(refused(options_of({}, {"slide"})), HasSubstr("--from is missing"));
   EXPECT_THAT(refused(options_of({"slide"}, {})), HasSubstr("--to is missing"));
   EXPECT_THAT(refused(options_of({"slide"}, {"slide"}, 20., 10.)), HasSubstr("--lowest is 20 Hz, --highest 10 Hz"));

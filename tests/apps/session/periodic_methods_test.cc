@@ -97,7 +97,7 @@ TEST(PeriodicScene, CollocationRefusesAnElementThatRemembers)
   request.own["lead-in"] = 0;
   expect_refusal(
       [&] { Session(std::string(GESTELL_SOURCE_DIR) + "/apps/scenes/press_minimal.toml", {}).periodic(request); },
-      "sheet remembers what was before");
+      "sheet has hysteresis");
 }
 
 } // namespace gestell::tests

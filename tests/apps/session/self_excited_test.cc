@@ -167,8 +167,8 @@ TEST(SelfExcitedScene, AMachineThatComesToRestIsSaidTo)
 /// Negative damping that nothing limits has no periodic motion; no damping has one of any size.
 TEST(SelfExcitedScene, WhatGrowsWithoutEndOrKeepsAnySizeIsSaidTo)
 {
-  expect_refusal([] { steady(van_der_pol("0.1 N*s/m*v")); }, "without end");
-  expect_refusal([] { steady(van_der_pol("0 N*s/m*v")); }, "whatever size");
+  expect_refusal([] { steady(van_der_pol("0.1 N*s/m*v")); }, "without limit");
+  expect_refusal([] { steady(van_der_pol("0 N*s/m*v")); }, "amplitude of its oscillation is that of its initial state");
 }
 
 /// Crank and rod are planar bodies, of which one turns and one swings; backwards the machine is its own mirror image,

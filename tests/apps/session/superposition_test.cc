@@ -180,11 +180,11 @@ TEST(ModalSuperposition, NotesLoadsThatItsModesDoNotReach)
 {
   const ChainScene scene;
   EXPECT_THAT(of_scene(scene.path("method = 'modal'\nmodes = 1", load)).notes,
-              Contains(HasSubstr("a load has 110 Hz, above the highest mode kept")));
+              Contains(HasSubstr("a load has 110 Hz, above the highest retained mode")));
   const std::string pulse = "[element.pulse]\ntype = 'formula force'\nfrom = 'frame.tip'\nto = 'ground'\n"
                             "direction = [1, 0, 0]\nforce = '40 N*sin(2*pi*2900 Hz*t)'\n";
   EXPECT_THAT(of_scene(scene.path("method = 'modal'", pulse)).notes,
-              Contains(HasSubstr("\"pulse\" feeds the machine with a force whose frequencies are not known")));
+              Contains(HasSubstr("\"pulse\" excites the machine by a force of unknown frequencies")));
   EXPECT_THAT(of_scene(scene.path("method = 'modal'\nmodes = 30", load)).notes, testing::IsEmpty());
 }
 
@@ -198,7 +198,7 @@ TEST(ModalSuperposition, StartsInItsOwnEquilibrium)
   EXPECT_LT(std::abs(modal[1].max), 1e-9);
   EXPECT_LT(std::abs(modal[1].min), 1e-9);
   EXPECT_GT(modal[0].max, 1e-4); // on the stop
-  EXPECT_THAT(modal.result.warnings, Contains(HasSubstr("% short of the full ones"))) << "four modes";
+  EXPECT_THAT(modal.result.warnings, Contains(HasSubstr("% too small without the truncated modes"))) << "four modes";
 }
 
 /// Without a method central differences with a step of their own; one that is too long is cut below 2 / omega_max.
@@ -248,7 +248,7 @@ TEST(ModalSuperposition, TellsWhatDiagonalDampingLeavesOut)
   EXPECT_NEAR(proportional[0].max, full[0].max, 1e-9 * full[0].max);
   EXPECT_THAT(proportional.result.warnings, Not(Contains(HasSubstr("diagonal"))));
   const Answer damped(scene.path(diagonal, load + damper)), whole(scene.path(few, load + damper));
-  EXPECT_THAT(damped.result.warnings, Contains(HasSubstr("leaves out what couples two modes by up to")));
+  EXPECT_THAT(damped.result.warnings, Contains(HasSubstr("ignores coupling of modes by up to")));
   EXPECT_GT(std::abs(damped[0].max - whole[0].max), 1e-3 * whole[0].max);
 }
 

@@ -54,19 +54,19 @@ TEST_F(Refused, CardsOfNastran)
   expect("DMIG,K,0,5,2\n", {"IFO", "6 symmetric"});
   expect("DMIG,K,0,,2\n", {"IFO", "blank"});
   expect(head + head, {"a.txt:2", "header already"});
-  expect("DMIG,K,1,1,,1,1,2.\n", {"before its header", "cut off"});
+  expect("DMIG,K,1,1,,1,1,2.\n", {"precedes its header", "may be missing"});
   expect(head + "DMIG,K,1,1,,1,1,2.,0.5\n", {"imaginary"});
-  expect(head + "DMIG,K,1,1,,1,1,\n", {"a.txt:2", "no value", "cut off"});
+  expect(head + "DMIG,K,1,1,,1,1,\n", {"a.txt:2", "no value", "truncated"});
   expect(head + "DMIG,K,1,1,,1,1,2.\nDMIG,K,1,1,,1,1,2.\n",
-         {"a.txt:3", "(node 1, ux)", "second time", "line 2", "no parts of a sum"});
+         {"a.txt:3", "(node 1, ux)", "duplicate", "line 2", "not added"});
   expect(head + "DMIG,K,1,1,,2,1,2.\nDMIG,K,2,1,,1,1,2.\n", {"a.txt:3", "each pair once"});
   expect(head + "DMIG,K,1,7,,1,1,2.\n", {"component 7", "1 to 6"});
-  expect(head + "DMIG,K,-1,1,,1,1,2.\n", {"count from 1"});
+  expect(head + "DMIG,K,-1,1,,1,1,2.\n", {"start at 1"});
   expect(head + "DMIG,K,1,1,,1,1,nan\n", {"not a finite number"});
   expect(head + "DMIG,K,1,1,,1,1,inf\n", {"not a finite number"});
   expect(head + "DMIG,K,1,1,,1,1,1.+999\n", {"not a finite number"});
-  expect(head + "DMIG,K,1,1,,1,1,2.0.1\n", {"is no number"});
-  expect(head + "DMIG,K,1,x,,1,1,2.\n", {"'x' is no whole number"});
+  expect(head + "DMIG,K,1,1,,1,1,2.0.1\n", {"is not a number"});
+  expect(head + "DMIG,K,1,x,,1,1,2.\n", {"'x' is not an integer"});
   expect(head + "DMIG\tK\t1\n", {"tabs"});
   expect(head + "DMIG,K,1,1,,1,1,2.,,2,1,3.\n", {"a.txt:2", "8 fields", "one more"});
   expect("", {"MatrixMarket"});
@@ -74,32 +74,33 @@ TEST_F(Refused, CardsOfNastran)
 
 TEST_F(Refused, BinaryFilesWithTheWayOut)
 {
-  expect(std::string("d\0\0\0 FULL file of a solver", 28), {"no text", "HBMAT", "*EXPORT", "DMIGPCH", "MATRIXSTORAGE"});
+  expect(std::string("d\0\0\0 FULL file of a solver", 28),
+         {"not text", "HBMAT", "*EXPORT", "DMIGPCH", "MATRIXSTORAGE"});
 }
 
 TEST_F(Refused, TrianglesOfCalculix)
 {
-  expect("1 1 2.\n1 2\n", {"a.txt:2", "row column value", "cut off"});
-  expect("1 1 2.\n0 1 2.\n", {"a.txt:2", "count from 1"});
+  expect("1 1 2.\n1 2\n", {"a.txt:2", "row column value", "truncated"});
+  expect("1 1 2.\n0 1 2.\n", {"a.txt:2", "start at 1"});
   expect("1 1 2.\n2000000000 2000000000 1.\n", {"a.txt:2", "a file of this length"});
-  expect("1 1 2.\n1 1 2.\n", {"a.txt:2", "second time", "line 1"});
-  expect("1 1 2.\n1 2 1.\n2 1 1.\n1 2 1.\n", {"a.txt:4", "second time"});
+  expect("1 1 2.\n1 1 2.\n", {"a.txt:2", "duplicate", "line 1"});
+  expect("1 1 2.\n1 2 1.\n2 1 1.\n1 2 1.\n", {"a.txt:4", "duplicate"});
   expect("1 1 2.\n2 2 NaN\n", {"a.txt:2", "not a finite number"});
-  expect("1 1 2.\n2 2 *****\n", {"a.txt:2", "is no number"});
-  expect("\n2 2 3\n1 1 2.\n1 2 1.\n2 2 2.\n", {"a.txt:2", "head line", "%%MatrixMarket"});
+  expect("1 1 2.\n2 2 *****\n", {"a.txt:2", "is not a number"});
+  expect("\n2 2 3\n1 1 2.\n1 2 1.\n2 2 2.\n", {"a.txt:2", "header line", "%%MatrixMarket"});
 }
 
 TEST_F(Refused, Substructures)
 {
   const std::string element = "*USER ELEMENT,NODES=2,LINEAR\n** ELEMENT NODES\n** 1, 2\n1\n*MATRIX,TYPE=STIFFNESS\n";
   expect(element + "1.,\n0., 1., 1.,\n", {"a.txt:7", "more numbers"});
-  expect(element + "1.,\n0.,\n", {"a.txt:5", "3 numbers, but 2 follow", "cut off"});
-  expect(element + "1.,\n0., 1.\n*MATRIX,TYPE=STIFFNESS\n1.\n0.,1.\n", {"there twice"});
-  expect("*MATRIX,TYPE=STIFFNESS\n1.\n", {"before its *USER ELEMENT"});
+  expect(element + "1.,\n0.,\n", {"a.txt:5", "3 numbers, but 2 follow", "truncated"});
+  expect(element + "1.,\n0., 1.\n*MATRIX,TYPE=STIFFNESS\n1.\n0.,1.\n", {"given twice"});
+  expect("*MATRIX,TYPE=STIFFNESS\n1.\n", {"precedes its *USER ELEMENT"});
   expect("*USER ELEMENT,NODES=2,LINEAR\n1,2,3\n*MATRIX,TYPE=STIFFNESS\n1.\n", {"ELEMENT NODES"});
   expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** 1\n8\n*MATRIX,TYPE=MASS\n1.\n", {"direction 8"});
   expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** 1\n1,1\n*MATRIX,TYPE=MASS\n1.\n", {"twice"});
-  expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** -1\n1\n*MATRIX,TYPE=MASS\n1.\n", {"a.txt:3", "count from 1"});
+  expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** -1\n1\n*MATRIX,TYPE=MASS\n1.\n", {"a.txt:3", "start at 1"});
   expect("*USER ELEMENT,NODES=1\n** ELEMENT NODES\n** 1\n1\n5,1\n*MATRIX,TYPE=MASS\n1.\n", {"nodes 1 to 1"});
 }
 
@@ -110,15 +111,15 @@ TEST_F(Refused, HarwellBoeing)
   { return "t\n1 1 1 1 0\n" + type + "\n" + formats + numbers; };
   expect(with("CSA 2 2 2 0", ""), {"complex", "STIFF, MASS"});
   expect(with("PSA 2 2 2 0", ""), {"pattern"});
-  expect(with("RSE 2 2 2 0", ""), {"elements"});
+  expect(with("RSE 2 2 2 0", ""), {"element matrices"});
   expect(with("RZA 2 2 2 0", ""), {"RSA and RUA"});
   expect(with("RUA 2 3 2 0", ""), {"2 x 3"});
-  expect(with("RSA 2000000000 2000000000 2000000000 0", ""), {"a.txt:3", "cannot stand in a file of"});
-  expect(with("RSA 2 2 2000000000 0", ""), {"cannot stand in a file of"});
-  expect(with("RSA 2 2 2 0", " 1 2 3\n 1 2\n 1.0E+00"), {"1 values are still announced", "cut off"});
-  expect(with("RSA 2 2 2 0", " 1 2 4\n"), {"must rise from 1 to 3"});
+  expect(with("RSA 2000000000 2000000000 2000000000 0", ""), {"a.txt:3", "not fit in a file of"});
+  expect(with("RSA 2 2 2000000000 0", ""), {"not fit in a file of"});
+  expect(with("RSA 2 2 2 0", " 1 2 3\n 1 2\n 1.0E+00"), {"1 values are still announced", "truncated"});
+  expect(with("RSA 2 2 2 0", " 1 2 4\n"), {"must increase from 1 to 3"});
   expect(with("RSA 2 2 2 0", " 1 2 3\n 1 3\n"), {"there is no row 3"});
-  expect(with("RSA 2 2 3 0", " 1 3 4\n 1 1 2\n 1.0E+00 1.0E+00 1.0E+00\n"), {"second time"});
+  expect(with("RSA 2 2 3 0", " 1 3 4\n 1 1 2\n 1.0E+00 1.0E+00 1.0E+00\n"), {"duplicate"});
   expect(with("RSA 2 2 2 0", " 1 2 3\n 1 2\n 1.0E+00     nan\n"), {"not a finite number"});
   expect("t\n1 1 1 1 0\nRSA 2 2 2 0\nnone\n", {"formats"});
 }
@@ -128,13 +129,13 @@ TEST_F(Refused, TablesOfRows)
   expect_rows("1.1\n1.1\n", {"node 1, ux", "row 1 and row 2"});
   expect_rows("1.7\n", {"direction 7"});
   expect_rows("1\n", {"node.direction"});
-  expect_rows("1 -5 UX\n", {"a.dof:1", "node -5", "count from 1"});
-  expect_rows("1 0 UX\n", {"count from 1"});
-  expect_rows("0.1\n", {"count from 1"});
-  expect_rows("1 2 TEMP\n", {"'TEMP' is no motion", "ROTX"});
+  expect_rows("1 -5 UX\n", {"a.dof:1", "node -5", "start at 1"});
+  expect_rows("1 0 UX\n", {"start at 1"});
+  expect_rows("0.1\n", {"start at 1"});
+  expect_rows("1 2 TEMP\n", {"'TEMP' is not a DOF", "ROTX"});
   expect_rows("1 2 UX\n3 2 UY\n", {"row 2 is missing"});
-  expect_rows("1 2 UX\n1 2 UY\n", {"row 1 is there already"});
-  expect_rows("1000000 2 UX\n", {"not so many"});
+  expect_rows("1 2 UX\n1 2 UY\n", {"row 1 already exists"});
+  expect_rows("1000000 2 UX\n", {"has fewer"});
   expect_rows("1 2 UX\n1.2\n", {"mixed"});
   expect_rows("", {"names no row"});
 }
@@ -147,8 +148,8 @@ TEST_F(Refused, SystemsOfNodesOtherThanTheGlobalOne)
   expect_places("CORD2R,5,5,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,,0.,0.,0.\n", {"refers to itself"});
   expect_places("CORD2C,5,,0.,0.,0.,0.,0.,1.,\n,1.,0.,0.\nGRID,1,,0.,0.,0.,5\n", {"rectangular"});
   expect_places("GRDSET,,,,,,5\nGRID,1,,0.,0.,0.\n", {"CD"});
-  expect_places("GRID,1,,0.,0.,0.\nGRID,1,,1.,0.,0.\n", {"model.txt:2", "another one"});
-  expect_places("GRID,1,,0.,zero,0.\n", {"'zero' is no number"});
+  expect_places("GRID,1,,0.,0.,0.\nGRID,1,,1.,0.,0.\n", {"model.txt:2", "another position"});
+  expect_places("GRID,1,,0.,zero,0.\n", {"'zero' is not a number"});
   expect_places("*NODE,SYSTEM=C\n1,0.,0.,0.\n", {"rectangular"});
   expect_places("*NODE\n1,0.,0.,0.\n*TRANSFORM,NSET=A\n1.,0.,0.,0.,1.,0.\n", {"model.txt:3", "TRANSFORM"});
   expect_places("*NODE\n1,a,0.,0.\n", {"model.txt:2", "x, y, z"});

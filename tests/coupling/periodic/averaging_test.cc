@@ -175,7 +175,7 @@ TEST(Averaging, RefusesWhatItCannotAverage)
                                         {{1., VectorXd::Ones(1)}});
   PeriodicProblem problem = problem_of_period(still, 6.);
   problem.phase           = 0;
-  EXPECT_THAT(averaging_method().refuses(problem), testing::HasSubstr("no mode is excited by itself"));
+  EXPECT_THAT(averaging_method().refuses(problem), testing::HasSubstr("no mode is self-excited"));
 
   CubicSystem other = duffing_system(duffing_cases.at("duffing1"));
   problem           = problem_of_period(other, 1.);

@@ -66,7 +66,8 @@ TEST(HarmonicBalance, MeetsTheTableOfPlayAsWellAsItTells)
     // the motion answers to what is left out of its forces with 1/(1 - mu) at most, mu up to 0.85 here
     EXPECT_LT(std::abs(found[0].q[0] - q[0]), 10. * reported + 1e-10) << row["case"] << row["solution"];
     EXPECT_LT(std::abs(found[0].q[0] - q[0]), 1e-6) << row["case"] << row["solution"];
-    EXPECT_THAT(found[0].notes.at(0), testing::HasSubstr(reported > 1e-9 ? "as kinks of a law do" : "of the motion"));
+    EXPECT_THAT(found[0].notes.at(0),
+                testing::HasSubstr(reported > 1e-9 ? "as kinks of a force law do" : "of the motion"));
     ++rows;
   }
   EXPECT_EQ(rows, 6);
@@ -77,7 +78,7 @@ TEST(HarmonicBalance, RefusesLawsThatRemember)
   Ratchet         system;
   PeriodicProblem problem = problem_of_period(system, 2. * M_PI / 0.8);
   system.reached          = 0.25;
-  expect_refusal([&] { harmonic_balance_method().solve(problem, {}, {}); }, "remembers");
+  expect_refusal([&] { harmonic_balance_method().solve(problem, {}, {}); }, "has hysteresis");
   EXPECT_EQ(system.reached, 0.25) << "what the system remembers is given back";
 }
 

@@ -277,7 +277,7 @@ TEST(HarmonicBalance, ChoosesTheNumberOfHarmonics)
 TEST(HarmonicBalance, RefusesWhatItCannotBalance)
 {
   CubicSystem duffing = duffing_system(duffing_cases.at("duffing1"));
-  expect_refusal([&] { HarmonicBalance(problem_of_period(duffing, 4.), 5); }, "a whole number is needed");
+  expect_refusal([&] { HarmonicBalance(problem_of_period(duffing, 4.), 5); }, "an integer is needed");
   expect_refusal([&] { HarmonicBalance(problem_of_period(duffing, 2. * M_PI / 1.4), 0); }, "at least 1");
 
   PeriodicProblem phase = problem_of_period(duffing, 4.);
@@ -290,14 +290,14 @@ TEST(HarmonicBalance, RefusesWhatItCannotBalance)
 
   CubicSystem undamped = duffing_system({0., 0.5, 0.3, 0.5});
   expect_refusal([&] { HarmonicBalance(problem_of_period(undamped, 4. * M_PI), 5).linear_start(); },
-                 "stands at harmonic 2");
+                 "coincides with harmonic 2");
 
   PeriodicOptions few;
   few.own["harmonics"] = 3;
   CubicSystem fast     = duffing_system(duffing_cases.at("duffing1"));
   fast.loads().add_harmonic(0, 5. * 1.4, 1., 0.);
   expect_refusal([&] { harmonic_balance_method().solve(problem_of_period(fast, 2. * M_PI / 1.4), {}, few); },
-                 "3 harmonics would leave out a load of harmonic 5");
+                 "3 harmonics would omit a load of harmonic 5");
 
   CubicSystem other = duffing_system(duffing_cases.at("duffing1"));
   other.set_load([](double t) { return VectorXd::Constant(1, t); });

@@ -124,7 +124,7 @@ TEST(MultipleShooting, ClosesAMotionTooUnstableToBeFollowedForAPeriod)
     EXPECT_NEAR(found.v[0], balanced.v[0], 1e-9);
     EXPECT_FALSE(found.stable());
     EXPECT_GT(found.largest_multiplier(), parts);
-    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("closed by multiple shooting in")));
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("solved by multiple shooting in")));
 
     options.segments      = 48;
     const auto in_smaller = shooting_method().solve(problem, guess, options).at(0);
@@ -143,7 +143,7 @@ TEST(MultipleShooting, RefusesElementsThatRememberMoreThanTheirBranch)
   }
   catch (const NoPeriodicMotion &reason)
   {
-    EXPECT_THAT(reason.what(), testing::HasSubstr("elements remember more than the state"));
+    EXPECT_THAT(reason.what(), testing::HasSubstr("elements have hysteresis"));
   }
 }
 

@@ -155,7 +155,7 @@ TEST(Recurrence, RefusesWhatItCannotFollow)
   expect_refusal([&] { follow(20); }, "at least 64");
   options.integration           = options_of("bdf");
   options.integration.tolerance = 1e-6;
-  expect_refusal([&] { follow(64); }, "carries no tangents");
+  expect_refusal([&] { follow(64); }, "has no tangents");
   std::atomic<bool> stop = true;
   options                = {};
   problem.stop           = &stop;

@@ -183,7 +183,7 @@ TEST(VerifiedOrbit, RefutesAMotionThatClosesByWholeTurnsOnly)
   verify_stable(problem, found);
   EXPECT_FALSE(found[0].stable());
   EXPECT_TRUE(found[0].verification.leaves);
-  EXPECT_THAT(found[0].notes.back(), testing::HasSubstr("not called stable"));
+  EXPECT_THAT(found[0].notes.back(), testing::HasSubstr("not rated stable"));
 }
 
 /// Along a branch three motions are run, and all of them where one goes away.

@@ -68,7 +68,7 @@ TEST_F(Extremes, ThatAreZeroButForRoundingHaveNone)
   EXPECT_TRUE(std::isnan(outputs[0].derivative[0]));
   EXPECT_TRUE(std::isnan(outputs[1].derivative[0]));
   EXPECT_TRUE(outputs[0].is_zero);
-  EXPECT_THAT(outputs[0].note, ::testing::HasSubstr("zero but for rounding"));
+  EXPECT_THAT(outputs[0].note, ::testing::HasSubstr("zero within rounding"));
 }
 
 TEST_F(Extremes, AtAnEventThatAreZeroButForItsLocationHaveNone)

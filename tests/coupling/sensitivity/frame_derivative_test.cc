@@ -100,10 +100,10 @@ TEST(FrameDerivative, IsRefusedWhereOtherModesAreKept)
   const Eigen::HouseholderQR<MatrixXd> qr(at.displacement.cast<double>());
   const MatrixXd                       Q = qr.householderQ();
   other.displacement.col(n - 1)          = (10. * Q.col(n + 3)).cast<float>();
-  gestell::tests::expect_refusal([&] { frame_derivative(at, at, other, 1e-3); }, "modes of the frame are others");
+  gestell::tests::expect_refusal([&] { frame_derivative(at, at, other, 1e-3); }, "modes of the frame are different");
   ReducedFrame fewer = at;
   fewer.M            = MatrixXd::Identity(n - 1, n - 1);
-  gestell::tests::expect_refusal([&] { frame_derivative(at, at, fewer, 1e-3); }, "there is no difference of the two");
+  gestell::tests::expect_refusal([&] { frame_derivative(at, at, fewer, 1e-3); }, "they cannot be compared");
 }
 
 } // namespace
