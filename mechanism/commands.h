@@ -9,7 +9,7 @@
 namespace gestell::mechanism
 {
 
-/// Facet of an element that obeys orders of switches.
+/// Facet of an element that accepts commands of switches.
 class Commands
 {
 public:

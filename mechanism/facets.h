@@ -9,7 +9,7 @@
 namespace gestell::mechanism
 {
 
-// What facets tell of any element, with what holds where it has none.
+// Queries of the facets of any element, with defaults where it has none.
 
 int n_history(const Element &element);
 /// History of a motion that begins here; one number longer, so that there is always one.

@@ -32,8 +32,8 @@ class Structure
 {
 public:
   /// K and D the element has as part of the structure when it is engaged (play closed) at the configuration u;
-  /// geometric stiffness is left out.  Used for natural frequencies.  Technological forces and drives are no structure:
-  /// zero, the default.
+  /// without geometric stiffness. Used for natural frequencies. Zero (the default) for technological forces and drives,
+  /// which are not structure.
   virtual void engaged(const double *u, double *K, double *D) const { (void)u, (void)K, (void)D; }
 
   /// K and D of the stiffest branch of the law near u, technological forces included: what the step of an integrator
@@ -44,7 +44,7 @@ public:
   /// open: the oil film of a rod with play.  Default: engaged(), of a law without a branch in which it is open.
   virtual void open_branch(const double *u, double *K, double *D) const { engaged(u, K, D); }
 
-  /// Stiffness grows with the motion itself, so that stiffest() at one place is no bound: a contact after Hertz.
+  /// Stiffness grows with the deflection, so that stiffest() at one configuration is not a bound: a Hertzian contact.
   virtual bool stiffens() const { return false; }
 
   /// Geometric stiffness [k x k, column major]: of a force that turns with the motion, -d(G^T)/du P, at the forces of
@@ -59,7 +59,7 @@ public:
     return (void)u, (void)v, (void)g, (void)gradient, (void)curvature, false;
   }
 
-  /// The play at u, v with the gradients G of its motions [k x n, column major].
+  /// The play at u, v with the gradients G of its displacements [k x n, column major].
   virtual Play play(const double *u, const double *v, double *G) const { return (void)u, (void)v, (void)G, Play(); }
 
   /// How far [m, rad] beyond the gap of its play the element yields to a force [N, N m].

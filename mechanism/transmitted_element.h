@@ -101,7 +101,7 @@ private:
   int        n_guards_of_law(const double *history) const { return branches_ ? branches_->n_guards(history) : 0; }
   int        n_virtual() const { return law_->n_measures() - n_seen(); }
   Kinematics kinematics_of(const LocalMotion &motion, const double *history) const;
-  /// p = G^T P with the virtual coordinates' P behind it and, of a derivative of P by the law's measures, that by u.
+  /// p = G^T P followed by the P of virtual coordinates and, of a derivative of P by the law's measures, that by u.
   void spread(const Kinematics &kinematics, const double *P, double *p) const;
   void spread_tangent(const Kinematics &kinematics, const double *dP, double *dp) const;
   /// K and D of the law by one of the functions of facets.h, on the measures of the motion.

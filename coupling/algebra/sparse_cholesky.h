@@ -15,7 +15,7 @@
 namespace gestell::coupling
 {
 
-/// The matrix is not positive definite: the pivot of coordinate `row` is not positive (or is no number).
+/// The matrix is not positive definite: the pivot of coordinate `row` is not positive (or is nan).
 class NotPositiveDefinite : public std::runtime_error
 {
 public:

@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// As the processor at hand does them best.
+/// The fastest kernels for this processor.
 const TriangularSolveKernels &triangular_solve_kernels();
 
 /// For blocks of `columns` columns, by as many at once as block_algebra().columns tells.

@@ -30,7 +30,7 @@ public:
 
   // Where several processes have rows of X each, all of them do the same at the same time:
 
-  /// The first coordinates here are this process' own, those behind them another's.
+  /// The first coordinates here are owned by this process, the others by another process.
   virtual int owned() const { return int(order().size()); }
   /// X [coordinates x k]: where another owns them, motions as they are there.
   virtual void complete(Eigen::MatrixXd &) const {}

@@ -12,7 +12,7 @@ enum class Drift
   quasistatic ///< with the velocity at which the equilibrium moves along with prescribed motions
 };
 
-/// What becomes of loads along motions that nothing holds: those of a vehicle without its wheels, of a satellite.
+/// Treatment of loads on rigid-body modes of an unsupported machine, such as a satellite.
 enum class Floating
 {
   refused, ///< there is no equilibrium, unless no force acts along them

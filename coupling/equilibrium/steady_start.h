@@ -9,8 +9,8 @@
 namespace gestell::coupling
 {
 
-/// What is known of a steady motion: `angles` [rad] and `speeds` [rad/s] of rotors; the balance of `driver` is not
-/// demanded, it carries what the drive lacks.
+/// Known values of a steady motion: `angles` [rad] and `speeds` [rad/s] of rotors; the balance of `driver` is not
+/// required, it supplies the missing driving force.
 struct SteadyStart
 {
   std::vector<std::pair<std::string, double>> angles;

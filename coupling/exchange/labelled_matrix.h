@@ -32,7 +32,7 @@ struct LabelledMatrix
   std::vector<RowLabel>       rows{}; ///< [n], or empty: not known from the file
 };
 
-/// One entry as it stands in a file.
+/// One entry of a file.
 struct FileEntry
 {
   int    row, column;

@@ -47,8 +47,7 @@ private:
   long             number_ = 0;
 };
 
-/// A number of C, of Fortran or in Nastran's short form, infinite where it is beyond all doubles; none: it is no
-/// number.
+/// A number of C, of Fortran or in Nastran's short form, infinite if it exceeds double precision; none: not a number.
 std::optional<double> real_of(std::string_view field);
 std::optional<long>   whole_of(std::string_view field); ///< likewise
 

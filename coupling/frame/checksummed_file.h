@@ -5,13 +5,13 @@
 namespace gestell::coupling
 {
 
-/// Writes a head of 512 bytes, with title and SHA-256 of the content, and then the content.  (HDF5 finds its own behind
-/// it.)
+/// Writes a header of 512 bytes, with title and SHA-256 of the content, and then the content. (HDF5 skips such a
+/// header.)
 /// @throws std::runtime_error if that fails.
 void write_sealed(const std::string &file, const std::string &title, const std::string &content);
 
-/// Whether a file begins as one sealed under this title does: "" if so, else the reason why it does not.  Reads the
-/// head alone, and so does not see damage behind it.
+/// Whether a file begins with a header of this title: "" if so, else the reason. Reads the header only and does not
+/// detect damage of the content.
 std::string head_defect(const std::string &file, const std::string &title);
 
 /// Whether a file is what it was when it was sealed under this title: "" if so, else the reason why it is not to be

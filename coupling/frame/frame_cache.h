@@ -12,13 +12,13 @@
 namespace gestell::coupling
 {
 
-/// The frame kept in the cache under this key: nothing if there is none, or if the file there is damaged, of another
-/// version or key, or of another user (foreign()); the reason is then appended to `note` (the frame has to be made
-/// anew).  Found frames count as used now.
+/// The frame stored in the cache under this key: nothing if there is none, or if its file is damaged, of another
+/// version or key, or of another user (foreign()); the reason is then appended to `note` (the frame has to be reduced
+/// again). Found frames count as used now.
 std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note);
 
-/// Keeps the frame in the cache under the key of its recipe, if that decides what the frame is.  A cache that cannot be
-/// written is no failure: the reason is returned, else "".
+/// Stores the frame in the cache under the key of its recipe, if the recipe determines the frame completely. A cache
+/// that cannot be written does not cause a failure: the reason is returned, else "".
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 
 /// A frame, and whether it was found or made.

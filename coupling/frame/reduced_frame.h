@@ -41,9 +41,8 @@ struct ReducedFrame
   Eigen::VectorXd frequencies_hz;          // [p] supported frame, interface free, from the reduced model
   double          frequency_limit_hz = 0.; ///< up to which the model is meant to hold
   Eigen::VectorXd frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
-  /// [n1 x n1] Psi^T M (C22^-1 - V22 diag(1/omega_0^2) V22^T) M Psi, sum of m_j m_j^T/omega_j^2 over the
-  /// fixed-interface modes left out, m_j their coupling masses; or empty: not known.  Static shapes of the basis do not
-  /// count.
+  /// [n1 x n1] Psi^T M (C22^-1 - V22 diag(1/omega_0^2) V22^T) M Psi, sum of m_j m_j^T/omega_j^2 over the truncated
+  /// fixed-interface modes, m_j their coupling masses; or empty: unknown. Static shapes of the basis are not included.
   Eigen::MatrixXd          left_out;
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
   std::vector<std::string> notes;                ///< warnings of the making

@@ -32,7 +32,7 @@ void write_reduced_frame(const std::string &file, const ReducedFrame &frame, con
 /// @throws std::invalid_argument if the file is missing, damaged, of another version or not a reduced frame.
 ReducedFrame read_reduced_frame(const std::string &file);
 
-/// A reduced frame as it stands in its file.
+/// A reduced frame with the data of its file.
 struct StoredFrame
 {
   FrameOrigin  origin;
@@ -40,20 +40,20 @@ struct StoredFrame
 };
 
 /// The same with its origin.
-/// @throws std::runtime_error with what is wrong with the file.
+/// @throws std::runtime_error with the defect of the file.
 StoredFrame read_stored_frame(const std::string &file);
 
-/// What a file tells of its frame without being read whole.
+/// Data of a frame that are available without reading the whole file.
 struct FrameSummary
 {
   FrameOrigin origin;
   int         n_full = 0, n_interface = 0, n_modes = 0;
 };
 
-/// Reads head, origin and sizes alone: some kilobytes of a file of any size.  Damage elsewhere is not seen; as the
-/// checksum is not asked, a forked child reads them first.
-/// @throws std::invalid_argument if GESTELL_READING_SECONDS is no number
-/// @throws std::runtime_error with what is wrong with the file.
+/// Reads header, origin and sizes only: a few kilobytes of a file of any size. Damage elsewhere is not detected; since
+/// the checksum is not verified, a forked child reads them first.
+/// @throws std::invalid_argument if GESTELL_READING_SECONDS is not a number
+/// @throws std::runtime_error with the defect of the file.
 FrameSummary read_frame_summary(const std::string &file);
 
 } // namespace gestell::coupling

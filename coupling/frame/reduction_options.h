@@ -8,7 +8,7 @@ namespace gestell::coupling
 
 struct ReductionOptions
 {
-  int         n_modes   = -1;   ///< modes kept; < 0: chosen for `tolerance`
+  int         n_modes   = -1;   ///< retained modes; < 0: chosen for `tolerance`
   double      tolerance = 0.01; ///< relative error of the interface's receptance up to `frequency` (automatic number)
   double      frequency = 0.;   ///< [Hz] highest frequency of interest; 0: that of the twelfth elastic mode
   std::string place;            ///< "press.toml:60: reduction", heads messages

@@ -92,7 +92,7 @@ public:
                                                const TestOscillator &oscillator) const = 0;
   /// Its roots; by default the eigenvalues of the matrix, whose rounding, 1e-13, counts as no growth.
   virtual CharacteristicRoots roots(const MethodOptions &options, const TestOscillator &oscillator) const;
-  /// (x, h x') after 1, 2, ... n steps, from consistent accelerations; by default with the matrix from the begin on.
+  /// (x, h x') after 1, 2, ... n steps, from consistent accelerations; by default with the matrix of the first step.
   virtual std::vector<Eigen::Vector2d> first_steps(const MethodOptions &options, const TestOscillator &oscillator,
                                                    const Eigen::Vector2d &start, int n, FirstSteps kind) const;
   /// Where modes are not carried one by one.
@@ -103,7 +103,7 @@ public:
   /// Where vibrating motions may grow: a method with step_weights() that falls short of second order's damping.
   virtual std::optional<BilinearWeights> growing_weights(const MethodOptions &) const { return {}; }
 
-  /// The linear base system is carried exactly: only the springs of elements limit the step.
+  /// The linear base system is propagated exactly: only the springs of elements limit the step.
   virtual bool carries_base() const { return false; }
   /// Steps may be long against what moves in them, as those of high order are.
   virtual bool takes_long_steps(const MethodOptions &options) const { return controlled(options); }

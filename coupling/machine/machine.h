@@ -48,21 +48,21 @@ public:
   /// across `normal` and turns about it by any angle.
   int add_planar(const std::string &name, const Vector3 &normal, double mass, double inertia, const Vector3 &position);
   /// A body of mass m [kg] and inertia tensor J [kg m^2] about its centre of mass at `position`, in global axes in the
-  /// position described, that moves and turns freely in space.  Signals: OrthonormalDirectors::quantities().
+  /// reference configuration, a free spatial body.  Signals: OrthonormalDirectors::quantities().
   /// @throws std::invalid_argument if no body without a direction of thickness zero has such moments
   int add_rigid(const std::string &name, double mass, const Eigen::Matrix3d &inertia, const Vector3 &position);
   /// Point mass m [kg] with inertia about x, y, z [kg m^2] on a marker, at `offset` [m] from it.
   void add_point_mass(const std::string &name, const std::string &marker, double mass, const Vector3 &inertia,
                       const Vector3 &offset);
-  /// The point `at` [m] of a body, an interface or the ground, in the position the scene describes.
+  /// The point `at` [m] of a body, an interface or the ground, in the reference configuration.
   PlacedPoint place(const std::string &marker, const Vector3 &at) const;
   Vector3     position(const std::string &marker) const; ///< [m] of a body's reference point or an interface
   void        add_measure(NamedMeasure measure);
   /// Signals of a point along x, y and z: "tip.x" where it is, "tip.ux" its displacement, "tip.vx" its velocity,
   /// "tip.ax" its acceleration.
   void add_place(const std::string &name, const PlacedPoint &place);
-  /// @throws std::invalid_argument for an unknown signal, element or switch, an acceleration, which is not known where
-  /// events are looked for, or an order that the element does not know
+  /// @throws std::invalid_argument for an unknown signal, element or switch, an acceleration (unavailable during event
+  /// location), or a command that the element does not accept
   void add_switch(const Switch &request);
   /// How a body is drawn.
   void draw(const std::string &body, const Vector3 &position, double radius, const Vector3 &size);
@@ -157,12 +157,12 @@ public:
    * coordinates are the modes (5.5.3/11). Frame, bodies and pictures stay with this one, whose signals it knows.
    */
   Machine in_modes(const ModalCoordinates &modes) const;
-  /// [m] rad/s of the modes that its coordinates are; empty: they are no modes.
+  /// [m] rad/s, for modal coordinates; empty: coordinates are not modal.
   const Eigen::VectorXd &superposed_frequencies() const;
   /// M, B, C as they are stored.
   const LinearBase &base() const;
 
-  /// Contacts that are closed at a motion, in words: by how much they lie inside.
+  /// Texts on contacts that are closed at a motion: their penetration.
   std::vector<std::string> closed_contacts(const LocalState &state) const;
   /// @param a  q'' [n]; only signals that reads_acceleration() look at it
   double evaluate(const Signal &signal, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const Eigen::VectorXd &a,

@@ -43,7 +43,7 @@ enum class BodyKind
 
 /// A body of the mechanism.  Drawn at `position`: a rotor as a disc of `radius`, a slider as a box of `size`; a point,
 /// planar or rigid body as such a box too, else as a sphere, a plate through its `points`, bars to them.  Its
-/// coordinates are zero in the position the scene describes.
+/// coordinates are zero in the reference configuration.
 struct Body
 {
   std::string name;
@@ -131,7 +131,7 @@ enum class SwitchCrossing
 {
   rising,
   falling,
-  either ///< from the side on which the signal is when it begins to watch
+  either ///< from the side of the signal when the switch is armed
 };
 
 /// When a signal crosses a level, elements are given orders: once, or every time.

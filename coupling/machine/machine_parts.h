@@ -34,12 +34,12 @@ struct MachineParts
   {
     const mechanism::Element *element;
     int                       first_measure, n_measures, first_history;
-    int                       n_motions;     ///< measures that do work: the first ones, lags behind them do none
-    bool                      holds = false; ///< its measure sticks: its force is an unknown of the step
-    int                       came  = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
-    int                       first_constraint = -1; ///< of an ideal joint: the first row of its equations
-    int                       first_multiplier = -1; ///< of a joint or its friction: the first one it sees
-    std::string               name{};                ///< in the scene
+    int         n_motions; ///< measures that do work: the first ones; first-order states after them do none
+    bool        holds            = false; ///< its measure sticks: its force is an unknown of the step
+    int         came             = 0;     ///< in its transition, sign of the motion that comes to rest; else 0
+    int         first_constraint = -1;    ///< of an ideal joint: the first row of its equations
+    int         first_multiplier = -1;    ///< of a joint or its friction: the first one it sees
+    std::string name{};                   ///< in the scene
 
     // Which of the two it is, and its facets; null where it has none.
     const mechanism::ForceLaw   *law       = element->force_law();
@@ -49,11 +49,11 @@ struct MachineParts
     const mechanism::Commands   *commands  = element->commands();
     bool                         drives    = element->work() == mechanism::Work::input;
 
-    /// Of dry friction in a joint, in the history of the machine: 1 where others stop its motion; behind it the sign of
-    /// the sliding from which it came to stick.
+    /// Of dry friction in a joint, in the history of the machine: 1 where others stop its motion; then the sign of
+    /// sliding before it stuck.
     int stop = -1;
 
-    /// Its force is no law's value, but follows from the equations of the step.
+    /// Its force is not the value of a law but follows from the equations of the step.
     bool implied() const { return holds || first_constraint >= 0; }
     /// The quantity follows from multipliers, its own or (of friction in a joint) those of another.
     bool tells_multipliers(int quantity) const
@@ -93,7 +93,7 @@ struct MachineParts
     watches,
     waits,   ///< for another switch
     delays,  ///< its orders
-    returns, ///< its signal has to come back before it watches again
+    returns, ///< its signal must return before it is armed again
     rests    ///< for good
   };
 
@@ -102,7 +102,7 @@ struct MachineParts
   {
     Switch           request;
     Signal           signal;
-    int              watched = -1; ///< element whose measures hold the motion of the signal; of the time there is none
+    int              watched = -1; ///< element whose measures contain the signal; none for the time
     std::vector<int> targets;      ///< elements that get the orders
     int              after   = -1; ///< index of the switch it waits for
     int              history = -1; ///< its phase; time [s] at which delayed orders are due; see watch()

@@ -12,9 +12,9 @@ namespace gestell::coupling
  */
 struct ModalCoordinates
 {
-  Eigen::VectorXd omega; ///< [m] rad/s, ascending
-  Eigen::MatrixXd V;     ///< [n x m]
-  bool            diagonal_damping = false; ///< of V^T B V what couples modes is left out
+  Eigen::VectorXd omega;                    ///< [m] rad/s, ascending
+  Eigen::MatrixXd V;                        ///< [n x m]
+  bool            diagonal_damping = false; ///< couplings of modes in V^T B V are omitted
 };
 
 } // namespace gestell::coupling

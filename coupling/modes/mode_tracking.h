@@ -21,10 +21,11 @@ struct TrackedModes
 
 struct TrackingOptions
 {
-  int    lines        = 20;
-  double sure         = 0.8; ///< assurance below which a step is halved
-  int    most_halving = 10;  ///< so often at most: a crossing is told from a veering as narrow as 1/1000 of the step
-  int    most_between = 60;  ///< linearisations between two positions
+  int    lines = 20;
+  double sure  = 0.8; ///< assurance below which a step is halved
+  int    most_halving =
+      10; ///< at most this often: a crossing is distinguished from a veering as narrow as 1/1000 of the step
+  int most_between = 60; ///< linearisations between two positions
 };
 
 /**

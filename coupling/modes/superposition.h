@@ -14,7 +14,7 @@ struct SuperpositionOptions
   int                      n_modes   = -1; ///< below zero: by `frequency`, the loads or `tolerance`
   double                   frequency = 0.; ///< [Hz] up to which modes are kept; 0: four times the loads'
   double                   tolerance = 0.; ///< of static deflections; 0: 0.01 under forces whose frequency is not known
-  bool                     diagonal_damping = false; ///< what couples modes is left out
+  bool                     diagonal_damping = false; ///< couplings of modes are omitted
   std::vector<std::string> open{};                   ///< elements that the averaged system has open
   std::string              place{};                  ///< heads messages: "portal.toml:60: reduction"
 };

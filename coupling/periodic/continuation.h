@@ -38,7 +38,7 @@ struct Branch
 {
   std::vector<BranchPoint>   points;
   std::vector<SpecialMotion> special;
-  std::string                ended; ///< why, in words; empty: at the other end of the parameter
+  std::string                ended; ///< reason; empty: at the other end of the parameter
   bool                       failed = false;
 };
 

@@ -22,7 +22,7 @@ struct PeriodPassage
                                     ///< tangents alone: their images [2n x k].  Put back likewise
   std::vector<Event>       events;
   std::vector<std::string> grazing;         ///< events whose guard touches its zero rather than crosses it
-  double                   chattering = 0.; ///< share of the period gone over with more events than are located
+  double                   chattering = 0.; ///< share of the period with too many events to locate
   IntegrationWork          work;
 };
 
@@ -66,8 +66,8 @@ public:
   /// Moves the end of a last part along the free shifts to where a period began at q [n], with its tangents.
   void put_back(const Eigen::VectorXd &q);
 
-  /// Whether elements remember at the end of the last passage what a start from the state there would not give them: a
-  /// measure that is held, or a history beyond its branch.  They begin anew with the next passage.
+  /// Whether elements have a history at the end of the last passage that a start from the state there would not
+  /// reproduce: a sticking measure, or a history beyond its branch. It is reset with the next passage.
   bool remembers_at_end();
 
   /// `look` is called at samples + 1 instants of every passage.

@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// Least whole numbers in the ratio of values that are not zero, within `tolerance` of each, up to 64 of the least one;
+/// Smallest integers in the ratio of nonzero values, within `tolerance` of each, up to 64 of the least one;
 /// empty: there are none.
 std::vector<int> whole_ratios(const std::vector<double> &values, double tolerance);
 

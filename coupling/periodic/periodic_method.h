@@ -48,7 +48,7 @@ public:
   virtual std::vector<PeriodicOption> options() const { return {}; }
   /// It integrates the motion itself, so that its failure says something about the motion.
   virtual bool integrates() const = 0;
-  /// It looks for all solutions.
+  /// It searches for all solutions.
   virtual bool finds_all() const { return false; }
 
   /// Solutions near the guess, or of a whole box of starts; each once.

@@ -49,13 +49,13 @@ struct OrbitState
   Eigen::VectorXd q, v;
 };
 
-/// What a run from the initial values makes of a motion, see verify_by_run().
+/// Verification of a solution by a run from its initial values, see verify_by_run().
 struct RunVerification
 {
   int         periods     = 0;     ///< that were run; 0: none
   double      departure   = 0.;    ///< largest distance at their ends, of the fastest speed
   bool        leaves      = false; ///< it goes away from the motion
-  bool        starts_anew = false; ///< elements remember something, which started anew with every period
+  bool        starts_anew = false; ///< elements have hysteresis, which was reset in every period
   std::string failure{};           ///< not empty: why it ended early
 };
 
@@ -69,9 +69,9 @@ struct PeriodicSolution
   bool                         trivial_multiplier = false; ///< one of them is 1, of the shift in time
   std::optional<FourierSeries> series;                     ///< where the method has one: it is the motion then
   std::vector<Event>           events;                     ///< of one period
-  std::vector<OrbitState>      states; ///< ascending from t_0, between which it is followed; empty: in one go
+  std::vector<OrbitState>      states; ///< ascending from t_0, between which it is integrated; empty: in a single pass
   double                       share = std::numeric_limits<double>::quiet_NaN(); ///< of the starts that led there
-  RunVerification              verification;             ///< by a run
+  RunVerification              verification;                                     ///< by a run
   std::string                  method;                                           ///< that found it
   MethodOptions                integration{};                                    ///< that traces it
   std::vector<std::string>     notes;                                            ///< what a user should know of it

@@ -14,14 +14,14 @@ constexpr int least_section = 64; ///< periods: fewer tell too little
 /// What a motion does in the long run.
 struct Recurrence
 {
-  /// "periodic": repeats after one period of the excitation; "sub-harmonic": after several; "settling": not yet, but
-  /// comes ever nearer to it; "drifting": it lies ever farther away, as nothing holds it; "quasi-periodic": never, and
-  /// neighbours keep their distance; "chaotic": they part.
+  /// "periodic": repeats after one period of the excitation; "sub-harmonic": after several; "settling": converging to
+  /// it; "drifting": along an unconstrained coordinate; "quasi-periodic": never repeats, neighbouring trajectories stay
+  /// close; "chaotic": they diverge.
   std::string     kind;
   int             repeats  = 0;  ///< periods after which it does, or soon will; 0: none up to 16
   double          exponent = 0.; ///< largest Lyapunov exponent [1/s], that of the shift in time left out
   double          error    = 0.; ///< its standard error [1/s]
-  int             periods  = 0;  ///< that were looked at, behind as many of lead-in
+  int             periods  = 0;  ///< examined, after the same number of lead-in periods
   Eigen::MatrixXd section{};     ///< q, q' at the begins of these periods, whole turns taken off [2n x periods]
   PeriodicWork    work{};
 

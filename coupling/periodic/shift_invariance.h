@@ -30,7 +30,7 @@ class AngleInvariance
 {
 public:
   /// @param angles  coordinates [rad]
-  /// @param about   q, q' [n] at `t`, about which the system is looked at
+  /// @param about   q, q' [n] at `t`, about which the system is examined
   AngleInvariance(SecondOrderSystem &system, std::vector<int> angles, const PeriodicGuess &about, double t);
 
   const std::vector<int>             &angles() const { return angles_; }

@@ -11,8 +11,8 @@ struct AngleIncrements
   Eigen::VectorXd turn;        ///< [n] [rad]; along `free` that of the speeds
   Eigen::MatrixXd free;        ///< [n x k] orthonormal: increments that the motion itself chooses
   double          period = 0.; ///< [s] by the speeds, where it was not given
-  int             phase  = -1; ///< coordinate that comes round, where the period was not given; -1: nothing turns
-  std::string     refusal;     ///< not empty: there are none, and why
+  int phase = -1;      ///< coordinate that completes revolutions, where the period was not given; -1: nothing rotates
+  std::string refusal; ///< not empty: there are none, and why
 };
 
 /**

@@ -44,7 +44,7 @@ struct LengthUnit
   std::string name   = "m"; ///< "mm", "inch", or "0.03 m" where it has no name
 };
 
-/// What `gestell mesh` tells of a file, its mesh, and what the frame would cost.
+/// What `gestell mesh` reports of a file: geometry, mesh, and cost of the frame.
 struct MeshReport
 {
   int                        n_points = 0, n_cells = 0, n_coordinates = 0;

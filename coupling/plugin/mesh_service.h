@@ -27,7 +27,7 @@ public:
     /// [m] Low and high corner of the box around them.
     std::map<std::string, std::array<fem::Vector3, 2>> boxes;
     double                                             diagonal = 0.; ///< of the box around the solids [m]
-    bool curved = false; ///< an outer face is no plane; of a mesh, as its facets tell
+    bool curved = false; ///< an outer face is not plane; for a mesh, by its facets
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 
@@ -35,7 +35,7 @@ public:
   virtual ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                               const Progress &progress) = 0;
 
-  /// Meshes and assembles for a frame that is not reduced; the error of its mesh is told by the reduced one beside it.
+  /// Meshes and assembles for a frame that is not reduced; the reduced frame reports the error of its mesh.
   struct Unreduced
   {
     fem::FrameMatrices matrices;

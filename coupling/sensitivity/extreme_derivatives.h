@@ -34,7 +34,7 @@ public:
   /// Signals that have an extreme there, and their largest |y|.
   std::map<std::size_t, double> turning_at(double t) const;
 
-  /// About an event that moves by dt: before it, between two of one instant, behind it.
+  /// Around an event that shifts by dt: before it, between two events of one instant, after it.
   void at_event(double t, const Told &reported, const Eigen::VectorXd &rates, const Eigen::RowVectorXd &dt);
   /// Where a signal turns.
   /// @param step  [s] of the variational equations

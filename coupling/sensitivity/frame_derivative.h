@@ -15,9 +15,9 @@ struct FrameDerivative
   std::vector<fem::FrameOutput>      outputs;   ///< their rows by x
   std::vector<std::array<double, 3>> positions; ///< of the interfaces by x
 
-  /// |F+ - 2 F + F-| / |F+ - F-| of the matrices F, each entry by the size of its diagonal: what the quotient may be
-  /// wrong by.  Of a smooth F some share of the distance of the two frames; of frames meshed anew what their meshes
-  /// scatter.
+  /// |F+ - 2 F + F-| / |F+ - F-| of the matrices F, each entry relative to its diagonal: error estimate of the
+  /// quotient. For a smooth F a share of the distance of the two frames; for remeshed frames the scatter of their
+  /// meshes.
   double curvature = 0.;
 };
 

@@ -9,9 +9,9 @@
 namespace gestell::coupling
 {
 
-/// By which share of its value a parameter makes neighbouring events meet, to first order: beyond it they change
-/// places, and derivatives say nothing.  A sentence for each parameter of which less than 1 % does.
-/// @param outputs  those of events are looked at, in their order in time
+/// Relative change of a parameter at which neighbouring events coincide, to first order: beyond it they change order,
+/// and derivatives are not valid. A sentence for each parameter with less than 1 %.
+/// @param outputs  only those of events are used, in their order in time
 /// @param near     [s] apart, events are at one instant and move together
 std::vector<std::string> meeting_events(const std::vector<OutputDerivatives> &outputs,
                                         const std::vector<ParameterTwins> &twins, double near);

@@ -45,16 +45,16 @@ struct Linearised
 class MotionLinearisation
 {
 public:
-  /// @throws std::invalid_argument as require_variational(), and for a coordinate without mass that is no lag
+  /// @throws std::invalid_argument as require_variational(), and for a massless coordinate that is not a first-order
+  /// state
   MotionLinearisation(Machine &machine, const std::vector<ParameterTwins> &twins);
 
   /// Accelerations, forces and multipliers of a motion, and the rates of coordinates without mass; state.t, q, v are
   /// given, local.lambda is where to begin.
   void complete(MotionState &state);
   /// A smooth piece of the motion begins, that passes these instants: parameters whose two machines have bit by bit
-  /// equal forces at all of them are not looked at on it, nor are forces' dependences on u'' that are zero there, nor
-  /// rates by the time if these motions have the same forces at the first of these instants.  None: everything is
-  /// looked at.
+  /// equal forces at all of them are skipped on it, as are force derivatives by u'' that are zero there, and time rates
+  /// if these motions have the same forces at the first of these instants. None: nothing is skipped.
   void begin_piece(const std::vector<MotionState> &passed);
   /// What there is at a state, by the histories that the machine and its twins have now.
   /// @param way  [s] short against what moves: rates by the time are found too; 0: they are not

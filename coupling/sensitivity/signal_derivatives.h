@@ -31,7 +31,7 @@ struct Turn
   double          before = 0., after = 0.; ///< y' of either side
   Eigen::VectorXd d_off{};                 ///< error of d_rate [K]; empty: none
 
-  /// y'' is known to a ten thousandth: changes of instants are told to as many figures.
+  /// y'' is known to a ten thousandth: changes of instants are reported to this accuracy.
   bool known() const;
 };
 

@@ -19,7 +19,7 @@ public:
 
   void begin(const SmoothPiece &piece);
   /// q, q' at state.t.
-  /// @param close  [s] nodes that are no farther apart lie close
+  /// @param close  [s] nodes within this distance are close
   void read(double close, MotionState &state);
   /// [s] of the nodes about where it was read last
   double spacing() const;
@@ -84,7 +84,7 @@ public:
   /// @param longest     [s per unit] shift that counts for each parameter, beyond it s is carried whole
   void separate_shifts(const Eigen::VectorXd &way, const Eigen::VectorXd &speed, const Eigen::RowVectorXd &longest);
 
-  /// At the begin of a piece.  @param s, s_rate  [n x K]
+  /// At the beginning of a piece.  @param s, s_rate  [n x K]
   void begin(const SmoothPiece &piece, const Eigen::VectorXd &lambda, const Eigen::MatrixXd &s,
              const Eigen::MatrixXd &s_rate);
   /// @return whether it came there: `stop` ends it before; null: nothing does

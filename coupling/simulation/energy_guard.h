@@ -28,7 +28,7 @@ public:
   {
     closed,   ///< to one per cent of E
     open,     ///< the step is too long for the motion
-    no_motion ///< energy came from nowhere, half of E and more, or more went than there was
+    no_motion ///< spurious energy gain of at least half of E, or a loss of more than there was
   };
 
   /// @param at_begin  stored energy [J] that the balance counts from
@@ -36,7 +36,7 @@ public:
 
   /// Once per step.
   /// @param size  largest |q|
-  /// @throws ConvergenceFailure if the energy is no finite number
+  /// @throws ConvergenceFailure if the energy is not finite
   void step(const EnergyState &state, double size);
 
   double  exchanged() const; ///< E [J]

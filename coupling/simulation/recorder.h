@@ -14,7 +14,7 @@
 namespace gestell::coupling
 {
 
-/// Why a motion is none: a coordinate or its rate is no finite number; "" if all are.
+/// Why a motion is invalid: a coordinate or its rate is not finite; "" if all are.
 std::string non_finite_state_message(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
 
 /// Coordinates that signals read by their positions or rates, ascending.
@@ -77,11 +77,11 @@ private:
   std::optional<Accelerations> accelerations_; ///< if a signal reads any
   SignalExtremes               extremes_;
   SignalSample                 probe_;            ///< scratch
-  LocalState                   after_;            ///< the motion behind the last event
-  bool                         pending_  = false; ///< and it has not been told yet
-  double                       length_   = 0.;    ///< of the last step that was told
+  LocalState                   after_;            ///< the motion after the last event
+  bool                         pending_  = false; ///< and it has not been reported yet
+  double                       length_   = 0.;    ///< of the last reported step
   double                       row_step_ = 0., picture_step_ = 0.;
-  std::size_t                  settled_  = 0;                    ///< events whose values behind are told
+  std::size_t                  settled_  = 0;                    ///< events whose values after them are reported
   long                         next_row_ = 0, next_picture_ = 0; ///< on their grids
   double                       close_until_  = 0.;               ///< [s] pictures follow closely
   long                         close_budget_ = 0;                ///< how many such may still be made

@@ -25,7 +25,7 @@ struct SignalExtreme
 /// States of a run that are kept for what is computed from them afterwards, stresses for instance.
 struct StateRequest
 {
-  double                     step = 0.; ///< [s] of a grid from the begin of the run; 0: none
+  double                     step = 0.; ///< [s] of a grid from the beginning of the run; 0: none
   std::vector<double>        at;        ///< [s] instants, ascending
   std::vector<SignalExtreme> extremes;
   std::vector<SignalExtreme> around; ///< whose surroundings are kept, see StatesAround
@@ -55,11 +55,11 @@ struct RunOptions
   double        output_step    = 0.;    ///< [s] between rows of the history; 0: see output_step()
   double        picture_step   = 0.;    ///< [s] between saved states for pictures, closer behind events; 0: none
   StateRequest  states         = {};    ///< kept besides
-  bool          events         = true;  ///< located and restarted at; false: gone over, and told afterwards
+  bool          events         = true;  ///< located, with a restart; false: not located, reported after the step
   bool          force_unstable = false; ///< runs although the method is unstable with this step
   bool          energy         = true;
   bool          allow_large    = false; ///< histories and pictures above 1 GB
-  /// [s] Extremes of signals count from there on; before the begin: over the whole run.
+  /// [s] Extremes of signals start there; before the beginning: over the whole run.
   double from = -std::numeric_limits<double>::infinity();
 };
 
@@ -72,10 +72,10 @@ struct SignalSummary
   double      min = 0., t_min = 0., max = 0., t_max = 0., final = 0.;
 };
 
-/// Signals at a located event, by number: just before the first event of that instant, and behind the last one.
+/// Signals at a located event, by number: just before the first event of that instant, and after the last one.
 struct EventValues
 {
-  double              t = 0.;        ///< [s] where they hold: not at an event that was gone over
+  double              t = 0.;        ///< [s] where they are valid: not at an event that was not located
   std::vector<double> before, after; ///< empty: none
   std::vector<double> rate;          ///< [1/s] before; nan: no step was made since the motion restarted
 };
@@ -83,7 +83,7 @@ struct EventValues
 /// What the integration cost.
 struct WorkCounts : IntegrationWork
 {
-  long chatter = 0; ///< steps in which events were so many that they were gone over
+  long chatter = 0; ///< steps with too many events to locate
 };
 
 struct EnergySummary
@@ -98,7 +98,7 @@ struct RunResult : RunOutcome
   std::vector<SignalSummary> signals;
   double                     from = -std::numeric_limits<double>::infinity(); ///< as in RunOptions
   std::string                method;                                          ///< name of the method, for people
-  std::vector<ModeAccuracy>  accuracy; ///< what it makes of each mode; empty with a controlled step
+  std::vector<ModeAccuracy> accuracy; ///< numerical damping and period error of each mode; empty with a controlled step
   /// Rows of history.csv: t, every signal, then energy input, stored, dissipated.
   std::vector<std::string>     columns, units;
   std::vector<double>          rows; ///< row major, columns.size() wide

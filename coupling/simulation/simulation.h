@@ -25,8 +25,8 @@ void check_run(const Machine &machine, const RunOptions &options, std::size_t n_
 /// @throws ConvergenceFailure if there are none; std::invalid_argument if the method cannot treat the machine
 void try_start(Machine &machine, const InitialState &initial, const RunOptions &options);
 
-/// Integrates from `initial` to options.end.  A ConvergenceFailure is told in `failure`, with all that was computed up
-/// to then; of a machine that does not start, nothing.  `progress` is called now and then with the time reached; `stop`
+/// Integrates from `initial` to options.end.  A ConvergenceFailure is reported in `failure`, with all results up to
+/// then; none for a machine that does not start.  `progress` is called from time to time with the time reached; `stop`
 /// ends the run early; `trajectory` is given the motion.
 /// @throws std::invalid_argument as check_run() and StabilityGuard::check(), and if the method cannot treat the
 /// machine.

@@ -22,7 +22,7 @@ struct SteppedState
   double          t = 0.;
   Eigen::VectorXd q, v, history;
   std::string     ended{};  ///< statement of the switch that ended the run at t; empty: it goes on
-  std::string     checks{}; ///< what the checks know; empty: they begin anew
+  std::string     checks{}; ///< state of the checks; empty: they start afresh
 };
 
 /**
@@ -57,19 +57,19 @@ public:
   /// A load is another one from now on, in value or rate.
   void load_jumped();
 
-  /// @throws ConvergenceFailure if what was made so far is no motion.  go_on_to() asks by itself where the run of the
+  /// @throws ConvergenceFailure if the result so far is not a motion.  go_on_to() asks by itself where the run of the
   /// scene would end, and when the steps have become twice as many.
   void verify();
-  /// Lets the checks tell what they found up to time(); the run goes on from a state only.
+  /// Collects the findings of the checks up to time(); the run continues from a state only.
   /// @param failure  that ended it; empty: none
-  /// @return         why it is no motion, if that shows now only
+  /// @return         why it is not a motion, if detected only now
   std::string finish(const std::string &failure = "");
 
   const std::vector<double> &values();        ///< of the signals at time()
   std::vector<Event>         take_events();   ///< up to time(), since they were taken last
   std::vector<Finding>       take_findings(); ///< of the start and of finish(), since they were taken last
 
-  /// The present state; the run itself goes on from it as one that restores it does: multistep formulas start anew.
+  /// The present state; the run itself continues from it like a restored one: multistep formulas restart.
   SteppedState state();
   void         restore(const SteppedState &state);
 

@@ -33,7 +33,7 @@ public:
   /// The start, after the integrator began; history of the elements as it was set there.
   void begin(const Instant &at, const Eigen::VectorXd &history);
   /// A step was made, or the part of it up to an event.
-  /// @param spacing  [s] nodes are no farther apart
+  /// @param spacing  [s] largest distance of nodes
   void step(const TimeIntegrator &integrator, double spacing);
   /// The transition of a guard ends the step that was made last.
   void guard(int number);

@@ -45,7 +45,7 @@ struct BoltedJoint
   Eigen::Vector3d              damping            = Eigen::Vector3d::Zero();     ///< [N s/m] of each bolt
   Eigen::Vector3d              rotational         = Eigen::Vector3d::Zero();     ///< [N m/rad] of the joint
   Eigen::Vector3d              rotational_damping = Eigen::Vector3d::Zero();     ///< [N m s/rad]
-  std::vector<Eigen::Vector3d> positions;    ///< [m] of bolts, in the frame; none: one, amid the two interfaces
+  std::vector<Eigen::Vector3d> positions; ///< [m] of bolts, in the frame; none: one, midway between the two interfaces
   double                       preload = 0.; ///< [N] of all together
 };
 
@@ -89,7 +89,7 @@ struct FrameJoint
   }
 };
 
-/// A frame of parts that joints hold together.
+/// A frame of parts connected by joints.
 struct FrameOfParts
 {
   std::vector<FramePart>  parts;
@@ -104,7 +104,7 @@ struct FrameOfParts
 /// Interfaces of the joined frame, "crown.bearing": those of no joint, and the first ones of joints that keep them.
 std::vector<std::string> kept_interfaces(const FrameOfParts &frame);
 
-/// The same as they stand in the frame, with their names there.
+/// The same with their names in the frame.
 std::vector<fem::InterfaceSpecification> interfaces_in_frame(const FrameOfParts &frame);
 
 /// Forces of a joint that a scene may ask for, and their units: "joint.left foot.fx" ..., "joint.rod.force".

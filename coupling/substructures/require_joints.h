@@ -9,8 +9,8 @@
 namespace gestell::coupling
 {
 
-/// Refuses what can be said against joints without any mesh: unknown ends, joints of a part with itself, two joints of
-/// one interface, parts that nothing joins, flexible faces that nothing holds or a face of another kind.
+/// Checks joints without a mesh: unknown ends, joints of a part with itself, two joints of one interface, parts without
+/// a joint, flexible faces without a joint or with a face of another kind.
 /// @throws std::invalid_argument, headed with the joint's place.
 void require_joints(const FrameOfParts &description);
 

@@ -24,7 +24,7 @@ struct ReferenceCell
   };
   int                           n_nodes = 0, n_corners = 0; ///< corners are the first nodes
   std::vector<int>              node_of_corner;             ///< where corner k of Mesh stands among the nodes
-  std::vector<std::vector<int>> between;                    ///< of each node the corners it stands amid
+  std::vector<std::vector<int>> between;                    ///< of each node the corners it is between
   std::vector<std::vector<int>> faces;                      ///< corners, of a quadrilateral in the order of FE_Q
   Points                        nodes;
   Points                        rule;    ///< exact for masses and stiffnesses of cells with parallel edges

@@ -29,7 +29,7 @@ CadSource source_of(const FrameSpecification &specification);
 /// a sentence with the value and the way out, or nothing.
 std::string suspect_size(const CadModel &model, const CadSource &source);
 
-/// Whether colours and layers of faces are looked for, which means to read a STEP file a second time.
+/// Whether to read colours and layers of faces, which reads a STEP file a second time.
 enum class FaceAttributes
 {
   read,

@@ -23,7 +23,7 @@ void join_solids(CadModel &model, const FrameSpecification &specification, const
 /// For every solid the lowest index of a solid it hangs together with by common faces.
 std::vector<int> bodies_of(const std::vector<Solid> &solids);
 
-/// @throws std::invalid_argument if there are more or fewer bodies than mesh.bodies; tells where they come nearest.
+/// @throws std::invalid_argument if the number of bodies is not mesh.bodies; the message lists where they are closest.
 void check_bodies(const CadModel &model, const FrameSpecification &specification);
 
 } // namespace gestell::fem

@@ -7,7 +7,7 @@
 namespace gestell::fem
 {
 
-/// What the text of a STEP file (ISO 10303-21) tells of its being whole, which gmsh and OpenCASCADE do not look at.
+/// Completeness of a STEP file (ISO 10303-21) by its text, which gmsh and OpenCASCADE do not check.
 struct StepText
 {
   std::size_t   n_entities    = 0;

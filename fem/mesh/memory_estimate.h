@@ -7,8 +7,8 @@
 namespace gestell::fem
 {
 
-/// kappa = 2 V^(2/3) / A of a body of volume V [m^3] and skin A [m^2]: 1/3 of a cube, 0.07 of a welded press frame,
-/// 0.03 of a ladder of thin plates; at most that of a sphere.
+/// kappa = 2 V^(2/3) / A of a body of volume V [m^3] and skin A [m^2]: 1/3 for a cube, 0.07 for a welded press frame,
+/// 0.03 for thin plates; at most that of a sphere.
 double compactness(double volume, double skin_area);
 
 /**

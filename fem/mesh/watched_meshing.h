@@ -28,8 +28,8 @@ struct SurfaceSizes
   bool                     script_has_sizes = false; ///< a script has drawn sizes of its own
 };
 
-/// Meshes the surfaces; again with sizes that grow from short edges where those make far more triangles than wanted.
-/// @throws std::invalid_argument where gmsh cannot, or if the triangles tell of too many cells
+/// Meshes the surfaces; again with sizes that grow from short edges if those give far more triangles than intended.
+/// @throws std::invalid_argument if gmsh fails, or if the triangles indicate too many cells
 void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpecification &specification,
                    const GmshSession &session, const SurfaceSizes &sizes);
 

@@ -12,7 +12,7 @@
 namespace gestell::fem
 {
 
-/// A failure that every rank has been told of: none is left waiting for another.
+/// A failure known to every rank: none is left waiting for another.
 class AgreedFailure : public std::runtime_error
 {
 public:

@@ -17,7 +17,7 @@ struct ChildTask
 {
   std::string   path;             ///< of the file that is read
   std::string   head;             ///< "<place>: <file>"
-  std::string   phase;            ///< that reads: the first; once another is told of, the limits are lifted
+  std::string   phase;            ///< the phase that reads, the first; the limits end when another phase is reported
   ReadingLimits limits;           ///< of reading
   bool          alone   = true;   ///< false: no child, see in_one_process()
   std::string   library = "gmsh"; ///< that reads, for messages

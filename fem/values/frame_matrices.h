@@ -16,7 +16,7 @@
 namespace gestell::fem
 {
 
-/// The six motions of an interface node, in this order.
+/// The six DOFs of an interface node, in this order.
 enum Motion
 {
   ux,
@@ -27,8 +27,8 @@ enum Motion
   rz
 };
 
-/// Where the motions of one interface node stand in q: motion i is sign[i] * q[coordinate[i]], or held if -1; a node of
-/// a mesh has no rotations, which are -1 too.
+/// DOFs of one interface node in q: DOF i is sign[i] * q[coordinate[i]], or fixed if -1; the rotations of a mesh node
+/// are -1.
 struct Interface
 {
   std::string           name;
@@ -37,9 +37,9 @@ struct Interface
   std::array<double, 6> sign{1., 1., 1., 1., 1., 1.};
   PlaneFace             face{}; ///< of its surfaces, and the coordinates of fields over them
 
-  /// All its coordinates in q: those of motions that are not held, then of fields.
+  /// All its coordinates in q: free DOFs of the node, then fields.
   std::vector<int> coordinates() const;
-  /// Calls each of them another: i becomes renamed(i).
+  /// Renumbers them: i becomes renamed(i).
   template <typename Renamed>
   void renumber(const Renamed &renamed)
   {
@@ -50,17 +50,17 @@ struct Interface
   }
 };
 
-/// A force read off the frame:  on_q . q + on_v . q' + on_a . q'' + under_acceleration . g + constant.
+/// A force output of the frame:  on_q . q + on_v . q' + on_a . q'' + under_acceleration . g + constant.
 struct FrameOutput
 {
   std::string     name; ///< "cut.columns", "support.feet"
   std::string     unit; ///< "N"
   Eigen::VectorXd on_q; // [n]
   Eigen::VectorXd on_v; // [n]
-  /// [kg] what a uniform field of acceleration g, such as gravity, adds by itself: weight that a support takes without
-  /// any motion of q, and the static deflection that a reduced frame has no coordinates for.
+  /// [kg] direct share of a uniform acceleration field g, such as gravity: weight carried by a support without motion
+  /// of q, and the static deflection that is not in the basis of a reduced frame.
   Eigen::Vector3d under_acceleration = Eigen::Vector3d::Zero();
-  Eigen::VectorXd on_a{};        ///< [n], or empty: none.  Of forces in joints, which inertia beside them takes part in
+  Eigen::VectorXd on_a{};        ///< [n], or empty: none. For forces in joints, which include inertia next to them
   double          constant = 0.; ///< of the frame at q = 0, such as the prestress of a tie rod
 };
 
@@ -79,7 +79,7 @@ struct ModalDamping
   Eigen::VectorXd d;
 };
 
-/// What a frame made of cells weighs, and how well its elements keep rigid motions free: for people.
+/// Mass of a meshed frame and strain energy of its rigid-body modes, for reports.
 struct FrameFacts
 {
   struct SolidMass
@@ -89,17 +89,17 @@ struct FrameFacts
   };
   std::vector<SolidMass> parts;
   MassProperties         whole;
-  /// Largest strain energy of the six rigid motions of the unsupported frame, as a share of the energies that cancel in
-  /// it: rounding, some 1e-15, if all is well; nan if not known.
+  /// Largest strain energy of the six rigid-body modes of the unsupported frame, relative to the energies that cancel
+  /// in it: rounding (about 1e-15) for a correct assembly; nan if unknown.
   double rigid_energy = std::numeric_limits<double>::quiet_NaN();
-  /// Motions the supported frame makes without elastic energy, in words; see free_motions().
+  /// Names of the rigid-body modes of the supported frame (no elastic energy); see free_motions().
   std::vector<std::string> free_motions;
 };
 
 /**
- * A linear frame M q'' + B q' + C q = f, the one value that fem hands to coupling.
+ * A linear frame M q'' + B q' + C q = f, the interface between fem and coupling.
  *
- * Held coordinates are already removed and coupled surfaces eliminated: M is positive (semi)definite, B and C are
+ * Fixed DOFs are removed and coupled surfaces eliminated: M is positive (semi)definite, B and C are
  * symmetric and positive semidefinite; both triangles are stored.
  */
 struct FrameMatrices
@@ -112,17 +112,17 @@ struct FrameMatrices
   /// [n x 3] load of a unit acceleration field (gravity); M * translations, and exactly so where supports are clamped.
   /// Empty in frames given by matrices: then M * translations.
   Eigen::MatrixXd acceleration_load;
-  /// [n x 6] q of the rigid motions ux uy uz rx ry rz about `centre`, or empty if not known.
+  /// [n x 6] q of the rigid-body modes ux uy uz rx ry rz about `centre`, or empty if unknown.
   Eigen::MatrixXd          rigid_motions;
   std::array<double, 3>    centre{}; ///< of mass [m]
   std::vector<FrameOutput> outputs;
   Picture                  picture;
   FrameFacts               facts;
-  double                   mass = 0.; ///< of the frame with what is attached [kg]
-  StressRecovery           stress;    ///< empty unless it was asked for
+  double                   mass = 0.; ///< of the frame with attached masses [kg]
+  StressRecovery           stress;    ///< empty unless requested
   int                      n_cells = 0;
-  std::vector<std::string> notes;      ///< what a user should look at in geometry, mesh and assembly
-  std::vector<std::string> statements; ///< what is as it should be
+  std::vector<std::string> notes;      ///< warnings about geometry, mesh and assembly
+  std::vector<std::string> statements; ///< results without warning
 
   /// Coordinates q1 of all interfaces, ascending.
   std::vector<int> interface_coordinates() const;

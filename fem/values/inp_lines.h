@@ -53,7 +53,7 @@ private:
 /// elements, sets or surfaces are given; "" for any other.
 std::string input_of(const InpKeyword &keyword, const std::string &file);
 
-/// Capitals, as names are not told from those in small letters.
+/// Upper case, since names are case-insensitive.
 std::string in_capitals(std::string text);
 
 } // namespace gestell::fem

@@ -9,19 +9,19 @@ namespace gestell
 /// Appends the shortest decimal text that reads back as exactly x; "nan", "inf", "-inf" where there is none.
 void append_exact(std::string &text, double x);
 
-/// The same as a string of its own.
+/// The same as a separate string.
 std::string exact_text(double x);
 
 /// x with few significant digits for a reader, without an exponent between 1e-3 and 1e6; "-0" is written "0".
 std::string short_text(double x, int digits = 4);
 
-/// A number as notes and messages tell it.
+/// A number as notes and messages print it.
 std::string rounded(double value, int digits = 4);
 
 /// "2.5 %" of a share of 0.025.
 std::string percent(double share, int digits = 3);
 
-/// "1 file", "2 files"; or "2 bodies" where the plural is no mere s.
+/// "1 file", "2 files"; or "2 bodies" with an irregular plural.
 std::string count_text(std::size_t n, const std::string &one, const std::string &many = "");
 
 /// Characters of a text in UTF-8, not its bytes.

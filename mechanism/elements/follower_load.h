@@ -27,7 +27,7 @@ namespace gestell::mechanism
 class FollowerLoad : public ForceLaw, public Branches, public Structure, public Commands
 {
 public:
-  /// @param e  unit vector, as described
+  /// @param e  unit vector, in the reference configuration
   /// @throws std::invalid_argument if the law has not one measure, or the point does not move
   FollowerLoad(const Placement &point, const Vector3d &e, std::shared_ptr<const ForceLaw> law);
 

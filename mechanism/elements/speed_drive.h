@@ -37,7 +37,7 @@ public:
     double           largest_torque    = Profile::unlimited; ///< M_max [N m], > 0
     CommandedProfile speed;                                  ///< w_r [rad/s]
 
-    std::shared_ptr<InputValue> input{}; ///< w_r set from outside, which obeys no orders; null: the course
+    std::shared_ptr<InputValue> input{}; ///< w_r set from outside, without commands; null: the profile
   };
 
   explicit SpeedDrive(const Parameters &parameters);

@@ -75,7 +75,7 @@ private:
   };
 
   static std::size_t segment_of(const double *history) { return static_cast<std::size_t>(history[0]); }
-  std::size_t        segment_at(double x) const; ///< at a corner the one behind it
+  std::size_t        segment_at(double x) const; ///< at a corner the following one
   double             abscissa(const LocalMotion &motion) const;
   bool               ends(std::size_t segment) const { return segment < corners_.size(); }
   bool               goes_back(std::size_t segment) const { return segment > 0 && against_ != Against::time; }

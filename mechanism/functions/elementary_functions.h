@@ -168,7 +168,7 @@ Eigen::AutoDiffScalar<Derivatives> real_power(const Eigen::AutoDiffScalar<Deriva
   return by_chain_rule(real_power(x.value(), c), scaled(real_power(x.value(), c - 1.), c), x);
 }
 
-/// atan2(y, x); its jump of 2 pi at y = 0, x < 0 is no kink of a formula.
+/// atan2(y, x); its jump of 2 pi at y = 0, x < 0 does not count as a kink of a formula.
 template <typename Derivatives>
 Eigen::AutoDiffScalar<Derivatives> angle(const Eigen::AutoDiffScalar<Derivatives> &y,
                                          const Eigen::AutoDiffScalar<Derivatives> &x)

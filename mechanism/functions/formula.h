@@ -105,7 +105,7 @@ private:
     offset,
     scale,
     integer_power,
-    root, ///< any power that is no whole number
+    root, ///< any power that is not an integer
     function,
     angle,
     abs,
@@ -121,7 +121,7 @@ private:
     Op       op;
     int      index    = 0;  ///< variable, function, exponent, kink
     double   number   = 0.; ///< constant, factor, exponent
-    int      distance = 0;  ///< instructions to pass over
+    int      distance = 0;  ///< instructions to skip
     Relation relation = Relation::above;
   };
 

@@ -29,9 +29,9 @@ public:
   void               start(const double *x, const double *rates, double *sides) const;
   std::vector<Guard> guards() const;
   void               guard_values(const double *x, const double *sides, double *g) const;
-  /// The argument of a kink leaves a side or zero; kinks that were out of play behind it may come into play.
+  /// The argument of a kink leaves a side or zero; kinks that it made inactive may become active.
   void transition(int guard, const double *x, const double *rates, double *sides) const;
-  /// Whether the argument of a sign, step or if on the way rests at zero: it and its rate vanish.
+  /// Whether the argument of an active sign, step or if rests at zero: it and its rate vanish.
   bool is_at_zero(const double *x, const double *rates, const double *sides) const;
   /// The side of each of these becomes 0.
   void rest(const double *x, const double *rates, double *sides) const;

@@ -53,7 +53,7 @@ public:
     bool is_zero() const { return c[0] == 0. && c[1] == 0. && c[2] == 0.; }
   };
   static constexpr int most_pieces = 4;
-  /// The pieces of a ramp from a level to another, the last one behind it; their number.
+  /// The pieces of a ramp between two levels, the last one after its end; their number.
   static int pieces_of(double from, const Ramp &ramp, Piece (&pieces)[most_pieces]);
 
   Profile(double constant = 0.); // NOLINT: a level is a profile
@@ -64,7 +64,7 @@ public:
   /// @throws std::invalid_argument
   Profile(const std::string &name, double from, const std::vector<Ramp> &ramps);
 
-  /// Piece at the time t, at a corner the one behind it.
+  /// Piece at the time t, at a corner the following one.
   std::size_t piece_at(double t) const;
   /// Value of a piece, also beyond its ends.
   double value(std::size_t piece, double t) const;

@@ -36,8 +36,8 @@ public:
     IdealJoint::Equation demand;
     double               stiffness = 0.; ///< k [N/m, N m/rad], >= 0
     double               damping   = 0.; ///< d [N s/m, N m s/rad], >= 0
-    /// Of `along` an axis that body 1 carries: the signal is the force along the axis as described, to which all such
-    /// equations add.
+    /// Of `along` an axis that body 1 carries: the signal is the force along the axis in its reference direction, the
+    /// sum of all such equations.
     bool told_as_described = false;
   };
 

@@ -93,7 +93,7 @@ private:
   std::vector<double> corners_; ///< [s] after t_brake, ascending; the last one ends the motion
 };
 
-/// f(t), the integral of a speed from t_start on, that follows a profile and obeys orders; its corners are events
+/// f(t), the integral of a speed from t_start, that follows a profile and accepts commands; its corners are events
 /// "next_segment".
 class ProfileMotion : public MotionLaw
 {

@@ -12,7 +12,7 @@
 namespace gestell::coupling
 {
 
-/// (C - omega^2 M) v = 0 with C^-1 at hand; see ModeProblem, also for what must outlive a search.
+/// (C - omega^2 M) v = 0 with C^-1 available; see ModeProblem, also for lifetimes.
 struct ModePencil
 {
   std::shared_ptr<const InverseStiffness> inverse;

@@ -62,7 +62,7 @@ public:
   void                   cut(double t) override;
   void                   restart() override;
   const IntegrationWork &work() const override { return work_; }
-  void exchange(StateArchive &archive) override;
+  void                   exchange(StateArchive &archive) override;
 
 private:
   /// A past point: q, v = q', w = M q' + B q [n]; motion of the measures and their forces.
@@ -80,7 +80,7 @@ private:
   void         set(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v);
   void         begin_from(double t);
   bool         has_consistent();
-  bool         is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
+  bool         is_implied() const; ///< some forces are not values of a law but follow from the equation of motion
   void         find_implied(Point &point);
   bool         finds_held() const;
   void         multistep(double t);

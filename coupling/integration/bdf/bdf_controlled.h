@@ -110,7 +110,7 @@ private:
   void               point(const Eigen::VectorXd &z, double t, LocalState &state) const;
   void               present(const Eigen::VectorXd &z, double t);
   void               load(double t);
-  bool               is_implied() const; ///< some forces are no law's values, but follow from the equation of motion
+  bool               is_implied() const; ///< some forces are not values of a law but follow from the equation of motion
   bool               has_consistent();
   bool               finds_held() const;
   void               solve_inside(double t, LocalState &state) const;

@@ -12,7 +12,7 @@ namespace gestell::coupling
 
 struct EventOptions
 {
-  bool   locate = true;                                    ///< false: events are told, the integration goes over them
+  bool   locate = true; ///< false: events are reported after the step, without locating them
   double end    = std::numeric_limits<double>::infinity(); ///< [s] a step that goes beyond is cut there
 
   /// Sliding speed [m/s, rad/s] up to which a motion begins sticking: that of a start that was computed, and is
@@ -39,7 +39,7 @@ struct EventOptions
 class EventDriver
 {
 public:
-  /// @param observers  told of steps, guards and events, in their order; must outlive the driver
+  /// @param observers  receive steps, guards and events, in their order; must outlive the driver
   EventDriver(SecondOrderSystem &system, TimeIntegrator &integrator, const EventOptions &options,
               const std::vector<RunObserver *> &observers = none());
 

@@ -10,7 +10,7 @@ namespace gestell::coupling
 enum class Severity
 {
   warning, ///< the result holds, but perhaps not as it was meant
-  error    ///< what was computed ends here, or is no motion of the machine
+  error    ///< the result ends here, or is not a motion of the machine
 };
 
 /// What a check found, as a value.

@@ -27,7 +27,7 @@ public:
   /// Tells the observer, which must outlive the motion, of all that follows; of the start at once where there was one.
   void watch(RunObserver &observer);
 
-  /// Starts, anew if it has moved before.
+  /// Starts, or restarts.
   /// @throws ConvergenceFailure
   void begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v, const EventOptions &events);
   /// One step, or the part of it up to its first event.

@@ -22,10 +22,10 @@ public:
   virtual void step() {}
   /// The zero of a guard was located at the end of the step, which was cut there; its transition follows.
   virtual void guard(int) {}
-  /// A transition was made and the integration is ready to go on from there; of a step that was gone over, at its end.
+  /// A transition was made and the integration is ready to go on from there; in a step without located events, at its
+  /// end.
   virtual void event(const Event &) {}
-  /// @throws ConvergenceFailure if what was observed so far is no motion of the machine; for runs whose end nobody
-  /// knows
+  /// @throws ConvergenceFailure if the observed history is not a motion of the machine; for runs with unknown end
   virtual void verify() const {}
   virtual void finish(RunOutcome &) {} ///< at the end, with what earlier observers have found
   virtual void exchange(StateArchive &) {}

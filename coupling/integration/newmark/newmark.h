@@ -31,7 +31,7 @@ public:
     double        beta         = 0.25; ///< >= 0
     double        gamma        = 0.5;  ///< > 0
     double        alpha_m      = 0.;   ///< weight of a_0, < 1
-    double        alpha_f      = 0.;   ///< weight of the forces at the begin, in [0, 1)
+    double        alpha_f      = 0.;   ///< weight of the forces at the beginning, in [0, 1)
     double        step         = 0.;   ///< h [s], > 0
     int           max_halvings = 10;
     NewtonOptions newton{};

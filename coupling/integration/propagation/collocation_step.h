@@ -77,7 +77,7 @@ private:
   /// u, v at point i from the free motion and P.
   void motion(const StepTable &table, int i, LocalState &state) const;
 
-  /// The last step's polynomial goes on; behind an event the force at its begin does.
+  /// Extrapolates the polynomial of the last step; after an event the force at its beginning.
   void predict(double h);
 
   /// Rows of point i of I - dp S, from dp_du_ and dp_dv_.
@@ -110,7 +110,7 @@ private:
   /// What all forces would move a measure together, were they not to balance each other.
   double of_all(const StepTable &table, int row) const;
 
-  /// Of I - S dp at the begin of the step, what sticks left out: no pivot is small or negative.
+  /// Of I - S dp at the beginning of the step without sticking elements: no pivot is small or negative.
   bool is_sound(const StepTable &table);
 
   void finish(const StepTable &table, LocalState &end);

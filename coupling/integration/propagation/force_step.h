@@ -96,7 +96,7 @@ public:
   virtual double interpolation_error(double /*phase*/) const { return 0.; }
   /// p_j of the basis in the step solved last [n_basis n_u].
   virtual void forces(Eigen::VectorXd &p) const = 0;
-  /// dx/ds [2 n_p x k] at the begin of the step solved last becomes that at its end.
+  /// dx/ds [2 n_p x k] at the beginning of the last step becomes that at its end.
   /// @throws std::invalid_argument for a rule that has none
   virtual void carry_tangents(Eigen::MatrixXd &X) = 0;
   /// All that the steps to come depend on.

@@ -65,7 +65,7 @@ ModalBlocks modal_blocks(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, con
 class SharedModes
 {
 public:
-  /// As modal_blocks(M, B, C, coordinate_name), found anew where a matrix differs in any digit.
+  /// As modal_blocks(M, B, C, coordinate_name), recomputed where a matrix differs in any digit.
   const ModalBlocks &of(const Eigen::MatrixXd &M, const Eigen::MatrixXd &B, const Eigen::MatrixXd &C,
                         const std::function<std::string(int)> &coordinate_name);
   int                found() const { return found_; } ///< how often
@@ -76,9 +76,9 @@ private:
   int             found_ = 0;
 };
 
-/// @param shared  with systems of the same matrices; null: the modes are found anew
-/// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is no sum of
-///         harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
+/// @param shared  with systems of the same matrices; null: the modes are recomputed
+/// @throws std::invalid_argument with the reason: the system is not dense, M is singular, the load is not a sum of
+/// harmonics, an undamped mode is driven at its own frequency, or eigenvectors coincide.
 ModalBlocks modal_blocks(const SecondOrderSystem &system, SharedModes *shared = nullptr);
 
 /// F(Lambda h) for functions F of a complex number: [f11 f12; f21 f22] by columns a, b as the block's kind has it.

@@ -67,7 +67,7 @@ public:
   const IntegrationWork &work() const override { return context_.work; }
   bool                   controls_error() const override { return options_.tolerance > 0.; }
   void                   expect(double way, double speed) override;
-  void exchange(StateArchive &archive) override;
+  void                   exchange(StateArchive &archive) override;
 
   void          begin_tangents(const Eigen::MatrixXd &dq, const Eigen::MatrixXd &dv) override;
   void          carry_tangents() override;
@@ -86,7 +86,7 @@ private:
   {
     double  t = 0., h = 0.;
     int64_t tick    = 0;
-    bool    on_grid = false; ///< h is that of a rung
+    bool    on_grid = false; ///< h is that of a step-size level
     int     rung    = 0;
   };
 
@@ -110,7 +110,7 @@ private:
   mutable PropagationContext context_;
   std::unique_ptr<ForceStep> force_;
   RowMatrix                  Q_, V_;  ///< [n x 2 n_p]
-  std::map<int, StepTable>   tables_; ///< by rung
+  std::map<int, StepTable>   tables_; ///< by step-size level
   StepTable                  partial_;
   double                     step_ = 0., t_origin_ = 0., t_begin_ = 0.;
   double                     t_full_  = 0.; ///< end of the step before it was cut

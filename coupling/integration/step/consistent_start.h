@@ -10,8 +10,8 @@ namespace gestell::coupling
 
 class StateArchive;
 
-/// Rates of held measures in v [n_u] become those they are held at, free of rounding: a motion that lets go there
-/// begins at the very zero of the guard by which it would stick again.
+/// Rates of sticking measures in v [n_u] become those of sticking, free of rounding: a motion released there begins
+/// exactly at the zero of the guard by which it would stick again.
 void keep_held_rates(const SecondOrderSystem &system, Eigen::VectorXd &v);
 
 /**
@@ -69,7 +69,7 @@ private:
   static constexpr int    most_by_friction = 8 * max_iterations; ///< where they converge linearly
 
   int               most_iterations() const;
-  [[noreturn]] void fail_unconverged(double t) const; ///< g_ tells by what the multipliers changed last
+  [[noreturn]] void fail_unconverged(double t) const; ///< g_ is the last change of the multipliers
   void              factorise(double t);
   void              move(Eigen::VectorXd &x, Eigen::VectorXd &xi, double t);
   bool              is_small(const Eigen::VectorXd &p);

@@ -105,7 +105,7 @@ public:
 
   /// A new motion begins with the measures u: their excursions are counted from there.
   void begin(const Eigen::VectorXd &u);
-  /// Other laws hold from here on: how fast Newton converges is to be seen anew.
+  /// Force laws changed: the convergence rate of Newton's method must be measured again.
   void forget_contraction();
 
   /// What was seen of the steps made; forms that were condensed are condensed again.
@@ -117,8 +117,8 @@ private:
   static constexpr double good_contraction   = 0.05;  ///< of Newton's corrections: what was made of G serves on
   static constexpr double turned_little      = 1e-13; ///< correction that turns no direction by more than rounding
   static constexpr double sudden_growth      = 10.;   ///< of the first correction from step to step
-  static constexpr int    steps_of_levers    = 16;    ///< the levers of joints are looked at once in so many
-  static constexpr int    most_unseen        = 20;    ///< steps of one iteration before another one is looked at
+  static constexpr int    steps_of_levers    = 16;    ///< the levers of joints are checked once in this number of
+  static constexpr int    most_unseen        = 20;    ///< steps of one iteration before another one is checked
 
   void find_forces(const Condensed &condensed, const LocalState &base, const Eigen::VectorXd &x, LocalState &local,
                    IntegrationWork &work);

@@ -48,15 +48,15 @@ public:
   ~SaddleMatrix();
 
   /// The matrix if joints are to be solved sparse, else null.
-  /// @throws std::invalid_argument if `sparse` is demanded of a system that hands out no sparse matrices
+  /// @throws std::invalid_argument if `sparse` is required for a system without sparse matrices
   static std::unique_ptr<SaddleMatrix> for_joints(const SecondOrderSystem &system, JointSolver solver);
 
-  /// Measures that stick; K is analysed anew where they are others than before.
+  /// Measures that stick; K is analysed again if they change.
   void hold(const std::vector<HeldMeasure> &held);
   /// The factor is void where they are others than before.
   void set_weights(double w_M, double w_B, double w_C, double f);
   void forget_factor() { factorised_ = false; }
-  /// What was factorised last is no guide any more: pivots are sought anew, from the heap.
+  /// The last factorisation no longer guides the pivoting: pivots are searched again, from the heap.
   void forget_pivots();
   bool has_factor() const { return factorised_; }
 

@@ -77,9 +77,9 @@ public:
   bool consider(double t, double h, const Motion &from, const Motion &to, const Vector &moved);
   /// The step last considered is taken: its excursions count from now on.
   void accept();
-  /// It is refused.  But it tells how far the motion will have gone by its end, and until then scales are not below
-  /// that: a motion that begins from rest, like t^3, would else have no step small enough.  Not to be asked for a step
-  /// whose solution is far from any motion.
+  /// It is rejected. It predicts the size of the motion at its end, a lower bound of the scales until then: a motion
+  /// from rest, like t^3, would otherwise have no step small enough. Do not call it for a step whose solution is not
+  /// close to a motion.
   void refuse();
 
   /// Error relative to the scales of the step last considered, per chi; the largest of all groups and measures.

@@ -57,12 +57,12 @@ public:
   virtual const Excitation &excitation() const = 0;
   /// M, B, C as dense matrices [n x n], for integrators that work in the modes of the base system; false: too large.
   virtual bool dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const;
-  /// M, B, C as sparse matrices [n x n] that are cheap to factorise anew in every step, for systems of many joints;
+  /// M, B, C as sparse matrices [n x n] that are cheap to factorise in every step, for systems of many joints;
   /// false: there are no such, and joints are solved condensed to the measures.
   virtual bool sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
                                Eigen::SparseMatrix<double> &C) const;
-  /// Coordinates without mass that are no motion but states of a law, such as the torque of a motor that follows with a
-  /// lag; nothing of M, B, C couples them to others, factorise(w, 0, 0) holds them apart.  They store no energy.
+  /// Massless coordinates that are states of a law, not motions, such as the torque of a motor with first-order lag;
+  /// nothing of M, B, C couples them to others, factorise(w, 0, 0) holds them apart.  They store no energy.
   virtual const std::vector<int> &virtual_coordinates() const;
   /// Name of coordinate i, for messages.
   virtual std::string coordinate_name(int i) const = 0;

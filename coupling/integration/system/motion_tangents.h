@@ -35,7 +35,7 @@ public:
 
   virtual void          tangents(Eigen::MatrixXd &dq, Eigen::MatrixXd &dv) const = 0; ///< here
   virtual LocalTangents local_tangents()                                         = 0; ///< here
-  /// The derivative with respect to time, k = 1, but for what laws tell of the time itself.
+  /// The derivative with respect to time, k = 1, without the explicit time dependence of laws.
   virtual LocalTangents local_rates() = 0;
 };
 

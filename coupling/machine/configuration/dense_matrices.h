@@ -24,7 +24,7 @@ Eigen::SparseMatrix<double> engaged_stiffness(const Machine &machine, const Eige
 enum class Acting
 {
   everything,
-  structure ///< not those that are no structure, Structure::engaged() being zero: technological forces, drives
+  structure ///< not those with zero Structure::engaged(): technological forces, drives
 };
 
 /// 1 for the measures [n_u] of elements and joints that act at u [n_u], 0 for the others.

@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-/// The play of an element at a state, and the gradients of its motions in the coordinates of the machine.
+/// The play of an element at a state, and its gradients by the coordinates of the machine.
 struct PlacedPlay
 {
   std::string                 name; ///< of the element

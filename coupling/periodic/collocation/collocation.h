@@ -58,10 +58,10 @@ public:
   /// Unknowns of forces at the Gauss points, a start q, q' [n] and a period [s] where it is unknown.
   Eigen::VectorXd unknowns(const Eigen::VectorXd &forces, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
                            double period) const;
-  /// r = p(t, u, u') - P, behind it what is left of closing the free states and of the phase; J = -dr/dy.
+  /// r = p(t, u, u') - P, then the residuals of the free states and of the phase; J = -dr/dy.
   void linearise(const Eigen::VectorXd &y, Eigen::VectorXd &r, Eigen::MatrixXd &J) { evaluate(y, r, &J); }
   void residual(const Eigen::VectorXd &y, Eigen::VectorXd &r) { evaluate(y, r, nullptr); }
-  /// Newton's method from P, free states and the unknown period behind them, which become the solution; the number of
+  /// Newton's method from P, then free states and unknown period, which become the solution; the number of
   /// its iterations.
   /// @throws NoPeriodicMotion if it does not converge
   int solve(Eigen::VectorXd &P, const PeriodicOptions &options);

@@ -6,7 +6,7 @@ namespace gestell::coupling
 {
 
 /// Collocation over `ratio` times the period of the family: forces at the Gauss points, free states and an unknown
-/// period, on a mesh that is fitted anew behind each point of the branch.  Multipliers come from one passage.
+/// period, on a mesh that is adapted after each point of the branch.  Multipliers come from one passage.
 std::unique_ptr<BranchEquations> collocation_branch(const ProblemFamily &family, const PeriodicOptions &options,
                                                     int ratio = 1);
 

@@ -28,9 +28,11 @@ public:
   MeshSearch(const PeriodicProblem &problem, const PeriodicOptions &options);
 
   PeriodFlow &flow() { return flow_; }
-  /// On uniform meshes, finer where Newton's method does not converge from the guess; then halved where they err.
+  /// On uniform meshes, finer where Newton's method does not converge from the guess; then halved where the error is
+  /// too large.
   /// @throws NoPeriodicMotion
-  /// @throws std::invalid_argument if an element remembers or sticks: its force is no function of the motion then
+  /// @throws std::invalid_argument if an element has hysteresis or sticks: its force is then not a function of the
+  /// motion
   void run(const PeriodicGuess &guess);
   /// What was found, with multipliers where the integrator has tangents.
   PeriodicSolution solution();

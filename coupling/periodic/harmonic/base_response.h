@@ -30,18 +30,18 @@ namespace gestell::coupling
 class BaseResponse
 {
 public:
-  /// @throws std::invalid_argument: the load is no sum of harmonics of the period, a motion that is to turn is held by
-  ///         the base, or the modes are not found; the message says which, and what serves
+  /// @throws std::invalid_argument: the load is not a sum of harmonics of the period, the base constrains a rotating
+  /// coordinate, or the modes are not found; the message gives reason and remedy
   explicit BaseResponse(const PeriodicProblem &problem);
 
   int n_measures() const { return n_u_; }
-  int n_rows() const { return n_rows_; } ///< measures, and the coordinate of the phase behind them
+  int n_rows() const { return n_rows_; } ///< measures, then the coordinate of the phase
   int n_free() const { return static_cast<int>(free_.size()); }
   int largest_load() const; ///< highest harmonic of the load
 
   using Slopes = BaseReceptance::Slopes;
-  /// Forms R_h, u0_h for h = 0 ... H at omega [rad/s] anew, and their slopes over omega if wanted.
-  /// @throws std::invalid_argument if an undamped mode stands at a harmonic
+  /// Forms R_h, u0_h for h = 0 ... H at omega [rad/s], and their derivatives by omega if requested.
+  /// @throws std::invalid_argument if an undamped mode coincides with a harmonic
   void form(double omega, int harmonics, Slopes slopes);
 
   Eigen::MatrixXcd        R(int h) const { return base_.R(h); }             ///< [n_rows x n_u]

@@ -31,15 +31,15 @@ PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalanc
 
 /// The next number of harmonics to try above `harmonics`; 0: there are as many as there may be.
 int more_harmonics(const PeriodicProblem &problem, int harmonics);
-/// How many harmonics there are and what they leave out.
-/// @param tolerance of the motion, above which the note tells what helps
+/// Number of harmonics and their truncation error.
+/// @param tolerance of the motion, above which the note gives a remedy
 std::string note_of_harmonics(const HarmonicBalance &balance, const HarmonicBalance::LeftOut &left, double tolerance,
                               bool given);
 
 /// "harmonic-balance": one solution, from one harmonic through the guess, from the motion that is integrated from
-/// there, or from the linear response, as the first of them leads to one.  The number of harmonics grows until what is
-/// left out is below the tolerance; a note tells what remains.  Multipliers are those of Hill's matrix where
-/// floquet_way() chooses it, else of a period that is integrated.
+/// there, or from the linear response, as the first of them leads to one.  The number of harmonics grows until the
+/// truncation error is below the tolerance; a note gives the remaining error.  Multipliers are those of Hill's matrix
+/// where floquet_way() chooses it, else of a period that is integrated.
 const PeriodicMethod &harmonic_balance_method();
 
 } // namespace gestell::coupling

@@ -60,8 +60,8 @@ public:
   const std::vector<Derivative> &derivatives() const { return derivatives_; }
   const Eigen::MatrixXcd        &slope() const { return slope_; } ///< dp/domega at fixed u_h [n_u x (N/2 + 1)]
 
-  /// Largest difference of the forces between an element that starts anew and one that has passed through a period,
-  /// relative to the largest force; above zero where a law remembers.
+  /// Largest difference of the forces between an element in its initial state and after a period, relative to the
+  /// largest force; above zero for laws with hysteresis.
   struct Memory
   {
     double      share = 0.;

@@ -60,7 +60,7 @@ private:
   Eigen::MatrixXd           newton_;      ///< Phi_x - E, bordered where the period is unknown
 };
 
-/// Chooses the usual share; whether the system is large and more than half of its motions are fast, so that
+/// Chooses the usual share; whether the system is large and more than half of its modes decay fast, so that
 /// shoot_slow() pays.
 bool mostly_fast(DominantSubspace &motions, const PeriodicProblem &problem);
 

@@ -87,7 +87,7 @@ public:
 
   /// The solution that the last evaluation is; multipliers from the product of all segments.
   PeriodicSolution solution() const;
-  /// closing_error() of the period in one passage from z, which tells what rounding grows to.
+  /// closing_error() of the period in one passage from z, which shows the growth of rounding errors.
   /// @throws ConvergenceFailure
   double closing_in_one(const Eigen::VectorXd &z);
 

@@ -15,7 +15,7 @@ namespace gestell::coupling
 struct DamperAttachmentModes
 {
   Eigen::MatrixXd W;         ///< [n x k], zero on q1
-  double          left = 0.; ///< estimated relative error of the damped receptance with them, modes left out included
+  double          left = 0.; ///< estimated relative error of the damped receptance with them, including truncated modes
   std::vector<double> of_groups{}; ///< the same of each interface by itself
   bool exhausted = false; ///< no shape is left that has mass: what remains no coordinate of the model could carry
 };
@@ -23,7 +23,7 @@ struct DamperAttachmentModes
 /// Whether B acts on anything but q1.
 bool has_inner_dampers(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B);
 
-/// A model of modes with the interface held, and of shapes.
+/// A model of fixed-interface modes and shapes.
 struct ModelOfModes
 {
   const ReductionBasis &basis; ///< of all modes known
@@ -36,7 +36,7 @@ struct ModelOfModes
 struct ReceptanceGoal
 {
   std::vector<ReceptanceFrequency> frequencies; ///< to look at, as for InterfaceReceptance
-  Groups                           groups;      ///< of q1, whose own errors are told
+  Groups                           groups;      ///< of q1, whose errors are reported separately
   double                           tolerance;
   int                              most; ///< shapes
 };

@@ -29,14 +29,14 @@ std::vector<ReceptanceFrequency> receptance_frequencies(const RefinedModes &refi
 /// Coordinates of one interface, counted in q1.
 using Groups = std::vector<std::vector<int>>;
 
-/// |H_model - H| / |H|, infinite where it is no number.
+/// |H_model - H| / |H|, infinite instead of nan.
 double relative_error(const Eigen::MatrixXcd &H_model, const Eigen::MatrixXcd &H);
 
 /// relative_error() of the coordinates of each group g: raises `errors` to it.
 void raise_errors(const Groups &groups, const Eigen::MatrixXcd &H_model, const Eigen::MatrixXcd &H,
                   std::vector<double> &errors);
 
-/// What describes the inside of a reduced model.
+/// Internal DOFs of a reduced model.
 enum class Inside
 {
   modes,           ///< the first m fixed-interface modes

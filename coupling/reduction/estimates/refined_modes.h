@@ -37,8 +37,8 @@ struct RefinedModes
 RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &star,
                            const ResidualFlexibility &response, const fem::FrameMatrices &frame);
 
-/// The elastic modes of the reduced model itself, behind n_rigid rigid motions: where its shapes are no modes of the
-/// held frame, for damping and as what its frequencies are compared with.
+/// The elastic modes of the reduced model itself, after n_rigid rigid-body modes: for models whose shapes are not
+/// fixed-interface modes; for damping and as reference of its frequencies.
 RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 
 /// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.

@@ -39,7 +39,7 @@ public:
   /// [n x n1]: E on the rows of q1, -C22^-1 C21 on those of q2.
   Eigen::MatrixXd constraint_modes() const;
 
-  /// Gives the memory of the factor back; restore() makes it anew where it is not there.
+  /// Frees the memory of the factor; restore() computes it again if needed.
   void release();
   void restore();
 

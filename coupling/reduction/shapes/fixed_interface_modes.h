@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// The modes of a frame with its interface held.
+/// The fixed-interface modes of a frame.
 class FixedInterfaceModes final : public SturmCheckedModes
 {
 public:

@@ -22,7 +22,7 @@ namespace gestell::coupling
 class FreeInverse
 {
 public:
-  /// @param basis  constraint modes only.  It and the held frame must outlive this.
+  /// @param basis  constraint modes only.  It and the fixed-interface frame must outlive this.
   FreeInverse(const FixedInterfaceFrame &held, const ReductionBasis &basis, const fem::FrameMatrices &frame);
 
   const Eigen::MatrixXd &rigid() const { return R_; } ///< motions R [n x k], R^T M R = E

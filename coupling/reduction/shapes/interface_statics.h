@@ -18,7 +18,7 @@ ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMat
 struct InterfaceStatics
 {
   /// The frame must outlive it.
-  /// @throws std::invalid_argument if a motion is free while the interface is held.
+  /// @throws std::invalid_argument if a rigid-body mode remains with the interface fixed.
   InterfaceStatics(const fem::FrameMatrices &frame, const ReductionOptions &options, const Progress &progress);
 
   void begin(const char *phase, double share = -1.) const; ///< tells progress

@@ -21,7 +21,7 @@ public:
   void begin() override;
   void step() override;
   void event(const Event &) override { energy_.jump(integrator_.instant()); }
-  void verify() const override; ///< throws where energy came from nowhere, or more went than there was
+  void verify() const override; ///< throws for a spurious energy gain, or a loss of more than there was
   void finish(RunOutcome &outcome) override;
   void exchange(StateArchive &archive) override;
 
@@ -35,7 +35,7 @@ private:
   const Machine        &machine_;
   const TimeIntegrator &integrator_;
   MethodOptions         method_;
-  bool                  forced_; ///< runs although it is no motion
+  bool                  forced_; ///< runs although it is not a motion
   EnergyBalance         energy_;
   PowerRule             rule_;
   EnergyGuard           guard_;

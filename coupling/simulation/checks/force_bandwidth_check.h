@@ -78,7 +78,7 @@ private:
   Eigen::Index          first_[n_ranges] = {};       ///< mode that is not exact with the range
   OscillatorBank        bank_;                       ///< of the model, then the refined ones
   Eigen::VectorXd       sprung_before_, sprung_now_; ///< phi_k.f of base springs at the last look, and now
-  Eigen::VectorXd       force_, load_, at_rest_;     ///< phi_k.f; f_t; deflections at the begin
+  Eigen::VectorXd       force_, load_, at_rest_;     ///< phi_k.f; f_t; deflections at the beginning
   Eigen::VectorXd       sum_, difference_;
   Eigen::ArrayXd        input_;
   Eigen::ArrayXd        deflection_, least_, most_; ///< largest change of deflections; forces along them

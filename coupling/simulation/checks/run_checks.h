@@ -12,14 +12,14 @@
 namespace gestell::coupling
 {
 
-/// What is to be said of a run before its first step.
-/// @return  what the method makes of each mode
+/// Findings on a run before its first step.
+/// @return  numerical damping and period error of each mode
 /// @throws std::invalid_argument as StabilityGuard::check(), unless options.force_unstable
 std::vector<ModeAccuracy> check_start(const Machine &machine, const InitialState &initial, const RunOptions &options,
                                       const MethodOptions &method, RunOutcome &outcome);
 
-/// All checks of a motion that has begun, but for the balance of energy (EnergyCheck), in the order in which their
-/// findings are told.  What they are given must outlive them.
+/// All checks of a motion that has begun, but for the balance of energy (EnergyCheck), in the order of their findings.
+/// Arguments must outlive them.
 std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Motion &motion,
                                                      const InitialState &initial, const RunOptions &options,
                                                      const MethodOptions &method);

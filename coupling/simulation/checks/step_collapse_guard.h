@@ -32,7 +32,7 @@ public:
   {
     if (++steps_ % window != 0)
       return;
-    const double t = integrator_.time(), rest = t < end_ ? end_ - t : end_ - begin_; // others may go on behind it
+    const double t = integrator_.time(), rest = t < end_ ? end_ - t : end_ - begin_; // others may continue after it
     const double steps = window * rest / std::max(t - from_, 1e-300);
     if (steps > most_steps)
     {

@@ -27,7 +27,7 @@ struct InpElementKind
 /// Pyramids are known, so that a mesh that holds some is refused with their number.
 const InpElementKind *inp_element_kind(const std::string &type);
 
-/// Corners of the faces S1, S2, ... of a cell, as its nodes stand in the file; none of pyramids.
+/// Corners of the faces S1, S2, ... of a cell, in the order of its nodes in the file; none for pyramids.
 const std::vector<std::vector<int>> &inp_faces(int gmsh_type);
 
 /// Edges of a cell of quadratic tetrahedra, hexahedra or prisms, by its corners, in the order of their middle nodes in
