@@ -15,16 +15,15 @@ namespace gestell::fem
 {
 
 /**
- * Nodal displacements u [3 n_nodes] that follow from others.
- *
- * Values are numbered: first the displacements themselves, 3 node + direction; then new coordinates from 3 n_nodes on.
+ * Dependent nodal displacements u [3 n_nodes]. Values are numbered: first the displacements, 3 node + direction; then
+ * new coordinates, starting at 3 n_nodes.
  */
 struct MultipointConstraints
 {
   explicit MultipointConstraints(int n_nodes);
 
   std::vector<char>          held;     ///< [3 n_nodes] displacement is zero
-  std::map<int, std::string> holder;   ///< name of the support that holds a node, for messages
+  std::map<int, std::string> holder;   ///< name of the support of a node, for messages
   std::vector<int>           tie_of;   ///< [3 n_nodes] index into ties, or -1
   std::vector<Combination>   ties;     ///< tied displacement as a combination of other values, see closed_ties()
   std::vector<Combination>   measures; ///< new coordinate k as a functional of u; empty for coordinates of interfaces
@@ -37,7 +36,7 @@ struct MultipointConstraints
 /**
  * The transformation  u = G q  to the coordinates q of the constrained frame.
  *
- * q holds the displacements that are neither held nor tied, in the order of u; then inner coordinates of averaged
+ * q contains the displacements that are neither fixed nor tied, in the order of u; then inner coordinates of averaged
  * surfaces; then six coordinates for every interface, or three.  G has a one in most rows, so only the others are
  * stored.
  */
@@ -46,15 +45,15 @@ class AffineConstraints
 public:
   explicit AffineConstraints(const MultipointConstraints &constraints);
 
-  /// The same of some nodes alone, as plain lists that can be sent: free coordinates first, in the order of the nodes;
-  /// ties in the order of the whole, so that project() sums them alike.
+  /// The same for a subset of nodes, as plain lists for sending: free coordinates first, in the order of the nodes;
+  /// ties in the order of the whole, so that project() sums in the same order.
   struct Lists
   {
     int                 n_free = 0, n_coordinates = 0;
     std::vector<int>    column, tied_row, tied; ///< as the members below
     std::vector<int>    tie_begin, tie_column;  ///< compressed rows of the tied displacements
     std::vector<double> tie_weight;
-    std::vector<int>    coordinates; ///< [n_coordinates] what they are in the whole
+    std::vector<int>    coordinates; ///< [n_coordinates] numbers in the whole frame
   };
   explicit AffineConstraints(const Lists &lists);
   /// @param nodes ascending.
@@ -63,7 +62,7 @@ public:
   int n_coordinates() const { return n_coordinates_; }
   int n_displacements() const { return static_cast<int>(column_.size()); }
 
-  /// Index in q of a value as numbered in MultipointConstraints, or -1 if it is held or tied.
+  /// Index in q of a value as numbered in MultipointConstraints, or -1 if it is fixed or tied.
   int coordinate(int value) const;
   /// Row of G as pairs (coordinate, weight).
   Combination row(int displacement) const;
@@ -75,7 +74,7 @@ public:
   Eigen::SparseMatrix<double> project(const BlockMatrix &A) const;
 
 private:
-  /// What A means for the free displacements, and `beside` [n x n], symmetric: their sum is made in one piece.
+  /// G^T A G + `beside` [n x n], both symmetric, summed in one pass.
   Eigen::SparseMatrix<double> project_free(const BlockMatrix &A, const Eigen::SparseMatrix<double> &nearby) const;
 
   std::vector<int>                             column_;     // [3 n_nodes] coordinate or -1

@@ -11,14 +11,14 @@ namespace gestell::fem
 {
 
 /**
- * Symmetric PETSc matrix of dense blocks b x b between nodes (b = 1 or 3), on this process alone.
+ * Symmetric PETSc matrix of dense blocks b x b between nodes (b = 1 or 3), local to this process.
  *
  * add() element matrices, then finish(), then read or add again and finish() again.
  */
 class BlockMatrix
 {
 public:
-  /// Room for all pairs of nodes that share an element.
+  /// Allocates all pairs of nodes that share an element.
   BlockMatrix(int block_size, int n_nodes, const std::vector<NodeLists> &elements);
   ~BlockMatrix();
   BlockMatrix(BlockMatrix &&other) noexcept;

@@ -8,7 +8,7 @@
 namespace gestell::fem
 {
 
-/// The materials of a frame, and which of them each cell is made of.
+/// The materials of a frame and the material of each cell.
 struct CellMaterials
 {
   std::vector<Material> materials; ///< of each solid
@@ -21,11 +21,11 @@ struct CellMaterials
 void require_valid(const Material &material);
 
 /**
- * The material of each solid: the last of specification.materials whose pattern fits its name, else
+ * The material of each solid: the last of specification.materials whose pattern matches its name, else
  * specification.material.
  *
- * @throws std::invalid_argument for impossible materials (require_valid) and for a pattern no solid's name fits, with
- *         the names there are.
+ * @throws std::invalid_argument for impossible materials (require_valid) and for a pattern without a matching solid,
+ * with the names of solids.
  */
 CellMaterials cell_materials(const Mesh &mesh, const FrameSpecification &specification);
 

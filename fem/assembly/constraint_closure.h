@@ -10,11 +10,11 @@ namespace gestell::fem
 using Combination = std::vector<std::pair<int, double>>;
 
 /**
- * Ties followed to values that are neither tied nor held, by deal.II's AffineConstraints: u = sum w_j v_j, where a v_j
- * that is tied itself is put in, and one that is held is zero.
+ * Resolves ties to values that are neither tied nor fixed, by deal.II's AffineConstraints: u = sum w_j v_j; a tied v_j
+ * is substituted, a fixed one is zero.
  *
  * @param held, tie_of  of every displacement, as in MultipointConstraints
- * @throws std::invalid_argument if ties lead back to themselves.
+ * @throws std::invalid_argument for cyclic ties.
  */
 std::vector<Combination> closed_ties(const std::vector<char> &held, const std::vector<int> &tie_of,
                                      const std::vector<Combination> &ties);

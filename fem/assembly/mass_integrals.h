@@ -13,7 +13,7 @@
 namespace gestell::fem
 {
 
-/// What every node has of the mass: the row sums of M, and its first moments.
+/// Nodal masses (row sums of M) and first moments.
 struct NodalMasses
 {
   Eigen::VectorXd  mass;   ///< [n_nodes] int rho N_a dV [kg]
@@ -23,7 +23,7 @@ NodalMasses nodal_masses(const QuadraticMesh &mesh, const BlockMatrix &M, const 
 
 /// Mass, centre and inertia of all cells: M carries linear fields exactly, so  S = sum_ab M_ab x_a x_b^T  is
 /// int rho x x^T dV and  J = tr(S) I - S.
-/// @param origin of the moments; best near the centre, where no digits are lost.
+/// @param origin of the moments; best near the centre, where no digits cancel.
 MassProperties mass_integrals(const QuadraticMesh &mesh, const NodalMasses &masses, const Eigen::Vector3d &origin);
 
 /// Load of a unit acceleration field in x, y, z [n x 3].
@@ -39,7 +39,7 @@ struct RigidEnergies
   Eigen::Matrix<double, 6, 1> energy     = Eigen::Matrix<double, 6, 1>::Zero();
   Eigen::Matrix<double, 6, 1> cancelling = Eigen::Matrix<double, 6, 1>::Zero();
 
-  /// Largest quotient: rounding, unless an element is wrong.
+  /// Largest quotient: of rounding size unless an element is wrong.
   double share() const { return (energy.array().abs() / cancelling.array()).maxCoeff(); }
 };
 

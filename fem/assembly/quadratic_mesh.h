@@ -16,7 +16,7 @@ namespace gestell::fem
  * edges, curved or straight, of its quadrilateral faces and of hexahedra.
  *
  * Displacement d of node i is number 3 i + d of the nodal vector u [3 n_nodes], as a DoFHandler of deal.II numbers it
- * with an FESystem of three such elements.  Within a cell the nodes stand in the order of deal.II's elements.
+ * with an FESystem of three such elements.  Within a cell the nodes are in the order of deal.II's elements.
  */
 struct QuadraticMesh
 {
@@ -27,7 +27,7 @@ struct QuadraticMesh
   std::vector<char>                curved;    ///< of each tetrahedron whether one of its edges is; empty if none is
   std::vector<std::array<int, 6>>  skin; ///< corners a b c, then the middles of ab, bc, ca; same order as Mesh::skin
   std::vector<std::array<int, 9>>  skin_quads; ///< FE_Q(2) of two dimensions; same order as Mesh::skin_quads
-  std::vector<int>                 node_of;    ///< node at point i of the mesh, or -1 where no cell uses it
+  std::vector<int>                 node_of;    ///< node at point i of the mesh, or -1 if no cell uses it
 
   int  n_nodes() const { return static_cast<int>(points.size()); }
   int  n_cells() const { return static_cast<int>(cells.size() + hexahedra.size() + prisms.size()); }
@@ -70,8 +70,8 @@ inline Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 27> positions(const Quadra
  * The nodes as deal.II's DoFHandler numbers them on the cells of a mesh: FE_SimplexP(2), FE_Q(2), FE_WedgeP(2), several
  * of them as an hp::FECollection.
  *
- * @throws std::invalid_argument for a mesh without cells, a cell without volume or turned inside out at a corner, or an
- *         outer face that is no face of a cell.
+ * @throws std::invalid_argument for a mesh without cells, a cell without volume or inverted at a corner, or an outer
+ * face that is not a face of a cell.
  */
 QuadraticMesh quadratic_mesh(const Mesh &mesh);
 

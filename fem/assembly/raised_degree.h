@@ -12,14 +12,13 @@ namespace gestell::fem
 {
 
 /**
- * Functions of degree three beside the quadratics N of a mesh, each a linear function times one of them:
+ * Functions of degree three in addition to the quadratics N of a mesh, each a linear function times one of them:
  *
  *     tetrahedra:  (L_a - L_b) N_ab  of every edge,  L_c N_ab  of every face: with them all cubics
  *     hexahedra:   (2 xi_d - 1) N_m  amid every line of nodes along xi_d
  *     prisms:      those of the triangle at each of three heights, and along the height
  *
- * They vanish at the nodes' faces, edges and lines they do not belong to, so that neighbours that share these share
- * them.
+ * They vanish on all other faces, edges and lines of nodes, so that neighbours share them.
  */
 class CubicFunctions
 {
@@ -47,7 +46,7 @@ private:
   std::vector<std::vector<int>>                    vanish_with_;
 };
 
-/// A frame in elements of degree three on the same mesh: its own coordinates and those of the cubic functions.
+/// A frame in elements of degree three on the same mesh: its DOFs and those of the cubic functions.
 struct RaisedFrame
 {
   SparseMatrix     C, M;
@@ -55,16 +54,16 @@ struct RaisedFrame
 };
 
 /**
- * Its C and M extended by cubic functions, which vanish on what is clamped or moves with an interface; foundations and
- * attached masses act on the quadratics alone.
+ * Its C and M extended by cubic functions, which vanish on clamped surfaces and interfaces; foundations and attached
+ * masses act on the quadratics only.
  *
  * @param C, M  of the frame.
  */
 RaisedFrame raise_degree(const QuadraticMesh &mesh, const CellMaterials &materials, const AffineConstraints &affine,
                          const SparseMatrix &C, const SparseMatrix &M);
 
-/// Coordinates it will have about, of a frame with n: tetrahedra share 3.5 functions each, hexahedra 16 and
-/// prisms 9.5 (thin walls).
+/// Approximate number of DOFs for a frame with n: 3.5 functions per tetrahedron, 16 per hexahedron, 9.5 per prism (thin
+/// walls).
 double raised_coordinates(const QuadraticMesh &mesh, double n);
 
 } // namespace gestell::fem

@@ -27,9 +27,9 @@ struct ReferenceCell
   std::vector<std::vector<int>> between;                    ///< of each node the corners it is between
   std::vector<std::vector<int>> faces;                      ///< corners, of a quadrilateral in the order of FE_Q
   Points                        nodes;
-  Points                        rule;    ///< exact for masses and stiffnesses of cells with parallel edges
-  Points                        finer;   ///< exact for stiffnesses of cubics beside the quadratics
-  Points                        samples; ///< where stresses are best: Gauss's points one order below full integration
+  Points                        rule;  ///< exact for masses and stiffnesses of cells with parallel edges
+  Points                        finer; ///< exact for stiffnesses of cubics beside the quadratics
+  Points samples;                      ///< superconvergent stress points: Gauss points one order below full integration
   /// [samples x corners] Values at the corners of the polynomial (linear, trilinear) through values at the samples.
   Eigen::MatrixXd to_corners;
 };

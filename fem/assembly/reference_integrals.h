@@ -24,10 +24,10 @@ struct ReferenceIntegrals
   Eigen::Matrix<double, 6, 6>   triangle_mass;     ///< int N_a N_b dA
 
   std::vector<FacePoint<6>> triangle;      ///< exact to degree 5
-  std::vector<FacePoint<9>> quadrilateral; ///< 3 x 3 points of Gauss
+  std::vector<FacePoint<9>> quadrilateral; ///< 3 x 3 Gauss points
 };
 
-/// Made once by the finite elements and quadratures of deal.II, exact for these polynomials (degree 4).
+/// Computed once by the finite elements and quadratures of deal.II, exact for these polynomials (degree 4).
 const ReferenceIntegrals &reference_integrals();
 
 } // namespace gestell::fem

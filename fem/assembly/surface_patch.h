@@ -25,7 +25,7 @@ struct SurfacePatch
 };
 
 /**
- * @param owner how a message calls the asker, e.g. "interface crown"; `place` heads the message.
+ * @param owner name of the caller in messages, e.g. "interface crown"; `place` heads the message.
  * @throws std::invalid_argument for no surface, an unknown name (with the nearest ones) or a surface without area.
  */
 SurfacePatch surface_patch(const Mesh &mesh, const QuadraticMesh &quadratic, const std::vector<std::string> &surfaces,

@@ -8,12 +8,12 @@
 namespace gestell::fem
 {
 
-/// Where two bodies of a model come nearest.
+/// The points where two bodies of a model are closest.
 struct BodyGap
 {
   int         solid_a = 0, solid_b = 0; ///< indices
   double      distance = 0.;            ///< [m]
-  Vector3     at{};                     ///< in the midst of the gap [m]
+  Vector3     at{};                     ///< centre of the gap [m]
   std::string face_a, face_b;           ///< described as selectors find them
 };
 

@@ -27,7 +27,7 @@ struct MeshGroups
   std::map<std::string, std::vector<std::vector<std::size_t>>> faces; ///< corners of each face
 };
 
-/// What a CAD or mesh file holds; the geometry itself (and the mesh, if it came with one) stays in gmsh.
+/// Contents of a CAD or mesh file; the geometry (and the mesh, if present) stays in gmsh.
 struct CadModel
 {
   double                   unit   = 1.;    ///< length of gmsh's unit [m]
@@ -36,8 +36,8 @@ struct CadModel
   std::vector<Face>        faces; ///< between the solids and the outside; faces between two solids are not among them
   Vector3                  min{}, max{};
   MeshGroups               groups;
-  std::vector<std::string> notes;      ///< what a user should look at
-  std::vector<std::string> statements; ///< what is as it should be, such as solids that were joined
+  std::vector<std::string> notes;      ///< warnings
+  std::vector<std::string> statements; ///< results without warning, such as joined solids
 
   double diagonal() const;
   double volume() const;

@@ -8,10 +8,10 @@ namespace gestell::fem
 {
 
 /**
- * Removes from gmsh's model what is smaller than mesh.defeature: bores and pins of a smaller diameter, fillets,
- * chamfers and grooves that are narrower, where the faces around them can be carried on to close the place
- * (OpenCASCADE's BRepAlgoAPI_Defeaturing); then shorter edges, which are taken into their neighbours.  Names of solids
- * and faces are kept.  A note tells how many faces went, how many could not, and what that did to the volume.
+ * Removes features smaller than mesh.defeature from gmsh's model: bores and pins by diameter, fillets, chamfers and
+ * grooves by width, if the surrounding faces can be extended to close the gap (OpenCASCADE's BRepAlgoAPI_Defeaturing);
+ * then shorter edges, which are merged into their neighbours.  Names of solids and faces are kept.  A note gives the
+ * number of removed and remaining faces and the change of volume.
  *
  * @throws std::invalid_argument if a solid is lost, opened, or changes its volume by more than 5 %.
  */

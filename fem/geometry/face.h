@@ -12,7 +12,7 @@ namespace gestell::fem
 /// Directions that differ by less [rad] are the same; normals from CAD are good to 1e-6.
 constexpr double straight = 1e-3;
 
-/// What a face is, as far as a user can name it.
+/// Kind of a face, as selectors distinguish it.
 enum class FaceKind
 {
   plane,
@@ -45,8 +45,8 @@ struct Face
 };
 
 /**
- * Finds kind, direction, through and radius from the samples alone, so that a plane that a CAD program wrote as a
- * spline is known as a plane.  A point is on the surface if it is off by less than the tolerance [m].
+ * Finds kind, direction, through and radius from the samples alone, so that a plane written as a spline is recognised
+ * as a plane. A point is on the surface within the tolerance [m].
  */
 void recognise(Face &face, double tolerance);
 

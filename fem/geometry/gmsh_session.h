@@ -7,10 +7,10 @@ namespace gestell::fem
 {
 
 /**
- * A quiet gmsh from here to the end of the scope: nothing on the terminal, no configuration files, one thread (equal
+ * A silent gmsh to the end of the scope: no terminal output, no configuration files, one thread (equal
  * input, equal mesh), lengths of STEP files in metres.  gmsh is one per process: sessions do not overlap.
  *
- * What gmsh and OpenCASCADE have to say is kept and handed out with our own messages.
+ * Messages of gmsh and OpenCASCADE are collected and reported with our own messages.
  */
 class GmshSession
 {

@@ -5,8 +5,8 @@
 namespace gestell::fem
 {
 
-/// A copy of all shapes of the model that is open in gmsh, in its unit, for what gmsh cannot compute.  gmsh hands
-/// shapes out through a file only: one in a passing folder.
+/// A copy of all shapes of the model open in gmsh, in its unit, for computations by OpenCASCADE. gmsh exports shapes
+/// through a (temporary) file only.
 TopoDS_Shape occ_snapshot();
 
 } // namespace gestell::fem

@@ -13,12 +13,10 @@ namespace gestell::fem
 {
 
 /**
- * What gmsh may open in place of a CAD file, in a folder of its own as long as this lives.
- *
- * gmsh runs as a script what it does not know, whatever its extension, and the file "NAME.opt" beside each file that it
- * reads.  So a script (.geo) is judged, see judge_geo(), and copied as it was judged, with those that it includes;
- * other files are linked alone.  A .msh must begin as one.  A script names files in its own folder and those below it
- * only.
+ * A safe copy of a CAD file for gmsh, in a separate folder while this lives. gmsh runs unknown files as scripts,
+ * whatever their extension, and the file "NAME.opt" next to each file that it reads. So a script (.geo) is checked, see
+ * judge_geo(), and its checked text copied, with the scripts that it includes; other files are linked individually.  A
+ * .msh must begin as one.  A script names files in its own folder and those below it only.
  */
 class ScriptSandbox
 {

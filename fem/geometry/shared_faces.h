@@ -11,8 +11,8 @@ namespace gestell::fem
 {
 
 /**
- * Two names may select one face; then it must not belong to two interfaces, attached masses or clamped supports, each
- * of which says how it moves.  Told before meshing, with the face.
+ * Two names may select the same face, but not for two interfaces, attached masses or clamped supports, each of which
+ * prescribes its motion. Reported before meshing, with the face.
  *
  * @param selection  tags of the faces of each named surface
  * @throws std::invalid_argument naming the face, both surfaces and both owners

@@ -7,12 +7,12 @@ namespace gestell::fem
 {
 
 /**
- * Whether the shells of a model are closed: gmsh reads open ones without a word, as faces that bound nothing, or as a
- * solid whose volume means nothing.
+ * Whether the shells of a model are closed: gmsh reads open ones without an error, as faces without a solid, or as a
+ * solid with a meaningless volume.
  *
  * @throws std::invalid_argument if a solid of the file was lost (fewer solids than the STEP file describes, and faces
- *         left over), or if an edge of a solid has a face on one side only; tells how many edges are open, and where.
- *         Faces left over otherwise become a note of the model.
+ *         left over), or if an edge of a solid has a face on one side only; the message gives number and location of
+ * open edges. Other unused faces become a note of the model.
  */
 void check_shells(CadModel &model, const CadSource &source);
 

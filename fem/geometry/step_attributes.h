@@ -14,8 +14,8 @@ void name_faces_of_step();
 /**
  * Adds layers (by name) and colours ("#ff8000", red green blue) of single faces to the groups of the faces they lie on.
  *
- * gmsh delivers neither; OpenCASCADE's XCAF reader does.  Its faces are told from those of gmsh by a point within: a
- * face that was cut in pieces hands its attributes to all of them.  Colours of whole solids are no groups of faces.
+ * gmsh delivers neither; OpenCASCADE's XCAF reader does.  Its faces are matched to those of gmsh by an interior point:
+ * all pieces of a divided face get its attributes. Colours of whole solids are ignored.
  */
 void add_step_attributes(std::vector<Face> &faces, const CadSource &source);
 

@@ -12,18 +12,18 @@ namespace gestell::fem
 /**
  * The faces a selector means, by tag, ascending.
  *
- * A face fits if every given condition holds within the tolerance (default 1e-4 of the model's diagonal): all its
- * samples lie on the wanted plane, with the wanted outward normal, or at the wanted radius from the axis; its box
- * lies in the wanted box; its group, its name or the last part of its name is the wanted one.
+ * A face matches if it satisfies every given condition within the tolerance (default 1e-4 of the model's diagonal): all
+ * its samples are on the given plane, with the given outward normal, or at the given radius from the axis; its box is
+ * in the given box; its group, its name or the last part of its name is the given one.
  *
- * Faces that fit and share an edge are one piece: a bore of two halves, or of two lengths, is one face to its user, and
- * pieces are taken whole.  `faces` is the number of pieces, or of faces.
+ * Matching faces that share an edge are one piece: a bore of two halves, or of two lengths, is one face to its user;
+ * pieces are selected as a whole.  `faces` is the number of pieces, or of faces.
  *
- * `through` gives a plane or an axis.  Only if more pieces fit than `selector.faces` asks for, it is also read as a
- * place: those pieces count whose extent (along the axis; within the plane) contains the point.  So the point chooses
- * between pieces apart, or the selection fails; it never chooses a part of a piece.
+ * `through` gives a plane or an axis.  Only if more pieces match than `selector.faces`, it also selects by position:
+ * the pieces whose extent (along the axis; within the plane) contains the point. So the point chooses between separate
+ * pieces, or the selection fails; it never selects a part of a piece.
  *
- * @throws std::invalid_argument with the candidates if no face fits or their number is another one than `faces`.
+ * @throws std::invalid_argument with the candidates if no face matches or their number is not `faces`.
  */
 std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelector &selector, double diagonal);
 

@@ -24,7 +24,7 @@ struct ExtractionOptions
   double gap    = 0.; ///< nodes no further apart are taken for one [m]
 };
 
-/// What can be said where bodies of a mesh only touch: how many of their nodes lie upon each other; "" for none.
+/// Remark on touching bodies of a mesh: number of coincident nodes; "" for none.
 std::string touching_nodes(const Mesh &mesh);
 
 /// Notes on nodes that were merged, lie upon others, or belong to no cell.

@@ -12,7 +12,7 @@
 namespace gestell::fem
 {
 
-/// What `gestell mesh` tells: all that is needed to write selectors, and how good the mesh is.
+/// Report of `gestell mesh`: data for selectors, and mesh quality.
 struct GeometryReport
 {
   std::vector<Solid>                      solids;
@@ -30,8 +30,8 @@ struct GeometryReport
   std::string                             smallest;            ///< edge and face of the geometry
   WallThickness                           walls;
   std::array<std::size_t, 3>              n_of_kind{}; ///< tetrahedra, hexahedra, prisms
-  std::vector<std::string>                notes;       ///< what a user should look at in the file
-  std::vector<std::string>                statements;  ///< what is as it should be
+  std::vector<std::string>                notes;       ///< warnings about the file
+  std::vector<std::string>                statements;  ///< results without warning
   ExtractedMesh                           extracted;   ///< of a mesh: its skin shows the faces
 };
 

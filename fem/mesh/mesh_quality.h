@@ -23,8 +23,8 @@ using Freedom = std::vector<Vector3>;
  *
  * Each point climbs the worst quality of its cells by steps along its freedom, halved where none is better.  Cells stay
  * positively oriented, so the skin stays the same surface; no cell around a moved point gets worse than the worst one
- * was before.  Delaunay meshes of plates hold a few slivers, whose points nearly all lie on the skin: gmsh, which moves
- * inner points only, cannot mend those.
+ * was before.  Delaunay meshes of plates contain a few slivers with nearly all points on the skin, which gmsh cannot
+ * improve because it moves inner points only.
  *
  * @param freedom  of each point
  */

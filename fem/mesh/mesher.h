@@ -18,11 +18,12 @@ using MeshProgress = ChildProgress;
  * Mesh of the frame with its named surfaces.
  *
  * STEP, BREP and .geo are meshed with linear tetrahedra of specification.mesh.size, smaller on
- * surfaces that ask for it.  A .msh or .inp file is taken as it is: mesh.size has no meaning then, and selectors act on
- * its surfaces (of the mesh, with their groups) by their triangles, see divide_skin().  Equal input gives an equal
- * mesh; no file is written.
+ * surfaces that ask for it.  The mesh of a .msh or .inp file is used unchanged: mesh.size has no effect, and selectors
+ * act on its surfaces (of the mesh, with their groups) by their triangles, see divide_skin().  Equal input gives an
+ * equal mesh; no file is written.
  *
- * gmsh works in a child process, see in_child(): what it or OpenCASCADE dies of, or never ends, is a message.
+ * gmsh works in a child process, see in_child(): a crash or an endless loop of gmsh or OpenCASCADE becomes an error
+ * message.
  *
  * @param refined  sizes at points, in place of mesh.size where they are smaller; see refine().
  * @throws std::invalid_argument for bad input, see read_cad, select_faces, set_mesh_sizes, extract_mesh; if the child
@@ -35,8 +36,8 @@ Mesh make_mesh(const FrameSpecification &specification, const MeshProgress &prog
 GeometryReport report_geometry(const FrameSpecification &specification, const MeshProgress &progress = {});
 
 /**
- * Reads the file and finds the surfaces as for a mesh, and judges sizes and memory, but meshes nothing (a script that
- * meshes by itself does): counts and qualities of cells stay 0.
+ * Reads the file and finds the surfaces as for a mesh, and estimates sizes and memory, without meshing (except scripts
+ * that mesh): counts and qualities of cells stay 0.
  *
  * @throws std::invalid_argument as make_mesh() until its mesh, and check_solids_of_materials().
  */

@@ -6,10 +6,10 @@ namespace gestell::fem
 /**
  * Starts MPI, PETSc and SLEPc once per process, without a command line and without mpirun; ends them at exit.
  *
- * Call it at the head of every function that makes a PETSc or SLEPc object; later calls cost nothing.  Where MPI or
- * PETSc already run they are left to whoever started them, and each rank starts PETSc for itself.
+ * Call it at the beginning of every function that creates a PETSc or SLEPc object; later calls cost nothing. A running
+ * MPI or PETSc is left to its owner; each rank starts its own PETSc.
  *
- * @throws std::runtime_error if SLEPc refuses to start.
+ * @throws std::runtime_error if SLEPc does not start.
  */
 void petsc_session();
 

@@ -27,17 +27,15 @@ public:
 };
 
 /**
- * The processes that mpirun started.  Rank 0 runs the program; the others wait for its orders.
- *
- * An order is a number.  After order(n) rank 0, after next_order() all others call the same function for n; within it
- * calls of MPI are collective, and no rank leaves them out.  Work of one rank alone that may fail stands in agree().
- *
- * Who waits here sleeps, after a moment of polling: the processor is left to those that work.
+ * The processes started by mpirun. Rank 0 runs the program; the others wait for its orders, which are numbers. Rank 0
+ * after order(n) and all others after next_order() call the same function for n; MPI calls in it are collective on all
+ * ranks. Work of a single rank that may fail must be in agree(). Waiting ranks poll shortly and then sleep, which frees
+ * the processor.
  */
 class Ranks
 {
 public:
-  /// Those of a running MPI; one where it does not run.
+  /// The ranks of a running MPI; one rank without MPI.
   Ranks();
 
   int             rank() const { return rank_; }
@@ -45,9 +43,9 @@ public:
   bool            first() const { return rank_ == 0; }
   static MPI_Comm comm() { return MPI_COMM_WORLD; }
 
-  /// Rank 0: tells all others.
+  /// Rank 0: sends the order to all others.
   void order(int number) const;
-  /// All others: sleeps until rank 0 tells.
+  /// All others: sleeps until the order of rank 0.
   int next_order() const;
 
   /// Does the work of this rank; collective.  @throws AgreedFailure on all ranks if the work of any of them throws.
@@ -104,8 +102,7 @@ public:
   void send(const double *values, std::ptrdiff_t count, int to) const;
   void receive(double *values, std::ptrdiff_t count, int from) const;
 
-  /// Ends all ranks with a message on standard error; exit code 3.  For a failure of one rank the others know nothing
-  /// of.
+  /// Ends all ranks with a message on standard error; exit code 3. For a failure of one rank unknown to the others.
   [[noreturn]] void abort(const std::string &message) const;
 
 private:

@@ -15,14 +15,14 @@ namespace gestell::fem
 {
 
 /**
- * Walks over all that a value is made of: numbers, texts, arrays, vectors, maps, and values for which there is a
+ * Visits all members of a value: numbers, strings, arrays, vectors, maps, and values with a
  *
  *     template <typename Archive> void exchange(Archive &archive, Value &value)
  *
- * that hands all members to archive(...).  Let it take them by a structured binding: then a new member that is
- * forgotten does not compile.
+ * that passes all members to archive(...). Use a structured binding there: a forgotten new member then does not
+ * compile.
  *
- * @tparam Derived  has run(first, n), for numbers that lie side by side, and size(n), for a number of elements.
+ * @tparam Derived  has run(first, n), for contiguous numbers, and size(n), for a number of elements.
  */
 template <typename Derived>
 class Archive

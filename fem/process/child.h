@@ -24,28 +24,27 @@ struct ChildTask
   std::string   way_out = "the file is probably damaged: export the model again, or in another format"; ///< of reading
 };
 
-/// Whether the environment's GESTELL_ONE_PROCESS is set (not to 0): for debuggers, and where processes are scarce.
+/// Whether the environment variable GESTELL_ONE_PROCESS is set (not to 0): for debuggers and limited process counts.
 bool in_one_process();
 
 /**
- * Runs `work` in a forked copy of this process, in which whatever it does has no effect on this one, and waits.
+ * Runs `work` in a forked child, isolated from this process, and waits.
  *
- * The child has one thread, ends without destructors and exit handlers, writes nothing to standard output, makes its
- * temporary files in a folder that is removed with it, heeds no signals but those that kill, and dies with the thread
- * that made it.  It must not use MPI.
+ * The child has one thread, ends without destructors and exit handlers, writes nothing to standard output, creates
+ * temporary files in a folder that is removed with it, ignores signals except those that kill, and dies with the thread
+ * that created it.  It must not use MPI.
  *
- * @param progress  called here with what `work` tells of its progress, and ten times a second with the same anew; where
- *                  it throws the child is killed and the exception goes on.
+ * @param progress  called here with the progress of `work`, repeated ten times a second; if it throws, the child is
+ * killed and the exception propagates.
  * @return          what `work` returned
- * @throws what `work` throws: std::invalid_argument, std::bad_alloc, and of all others std::runtime_error with their
- *         words.
- * @throws std::invalid_argument with what happened and the way out if the child dies, or its first phase takes more
- *         than its limits.
+ * @throws what `work` throws: std::invalid_argument, std::bad_alloc, and for all others std::runtime_error with their
+ * message.
+ * @throws std::invalid_argument with cause and remedy if the child dies, or its first phase exceeds its limits.
  */
 std::string bytes_from_child(const ChildTask &task, const ChildProgress &progress,
                              const std::function<std::string(const ChildProgress &)> &work);
 
-/// The same for any value that an archive can take; without a child if the task is not alone.
+/// The same for any archivable value; without a child if the task is not alone.
 template <typename Value, typename Work>
 Value in_child(const ChildTask &task, const ChildProgress &progress, const Work &work)
 {

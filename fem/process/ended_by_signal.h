@@ -4,15 +4,15 @@ namespace gestell::fem
 {
 
 /**
- * While this lives, signals that would end the process at once (SIGINT, SIGTERM, SIGHUP where nobody handles them) are
- * noted instead, so that children and temporary files can be removed before; of several in different threads the first
- * notes them.
+ * While this lives, signals that would end the process at once (SIGINT, SIGTERM, SIGHUP without a handler) are recorded
+ * instead, so that children and temporary files can be removed first; with several instances in different threads the
+ * first records them.
  */
 class EndedBySignal
 {
 public:
   EndedBySignal();
-  ~EndedBySignal(); ///< obeys the signal that was noted, if there is one
+  ~EndedBySignal(); ///< raises the recorded signal, if there is one
   EndedBySignal(const EndedBySignal &)            = delete;
   EndedBySignal &operator=(const EndedBySignal &) = delete;
 

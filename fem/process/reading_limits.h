@@ -5,14 +5,14 @@
 namespace gestell::fem
 {
 
-/// What the reading of a file may take before it is taken for one that never ends.
+/// Limits of reading a file.
 struct ReadingLimits
 {
   double seconds = 0.; ///< of processor time; 0: no limit
   double bytes   = 0.; ///< of memory beyond what the process has; 0: no limit
 };
 
-/// What a file can ask for.
+/// Kind of demand of a file.
 enum class FileContent
 {
   geometry, ///< as much as it has bytes
@@ -20,14 +20,14 @@ enum class FileContent
 };
 
 /**
- * Judged from the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory, of programs
+ * Limits by the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory, of programs
  * 1200 s at least and all the memory there is, never below 0.5 GB.  A STEP file of 0.5 MB takes less than a second and
  * 0.1 GB.
  *
- * The environment's GESTELL_READING_SECONDS says another time, 0 for none.
+ * The environment variable GESTELL_READING_SECONDS sets another time, 0 for no limit.
  *
  * @param available  memory [byte]
- * @throws std::invalid_argument if that variable is no number.
+ * @throws std::invalid_argument if that variable is not a number.
  */
 ReadingLimits reading_limits(const std::string &path, FileContent content, double available);
 

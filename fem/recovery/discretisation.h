@@ -16,10 +16,11 @@ namespace gestell::fem
  *
  *     M q'' + B q' + C q = f,    u = G q,    M = G^T M_full G  and so on
  *
- * q holds the displacements of all nodes that are neither clamped nor tied, then inner coordinates of averaged
+ * q contains the displacements of all nodes that are neither clamped nor tied, then inner coordinates of averaged
  * surfaces, then coordinates (ux uy uz rx ry rz; of a node of the mesh ux uy uz) for each attached mass with surfaces
- * of its own and for each interface in the order of the specification.  B holds the dampers of the foundations; modal
- * damping stays a ratio. Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see support_forces() and cut_force().
+ * of its own and for each interface in the order of the specification.  B contains the dampers of the foundations;
+ * modal damping remains a ratio. Outputs: "support.NAME.x|y|z" and "cut.NAME" [N], see support_forces() and
+ * cut_force().
  *
  * Uses all of the specification but CAD file, mesh options and selectors.  Initialises PETSc
  * (petsc_session()).
@@ -28,7 +29,7 @@ namespace gestell::fem
  */
 FrameMatrices discretise(const Mesh &mesh, const FrameSpecification &specification);
 
-/// The same with what estimates the error the mesh leaves in its fields.
+/// The same with the estimator of the discretisation error.
 struct Discretisation
 {
   FrameMatrices                    matrices;

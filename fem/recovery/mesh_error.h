@@ -13,16 +13,16 @@ namespace gestell::fem
 {
 
 /**
- * How far displacement fields of a frame are from those of the continuum, as told by their stresses.
+ * Discretisation error of displacement fields, estimated by stress recovery.
  *
- * Stresses of finite elements jump from cell to cell.  Around every corner of the mesh a quadratic polynomial is fitted
- * to the stresses of the cells there (superconvergent patch recovery); the fits, put together as a continuous field
- * sigma*, are closer to the truth than the stresses sigma_h themselves, so that the energy of their difference,
+ * Stresses of finite elements are discontinuous between cells.  Around every corner of the mesh a quadratic polynomial
+ * is fitted to the stresses of the cells there (superconvergent patch recovery); the fits, put together as a continuous
+ * field sigma*, are more accurate than the stresses sigma_h, so that the energy of their difference,
  *
  *     eta_K^2 = int_K (sigma* - sigma_h) : C^-1 : (sigma* - sigma_h) dV     [J, twice the strain energy],
  *
- * estimates the error of the field.  What follows for a mode with phi^T M phi = 1 and for the deflection under static
- * loads f stands in docs/theory/mesh_error.md:
+ * estimates the error of the field.  For a mode with phi^T M phi = 1 and for the deflection under static loads f
+ * (docs/theory/mesh_error.md):
  *
  *     omega_h^2 - omega^2  ~  sum_K eta_K^2,        f^T u - f^T u_h  ~  sum_K eta_K^2.
  *
@@ -53,8 +53,8 @@ private:
   AffineConstraints affine_;
 };
 
-/// The frequency of the mesh over the true one, less one: omega_h / sqrt(omega_h^2 - eta^2) - 1, for
-/// share = eta^2 / omega_h^2; infinite where the estimate takes up the whole energy.
+/// Relative frequency error of the mesh: omega_h / sqrt(omega_h^2 - eta^2) - 1, for
+/// share = eta^2 / omega_h^2; infinite if the estimate reaches the whole energy.
 double relative_frequency_error(double share);
 
 } // namespace gestell::fem

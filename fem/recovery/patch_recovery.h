@@ -23,9 +23,9 @@ Stresses nodal_stresses(const QuadraticMesh &mesh, const Material &material, int
  * Continuous stresses sigma* of the cells of one material at their nodes [6 f x n_nodes], 0 at others: superconvergent
  * patch recovery.
  *
- * Around every corner of a cell a quadratic polynomial is fitted by least squares to the stresses at Gauss's points of
- * the cells there (and of their neighbours, where they are few).  A corner takes the value of its own fit, any other
- * node the mean of those of the corners it stands amid.
+ * Around every corner of a cell a quadratic polynomial is fitted by least squares to the stresses at the Gauss points
+ * of the cells there (and of their neighbours, where they are few).  A corner gets the value of its own fit, any other
+ * node the mean of the fits of its corners.
  *
  * Source: Zienkiewicz & Zhu, Int. J. Num. Meth. Eng. 33, 1992, 1331-1364.
  */

@@ -31,12 +31,12 @@ struct InpMesh
 };
 
 /**
- * Names are in capitals, as Abaqus does not tell them from small letters.
+ * Names are in upper case, since Abaqus names are case-insensitive.
  *
  * Reads *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE, *SOLID SECTION (for the names of solids), and the files that
- * *INCLUDE and INPUT= name (keywords or data lines, which stand where they are named); what ties nodes to each other is
- * noted, and so are the keywords of all else, such as materials and steps.  Elements: C3D4, C3D10, C3D8, C3D20, C3D6,
- * C3D15 and their variants (C3D10M, C3D8R, ...).  Middle nodes are taken for the edges they lie on.  Triangles and
+ * *INCLUDE and INPUT= name (keywords or data lines, which stand where they are named); constraints between nodes and
+ * all other keywords, such as materials and steps, are noted.  Elements: C3D4, C3D10, C3D8, C3D20, C3D6, C3D15 and
+ * their variants (C3D10M, C3D8R, ...).  Middle nodes are assigned to the edges they are on.  Triangles and
  * quadrilaterals without a section, as meshers write them, only name surfaces; trusses without a section are left out.
  * Parts and instances are read if there is one of them, not moved.
  *

@@ -14,8 +14,8 @@ namespace gestell::fem
 /**
  * Puts the middle nodes of quadratic cells into Abaqus's order, edge by edge.
  *
- * Programs write them in orders of their own.  Each is taken for the edge it lies nearest to the middle of, its own one
- * where another is no nearer, and all cells of a kind must have them in one order.
+ * Programs use different orders. Each node is assigned to the edge with the nearest midpoint (its own edge in a tie),
+ * and all cells of a kind must have the same order.
  */
 class InpMiddleNodes
 {
