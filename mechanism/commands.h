@@ -13,11 +13,11 @@ namespace gestell::mechanism
 class Commands
 {
 public:
-  /// Names of the orders it knows.
+  /// Names of the commands it accepts.
   virtual std::vector<std::string> command_names() const = 0;
-  /// @throws std::invalid_argument if the values of one of these orders are none for it
+  /// @throws std::invalid_argument if the values of one of these commands are invalid
   virtual void check_order(const SwitchCommand &) const {}
-  /// Obeys an order at the motion where it is given; false: the element knows no such order.
+  /// Executes a command at the current motion; false: the element does not accept it.
   virtual bool command(const SwitchCommand &order, const LocalMotion &motion, double *history) const = 0;
 
 protected:

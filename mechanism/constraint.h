@@ -5,8 +5,8 @@
 namespace gestell::mechanism
 {
 
-/// Equations g(t, u) = 0 that an ideal joint demands of its measures: its force is p = G^T lambda, G = dg/du, with
-/// multipliers lambda that the system finds.
+/// Equations g(t, u) = 0 of an ideal joint in its measures: its force is p = G^T lambda, G = dg/du, with multipliers
+/// lambda solved by the system.
 class Constraint : public Element
 {
 public:

@@ -24,7 +24,7 @@ struct Measures
 };
 
 /**
- * A ForceLaw that is written once, for any number type; dual numbers give its tangent.  `Facets` are those it has:
+ * A ForceLaw written once for any number type; dual numbers give its tangent. `Facets` of the element:
  * Branches, Structure, Commands.
  *
  * `Law` (the derived class) provides

@@ -14,14 +14,14 @@ class Constraint;
 class ForceLaw;
 class Structure;
 
-/// Where the work of an element goes that it does not store: a drive feeds the machine, all else dissipates.
+/// Kind of non-stored work of an element: input of a drive, otherwise dissipation.
 enum class Work
 {
   dissipated,
   input
 };
 
-/// A scalar an element can tell about itself.
+/// A scalar signal of an element.
 struct Quantity
 {
   std::string name; ///< e.g. "force"
@@ -29,12 +29,12 @@ struct Quantity
 };
 
 /**
- * What acts on k scalar measures u = W^T q of the motion of a machine: a ForceLaw, or the Constraint of an ideal joint.
+ * An element acting on k scalar measures u = W^T q of the motion of a machine: a ForceLaw, or the Constraint of an
+ * ideal joint.
  *
- * The generalised force p [k] (N or N m) is conjugate to the measures; on the coordinates of the machine acts W p, so
- * that its power is p . u'.  W is constant and belongs to whoever places the element.
- *
- * Facets tell what only some elements have; a null pointer: this one has none.  They stay the same for its lifetime.
+ * The generalised force p [k] (N or N m) is conjugate to the measures; the force on the coordinates of the machine is W
+ * p, its power p . u'. W is constant and owned by the caller. Facets are optional interfaces; a null pointer: not
+ * provided. They are constant for its lifetime.
  */
 class Element
 {
@@ -44,8 +44,8 @@ public:
   virtual int  n_measures() const = 0;
   virtual Work work() const { return Work::dissipated; }
 
-  /// Size [m, rad] of the numbers whose difference the equations g of a constraint are, or the motion that a force
-  /// depends on: rounding leaves so much times epsilon of it.  Zero: that motion is the measures themselves.
+  /// Size [m, rad] of the terms in the equations g of a constraint, or in the motion that a force depends on; rounding
+  /// is epsilon times this. Zero: the measures themselves.
   virtual double size_of_terms() const { return 0.; }
 
   virtual std::vector<Quantity> quantities() const                                                      = 0;

@@ -12,7 +12,7 @@ namespace gestell::mechanism
 // Queries of the facets of any element, with defaults where it has none.
 
 int n_history(const Element &element);
-/// History of a motion that begins here; one number longer, so that there is always one.
+/// History at the start of a motion; one extra number, so that it is never empty.
 std::vector<double> started(const Element &element, const LocalMotion &motion);
 
 int n_constraints(const Element &element);

@@ -5,7 +5,7 @@
 namespace gestell::mechanism
 {
 
-/// The tangent asked for is  w.u dp/du + w.v dp/dv + w.a dp/da.  An implicit integrator, in which v and a depend
+/// The requested tangent is w.u dp/du + w.v dp/dv + w.a dp/da.  An implicit integrator, in which v and a depend
 /// linearly on u, needs just this one combination (BDF: w = (1, 1/h_beta, 1/h_beta^2)).
 struct TangentWeights
 {
@@ -29,13 +29,13 @@ public:
   virtual void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                            double *dp_dv) const;
 
-  /// Energy [J] stored in the element; what it takes up beyond it is work() .
+  /// Energy [J] stored in the element; the rest of its work is work() .
   virtual double stored_energy(const LocalMotion &, const double *history) const;
   /// Its growth [W] with the motion inside a branch: d stored_energy/du . u'.
   virtual double stored_power(const LocalMotion &, const double *history) const;
 
 protected:
-  /// -p of an element of one measure: the force it opposes to its motion, what most of them tell as their force.
+  /// -p of an element of one measure: the force against its motion, the force signal of most elements.
   double resistance(const LocalMotion &motion, const double *history) const;
 };
 

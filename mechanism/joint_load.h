@@ -10,12 +10,11 @@ namespace gestell::mechanism
 {
 
 /**
- * Normal force of an ideal joint by the multipliers that close it: of these the first n_F are forces, the next n_M
- * torques,
+ * Normal force of an ideal joint by its multipliers: the first n_F are forces, the next n_M torques,
  *
  *     N = max(|lambda_F|, 2 |lambda_M|/L).
  *
- * Torques count where a guide of length L takes them by two opposite forces at its ends: |F/2 + M/L| + |F/2 - M/L| is
+ * A guide of length L carries torques by two opposite forces at its ends: |F/2 + M/L| + |F/2 - M/L| is
  * that maximum.
  *
  * Source: docs/theory/contact.md (4).

@@ -15,10 +15,9 @@ struct LocalMotion
   /// holds() need it.
   const double *p = nullptr;
 
-  /// Which branch of the law is asked for.  true: the one the history names, smoothly continued beyond its switching
-  /// points, so that an integrator that locates events sees a smooth law up to an event and slightly past it, and
-  /// force, energy and quantities do not jump at a contact that is a rounding error outside.  false: the one the motion
-  /// itself is in.
+  /// Requested branch of the law. true: the branch of the history, smoothly continued beyond its switching points, so
+  /// that the law is smooth up to a located event and slightly past it, and force, energy and quantities do not jump by
+  /// rounding at a contact. false: the branch of the motion itself.
   bool by_history = false;
 
   /// Multipliers of an ideal joint [n_constraints()], or of the joint whose friction the element is; null for all

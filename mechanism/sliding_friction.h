@@ -9,8 +9,8 @@ namespace gestell::mechanism
 {
 
 /**
- * Coefficient of friction of a contact, smoothed near rest:  what a normal force N makes of the sliding velocity v
- * (a number, or a vector in the plane of contact) is
+ * Coefficient of friction of a contact, smoothed near rest: for a normal force N and the sliding velocity v (a number,
+ * or a vector in the plane of contact)
  *
  *     F = -mu(|v|) N tanh(|v|/v0) v/|v|,       mu(v) a Stribeck curve (mechanism/stribeck.h).
  *
@@ -20,7 +20,7 @@ struct SlidingFriction
 {
   double kinetic            = 0.;   ///< mu [1], >= 0; 0: none
   double speed              = 1e-3; ///< v0 [m/s], > 0
-  double static_coefficient = 0.;   ///< mu0 [1], >= mu; without a Stribeck speed of no meaning
+  double static_coefficient = 0.;   ///< mu0 [1], >= mu; unused without a Stribeck speed
   double stribeck_speed     = 0.;   ///< v_s [m/s], >= 0; 0: none
   double stribeck_exponent  = 1.;   ///< 1 or 2
 
@@ -35,7 +35,7 @@ struct SlidingFriction
     require(stribeck_exponent == 1. || stribeck_exponent == 2., name, "stribeck_exponent", stribeck_exponent, "1 or 2");
   }
 
-  /// F = -factor N v, from |v|^2: finite at rest, where |v| is taken as no less than 1e-6 v0 (a part in 10^12).
+  /// F = -factor N v, from |v|^2: finite at rest, where |v| is at least 1e-6 v0 (1e-12 relative).
   template <typename Number>
   Number factor(const Number &v_squared) const
   {

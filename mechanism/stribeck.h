@@ -34,7 +34,7 @@ struct Stribeck
     require(exponent == 1. || exponent == 2., name, "stribeck_exponent", exponent, "1 or 2");
   }
 
-  /// R(v); for v < 0, where only a trial motion gets, its tangent at v = 0.
+  /// R(v); for v < 0 (trial motions only) its tangent at v = 0.
   template <typename Number>
   Number force(const Number &v) const
   {

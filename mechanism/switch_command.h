@@ -7,13 +7,13 @@ namespace gestell::mechanism
 {
 
 /**
- * What a switch tells an element to do.
+ * Command of a switch to an element.
  *
- *     "off", "on"   its force is zero; it acts, beginning anew
+ *     "off", "on"   its force is zero; it acts again from its initial state
  *     "start"       its profile begins now
- *     "hold"        the level it has stays
- *     "set"         a ramp begins that takes its level to `level` within the limits `rate` and `rate_of_rate`
- *     "brake"       likewise, to zero
+ *     "hold"        its level stays
+ *     "set"         a ramp to `level` begins within the limits `rate` and `rate_of_rate`
+ *     "brake"       the same to zero
  */
 struct SwitchCommand
 {

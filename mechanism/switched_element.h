@@ -8,13 +8,11 @@ namespace gestell::mechanism
 {
 
 /**
- * A force element that the orders "off" and "on" of switches take out of the machine and put back.
- *
- * Off: p = 0, it holds nothing and has no events; its virtual coordinates fade away.  What it had stored is dissipated
- * at that instant; a store below zero, of a preload that has done work, stays as it is, for the work has been done. On:
- * it begins anew, as it does at the start of a run; energy it brings along (of a spring that is tight already) does not
- * count, its store begins with zero.  All other orders are its own: it obeys them while it is off, too, and those it
- * was given go on when it acts again.
+ * A force element that the commands "off" and "on" of switches remove from the machine and restore. Off: p = 0, no
+ * sticking and no events; its virtual coordinates decay. Its stored energy is dissipated at that instant; a negative
+ * store (a preload that has done work) is left unchanged. On: it restarts as at the start of a run; the initial energy
+ * of a preloaded spring does not count, its store begins with zero. All other commands go to the element: it accepts
+ * them also while off, and they remain in effect when it acts again.
  *
  * Source: docs/theory/switches.md.
  */
@@ -38,7 +36,7 @@ public:
   void derivatives(const LocalMotion &motion, const double *history, double *p, double *dp_du,
                    double *dp_dv) const override;
 
-  /// history: 1 where it is not as it began; energy it brought along or gave away [J]; that of the law.
+  /// history: 1 after a change of state; energy offset of switching [J]; that of the law.
   const Branches *branches() const override { return this; }
   int             n_history() const override { return n_slots + mechanism::n_history(*law_); }
   void            start(const LocalMotion &motion, double *history) const override;

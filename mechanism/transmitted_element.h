@@ -15,12 +15,10 @@ namespace gestell::mechanism
  *
  *     p = G^T P(s, s'),     G = ds/du,     s' = G u',     s'' = G u'' + u'^T s'' u'
  *
- * Measures of the law behind these are virtual coordinates, taken over as they are.  Everything else (history,
- * events, energy, quantities) is the law's, and the kinks of a position function in s are events too.  The tangent
- * holds G: how it turns within a Newton step is of the order of h^2 P/(m |d|) against 1.  geometric() is the rest,
- * -dp/du of the G in p and in s' alone.
- *
- * The law must not hold its measure (true sticking): a held measure has a constant direction.
+ * Further measures of the law are virtual coordinates, passed on unchanged. History, events, energy and quantities are
+ * those of the law; kinks of a position function in s are also events. The tangent keeps G constant: its change within
+ * a Newton step is of order h^2 P/(m |d|) relative to 1. geometric() is the rest, -dp/du of the G in p and s'. The law
+ * must not stick: a sticking measure needs a constant direction.
  *
  * Source: principle of virtual work; docs/theory/joints.md (5).
  */

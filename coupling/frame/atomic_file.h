@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// A file could not be written: the disk is full, the folder gone.  What it was to hold is not wrong.
+/// A file could not be written: the disk is full, the folder missing. Its contents are valid.
 struct WriteFailure : std::runtime_error
 {
   using std::runtime_error::runtime_error;
@@ -17,16 +17,14 @@ struct WriteFailure : std::runtime_error
 };
 
 /**
- * The place beside a file's own where it is written until it is whole, for writers that want a path.
- *
- * The name is one that no other process uses, here or on another machine.  What stood in the file's place stays until
- * finish(), and for good where writing fails.
+ * Temporary path next to the target file, for writers that need a path. No other process uses its name, here or on
+ * another computer. The old file stays until finish(), and permanently if writing fails.
  */
 class FileBeside
 {
 public:
-  explicit FileBeside(const std::string &path); ///< in a folder that exists; makes nothing
-  ~FileBeside();                                ///< removes what was not finished
+  explicit FileBeside(const std::string &path); ///< in an existing folder; creates nothing
+  ~FileBeside();                                ///< removes an unfinished file
   FileBeside(const FileBeside &)            = delete;
   FileBeside &operator=(const FileBeside &) = delete;
 
@@ -40,7 +38,7 @@ private:
   std::string path_, nearby_;
 };
 
-/// A file that appears whole or not at all: a stream to the place beside it.
+/// An atomically written file: a stream to a temporary file, then a rename.
 class AtomicFile
 {
 public:
@@ -56,11 +54,11 @@ private:
   std::ofstream out_;
 };
 
-/// Whether `path` is what a process that was killed left of a file: a plain file named as unfinished ones are, that
-/// was untouched for an hour.
+/// Whether `path` is the unfinished file of a killed process: a regular file with the name of unfinished ones,
+/// unchanged for an hour.
 bool abandoned(const std::string &path);
 
-/// Removes what is abandoned in a folder, as far as that is possible.
+/// Removes abandoned files of a folder as far as possible.
 void remove_abandoned(const std::string &folder);
 
 } // namespace gestell::coupling

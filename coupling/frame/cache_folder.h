@@ -5,12 +5,12 @@
 namespace gestell::coupling
 {
 
-/// $GESTELL_CACHE, else $XDG_CACHE_HOME/gestell, else .cache/gestell in $HOME, or in the home that the system knows of
-/// this user; "": none of them, and nothing is kept.
+/// $GESTELL_CACHE, else $XDG_CACHE_HOME/gestell, else .cache/gestell in $HOME, or in the user's home folder by the
+/// system; "": none of them, without a cache.
 std::string cache_folder();
 
-/// Why another user may have written this file or folder: "belongs to another user (uid 1001)".  "": none can have, or
-/// it is not there.  Trusted are this user and root; others may write into a folder where each keeps their own (/tmp).
+/// Why another user may have written this file or folder: "belongs to another user (uid 1001)".  "": none, or it does
+/// not exist. This user and root are trusted; others may write into a sticky folder (/tmp).
 std::string foreign(const std::string &path);
 
 } // namespace gestell::coupling

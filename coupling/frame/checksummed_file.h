@@ -14,8 +14,7 @@ void write_sealed(const std::string &file, const std::string &title, const std::
 /// detect damage of the content.
 std::string head_defect(const std::string &file, const std::string &title);
 
-/// Whether a file is what it was when it was sealed under this title: "" if so, else the reason why it is not to be
-/// trusted.
+/// Whether a file is unchanged since it was written under this title: "" if so, else the reason.
 std::string seal_defect(const std::string &file, const std::string &title);
 
 } // namespace gestell::coupling

@@ -21,20 +21,20 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
 /// that cannot be written does not cause a failure: the reason is returned, else "".
 std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 
-/// A frame, and whether it was found or made.
+/// A frame, and whether it was found or reduced.
 struct CachedFrame
 {
   ReducedFrame frame;
   bool         from_cache = false; ///< found, not made now
 };
 
-/// The frame of a recipe as the cache has it, or else as `make` gives it, which is then kept.
-/// @return a kept frame without notes; a new one with, in cache_notes, why a kept one was not used or the new one not
-/// kept
+/// The frame of a recipe from the cache, otherwise from `make`, which is then stored.
+/// @return a stored frame without notes; a new one with notes in cache_notes: why a stored one was not used or the new
+/// one not stored
 /// @throws what `make` throws; nothing is kept then
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
 
-/// Where the frame of this key is kept, in cache_folder(); "": nowhere.
+/// Path of the frame of this key in cache_folder(); "": none.
 std::string cache_file(const std::string &key);
 
 /// A file of the cache.
@@ -52,11 +52,10 @@ struct CacheEntry
 enum class CacheCheck
 {
   heads,   ///< head, origin and sizes: damage of the numbers is not seen
-  contents ///< all of it, against its checksum, as where a frame is used
+  contents ///< all of it, with its checksum, as for use
 };
 
-/// All files of the cache, the one used last first: frames and what unfinished writing left.  Other files are not
-/// listed.
+/// All files of the cache, the most recently used first: frames and unfinished files. Other files are not listed.
 std::vector<CacheEntry> cache_entries(CacheCheck check = CacheCheck::heads);
 
 /// Why this frame of the cache cannot be used, its file read whole; "": it can.

@@ -10,20 +10,20 @@
 namespace gestell::coupling
 {
 
-/// One thing a frame is made from: "mesh.size" = "0.08", "source 1" = SHA-256 of the file's bytes.
+/// One input of a frame: "mesh.size" = "0.08", "source 1" = SHA-256 of the file's bytes.
 struct Ingredient
 {
   std::string name, value;
 };
 
 /**
- * All a reduced frame is made from, in a fixed order: the bytes of its files, every value of specification and options,
+ * All inputs of a reduced frame, in a fixed order: the bytes of its files, every value of specification and options,
  * and the sources of the program that makes it.  Equal recipes mean equal frames.
  *
- * Places (file:line for messages), the path of a file and the order of surfaces in a scene do not count; every number
- * counts with all its digits.  With a script of gmsh (.geo) count the files it names, and those that these name; what
- * it names and is not there counts by its name.  Where more than files decides (names that are computed, the
- * environment, the time), an ingredient says so, and the frame is not kept in a cache.
+ * Locations (file:line for messages), paths and the order of surfaces in a scene are not included; numbers are included
+ * with all digits. A gmsh script (.geo) includes the files it names, recursively, and missing files by name. If more
+ * than files determines the frame (computed names, the environment, the time), an ingredient states it, and the frame
+ * is not stored in a cache.
  */
 using Recipe = std::vector<Ingredient>;
 
@@ -32,7 +32,7 @@ Recipe recipe_of(const fem::FrameSpecification &frame, const ReductionOptions &o
 /// The same for a frame that is given by matrices.
 Recipe recipe_of(const fem::FrameMatrices &frame, const ReductionOptions &options);
 
-/// A text that parse_recipe() reads back, whatever names and values hold.
+/// A text for parse_recipe(), for any names and values.
 std::string text_of(const Recipe &recipe);
 /// @throws std::runtime_error if the text is not one of text_of().
 Recipe parse_recipe(const std::string &text);
@@ -43,7 +43,7 @@ std::string content_key(const Recipe &recipe);
 /// Why equal recipes of this kind need not mean equal frames, SourceFiles::beyond; "": they do.
 std::string beyond_the_files(const Recipe &recipe);
 
-/// Where two recipes differ; "" stands for an ingredient that one of them lacks.
+/// Differences of two recipes; "" for a missing ingredient.
 struct Difference
 {
   std::string name, first, second;

@@ -13,13 +13,9 @@ namespace gestell::coupling
  * A small HDF5 file of named arrays and texts: a new one, in memory until its image() is written somewhere, or one to
  * be read; names may be paths ("outputs/0/on_q").
  *
- * HDF5 itself never writes to a disk: it does not survive one that is full.  Nor does it lock what it reads, which some
- * network drives do not know; whoever writes a file does so under a name of its own.
- *
- * Sizes of arrays are judged against that of the file before memory is taken for them.
- *
- * What HDF5 reports on standard error by itself is silenced; every failure is thrown as std::runtime_error that names
- * the file and the array.
+ * HDF5 never writes to a disk, since it crashes on a full one. It does not lock files, which some network drives do not
+ * support; writers use their own file names. Sizes of arrays are checked against the file size before allocation.
+ * HDF5's messages on standard error are silenced; every failure is thrown as std::runtime_error with file and array.
  */
 class Hdf5File
 {

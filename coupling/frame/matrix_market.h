@@ -10,8 +10,8 @@ namespace gestell::coupling
 
 /**
  * Reads a matrix in the exchange format MatrixMarket: coordinate or array, real or integer, general or symmetric.  A
- * symmetric file holds one triangle; both come back.  An entry that is named twice is refused.  Exponents may be those
- * of Fortran (D).
+ * symmetric file contains one triangle; both are returned. A duplicate entry is an error. Fortran exponents (D) are
+ * allowed.
  *
  * @param known_size  rows of a matrix read before, of which this one may have as many though it has few entries
  * @throws std::invalid_argument with file and line, the offending text and what was expected.

@@ -14,13 +14,13 @@ struct MeshConvergence;
 struct ConvergenceOptions
 {
   double tolerance       = 0.01; ///< relative error allowed in every quantity, > 0
-  int    n_frequencies   = 4;    ///< lowest elastic ones that are watched, >= 1
-  bool   compliances     = true; ///< of all interfaces but those at a point are watched, too
+  int    n_frequencies   = 4;    ///< number of lowest elastic modes included, >= 1
+  bool   compliances     = true; ///< include those of all interfaces except point interfaces
   int    max_coordinates = 1000000;
   int    max_meshes      = 6;  ///< >= 2
   double memory          = 0.; ///< [byte] that a mesh may take with its reduction; 0: what the system has available
 
-  /// Called after each mesh with what is known so far; a convergence that is interrupted keeps that.
+  /// Called after each mesh with the result so far, which an interrupted study keeps.
   std::function<void(const MeshConvergence &so_far)> after_mesh = {};
 };
 
@@ -37,8 +37,8 @@ struct MeshLevel
   std::vector<double>      estimates; ///< relative error estimated from the stresses of this mesh alone
 };
 
-/// Leaves of each mesh the quantities that all have, by their names and in the order of the first: meshes may differ in
-/// the number of modes their frames are reduced to.
+/// Keeps the quantities common to all meshes, by name and in the order of the first: frames of different meshes may
+/// have different numbers of modes.
 /// @return the names left out.
 std::vector<std::string> keep_common(std::vector<MeshLevel> &levels);
 
@@ -52,7 +52,7 @@ struct ConvergedQuantity
   double      error       = 0.;   ///< of the last mesh's value against the limit, relative
   double      order       = 0.;   ///< k of  error ~ n^(-k)  in the number n of coordinates; NaN: not observed
   bool        regular     = true; ///< mesh by mesh nearer to the limit, see Extrapolated
-  int         n_meshes    = 0;    ///< that the limit rests on: one alone proves nothing
+  int         n_meshes    = 0;    ///< used for the limit: one alone is not sufficient
   double      bound() const { return (error < 0. ? -error : error) + uncertainty; }
 };
 

@@ -13,14 +13,14 @@ struct MeshValue
   double estimate    = 0.; ///< relative error by an estimator, >= 0; only its fall from mesh to mesh counts
 };
 
-/// From where values come to their limit: elements that fit together make frequencies too high, compliances too low.
+/// Side from which values converge: conforming elements make frequencies too high, compliances too low.
 enum class Approach
 {
   from_above,
   from_below
 };
 
-/// Meshes with less than so many times the coordinates of a coarser one show more of how cells happen to lie.
+/// Meshes below this ratio of DOFs to a coarser one mainly show scatter of the cells.
 constexpr double distinctly_finer = 1.2;
 
 struct Extrapolated

@@ -14,15 +14,15 @@ namespace gestell::coupling
  *
  *     1211216, rows, columns, entries | entries of each row | column of each entry from 0 | value of each entry
  *
- * with integers of 4 bytes, or of 8 where PETSc was built with 64-bit indices, and doubles.  entries = -1 stands for a
- * dense matrix, its values row by row.
+ * with integers of 4 bytes, or of 8 where PETSc was built with 64-bit indices, and doubles.  entries = -1 means a dense
+ * matrix, its values row by row.
  *
  * @param known_size  rows of a matrix read before, of which this one may have as many though it has few entries
- * @throws std::invalid_argument with the file, the place in it, what was found and what is needed.
+ * @throws std::invalid_argument with file, position, found and required value.
  */
 Eigen::SparseMatrix<double> read_petsc_matrix(const std::string &file, std::int64_t known_size = 0);
 
-/// Writes a sparse matrix in that format, integers of 4 bytes; beside it PETSc expects no .info file.
+/// Writes a sparse matrix in that format, integers of 4 bytes; PETSc needs no .info file.
 /// @throws std::runtime_error if the file cannot be written.
 void write_petsc_matrix(const std::string &file, const Eigen::SparseMatrix<double> &A);
 

@@ -8,20 +8,18 @@ namespace gestell::mechanism
 {
 
 /**
- * Play between two stops along one direction, or a single stop, with an elastic contact that loses energy and never
- * pulls.
- *
- * Measure u [m or rad]: displacement from the middle of the play, or from where a single stop is counted; s = sign(u)
+ * Play between two stops along one direction, or a single stop, with an elastic, dissipative contact without tension.
+ * Measure u [m or rad]: displacement from the centre of the play, or from the reference of a single stop; s = sign(u)
  * of a play, s = 1 of a stop above, s = -1 of one below; d = s u - gap:
  *
  *     d > 0 and 1 + chi s u' > 0:   p = -s c d^n (1 + chi s u'),        otherwise p = 0.
  *
- * n = 1 for a spring, 1.5 for a ball or another point contact after Hertz.  Stored is c d^(n+1)/(n+1).
+ * n = 1 for a spring, 1.5 for Hertzian point contact.  Stored is c d^(n+1)/(n+1).
  *
- * The factor (Hunt and Crossley) makes the force continuous at touch-down and lift-off.  Where the body leaves faster
- * than 1/chi the force is gone before the indentation is (branch of slack): until lift-off ("separation"), or until the
- * body slows down and the factor is positive again.
- * Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445, with any n.
+ * The factor (Hunt and Crossley) makes the force continuous at touch-down and lift-off. If the body leaves faster than
+ * 1/chi the force vanishes before the indentation (slack branch): until lift-off ("separation"), or until the body
+ * slows down and the factor is positive again. Source: K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445,
+ * with any n.
  */
 class Clearance : public DifferentiableElement<Clearance, 1, Branches, Structure>
 {

@@ -11,31 +11,31 @@ namespace gestell::mechanism
 {
 
 /**
- * Dry friction after Coulomb and Stribeck that truly sticks, against a counterface (belt) of speed v_b; with an
- * engagement e(t), 0 to 1, a brake or a clutch.
+ * Coulomb-Stribeck friction with true sticking, against a counterface (belt) of speed v_b; with an engagement e(t), 0
+ * to 1, a brake or a clutch.
  *
  * Measure u [m or rad]; generalised force p [N or N m], three branches:
  *
  *     slip forward      u' > v_b      p = -e R(v) - d v,     v = |u' - v_b|
  *     slip backward     u' < v_b      p = +e R(v) + d v
- *     stick             u' = v_b      p is the force that holds it there, |p| <= e R0
+ *     stick             u' = v_b      p is the sticking force, |p| <= e R0
  *
- * R(v) is the kinetic force R, or falls to it from R0 along a Stribeck curve; d is viscous.  While e is zero it is
- * released: nothing rubs and nothing sticks, only d acts.
+ * R(v) is the kinetic force R, or falls to it from R0 along a Stribeck curve; d is viscous.  For e = 0 it is released:
+ * no friction, only d acts.
  *
- * Sticking ends where the holding force reaches e R0: p < 0 (pulled forward) lets go forward, p > 0 backward.  It
- * begins where u' - v_b comes to zero, whatever the load; if that is too large to hold, a guard of the new branch is
- * past zero from its start and lets go at the same instant.  So a slide turns back by two events, stick and slip.  A
- * motion that starts with u' = v_b starts sticking.
+ * Sticking ends when the sticking force reaches e R0: p < 0 slips forward, p > 0 backward. It
+ * begins when u' - v_b becomes zero, for any load; if the load is too large, a guard of the new branch is past zero
+ * from its start and slip follows at the same instant. So a slide reverses by two events, stick and slip. A motion that
+ * starts with u' = v_b starts sticking.
  *
- * In an ideal joint R and R0 are told per unit of its normal force N, which multiplies them like e does: limit and
- * friction follow the multipliers.
+ * In an ideal joint R and R0 are given per unit of its normal force N, which
+ * multiplies them like e: limit and friction follow the multipliers.
  *
  * The element needs an integrator that locates events.  force() of a motion by itself (by_history = false) has the sign
- * of u' - v_b, zero at u' = v_b; by history it is zero in stick, where holds() says that it is not asked.
+ * of u' - v_b, zero at u' = v_b; by history it is zero in stick, where holds() is true and it is not used.
  *
- * Against ground (v_b = 0) its work is dissipated; a belt is a drive: its work counts as input, what the sliding takes
- * already deducted.  For natural frequencies it has no stiffness.
+ * Against ground (v_b = 0) its work is dissipated; a belt is a drive: its work, minus the loss by sliding, counts as
+ * input.  For natural frequencies it has no stiffness.
  *
  * Source: docs/theory/elements.md; Stribeck.
  */

@@ -9,7 +9,7 @@ namespace gestell::mechanism
 {
 
 /**
- * Smooth cutting force without memory, for a tool that resists only while it goes in.
+ * Smooth cutting force without hysteresis, for a tool with resistance during feed only.
  *
  * Measure u [m]; penetration z = u - x_T > 0:
  *
@@ -45,7 +45,7 @@ public:
     p[0]              = -F * shape(x) * gate;
   }
 
-  /// F e / z_p, the slope with which the force sets in.
+  /// F e / z_p, the initial slope of the force.
   void stiffest(const double *u, double *K, double *D) const override;
 
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;

@@ -8,8 +8,8 @@ namespace gestell::mechanism
 {
 
 /**
- * Force of deep drawing or another forming against its path: it rises elastically, stays constant while the sheet
- * flows, and comes back only where the tool goes further than it ever was.
+ * Force of deep drawing or other forming: it rises elastically, is constant while the sheet flows, and returns only
+ * beyond the largest path so far.
  *
  * Measure u [m]: displacement of the punch in feed direction; path z = u - x_T, z_p the part of it that stays:
  *

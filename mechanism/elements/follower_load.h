@@ -9,18 +9,18 @@ namespace gestell::mechanism
 {
 
 /**
- * An external load P(t) at a point x of a body along a direction e that turns with it, such as a thrust:
+ * An external load P(t) at a point x of a body along a direction e fixed in the body, such as a thrust:
  *
  *     p = P e . dx/du,     power P e . x'.
  *
- * P is that of a law of one measure, which sees the speed e . x' as its rate; history, events and orders are the law's.
- * Such a load has no potential and no partner.  Its tangent holds e . dx/du within a Newton step; geometric() is the
- * rest,
+ * P is that of a law of one measure, which sees the speed e . x' as its rate; history, events and commands are those of
+ * the law. Such a load has no potential and no reaction. Its tangent keeps e . dx/du constant within a Newton step;
+ * geometric() is the rest,
  *
  *     K_ij = -P T_ij - dP/ds' G_i sum_l T_lj u_l',     G_i = e . dx/du_i,
  *     T_ij = dG_i/du_j = de/du_j . dx/du_i + e . d^2x/du_i du_j,
  *
- * whose first term of T is not symmetric: such a load may excite a flutter.
+ * with a nonsymmetric first term of T: such a load may cause flutter.
  *
  * Source: docs/theory/joints.md (5a).
  */

@@ -11,7 +11,7 @@ namespace gestell::mechanism
  *
  * Its kinks are guards (FormulaKinks).
  *
- * Its work counts as input, negative where the force brakes: nothing in a formula tells what it stores.  As structure
+ * Its work counts as input, negative where the force brakes, since the stored part is unknown.  As structure
  * it has K = -dF/du and D = -dF/du' at the given u, at t = 0 and at rest.
  */
 class FormulaForce : public DifferentiableElement<FormulaForce, 1, Branches, Structure>
@@ -57,9 +57,9 @@ public:
   void open_branch(const double *u, double *K, double *D) const override;
   bool stiffens() const override { return true; } ///< maybe; a formula may be anything
 
-  /// history: side of each kink, -1, 0 or 1; then 0, or no number once an accepted motion has left the range of a root:
-  /// roots go on below zero beyond a kink, but not for good; then the last u that was not held, and the last time at
-  /// which a kink left zero, infinite while one that came back in that instant stays on its side.
+  /// history: side of each kink, -1, 0 or 1; then 0, or nan once an accepted motion has left the range of a root: roots
+  /// are continued below zero only beyond a kink; then the last u that did not stick, and the last time at which a kink
+  /// left zero, infinite while one that came back in that instant stays on its side.
   int                   n_history() const override { return n_kinks() + 3; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  accept(const LocalMotion &motion, double *history) const override;

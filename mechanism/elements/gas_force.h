@@ -20,10 +20,10 @@ namespace gestell::mechanism
  *     suction     P = P_s, from where P has fallen to P_s until the volume no longer grows
  *     delivery    P = P_d, from where P has risen to P_d until the volume no longer falls
  *
- * What is left in the clearance volume V_c expands before new gas comes in.  Valves have neither mass nor resistance.
- * Without valves the gas is a spring, its energy K V^(1-n)/(n-1) + P_a V is stored.  With valves stored is what the
- * enclosed gas gives back until it has the pressure of the suction line, at the volume V_s = V (P/P_s)^(1/n), and the
- * work of that line and of the other side,
+ * The gas in the clearance volume V_c expands before suction. Valves have no mass and no resistance. Without valves the
+ * gas is a spring, its energy K V^(1-n)/(n-1) + P_a V is stored.  With valves the stored energy is that released by the
+ * enclosed gas down to the pressure of the suction line, at the volume V_s = V (P/P_s)^(1/n), and the work of that line
+ * and of the other side,
  *
  *     E = (P V - P_s V_s)/(n - 1) - P_s V_s + P_a V,     dE/dV = P_a - P  while enclosed or in suction,
  *

@@ -12,8 +12,8 @@ namespace gestell::mechanism
  * Hydraulic cylinder with the elasticity of its oil columns.
  *
  * Measures: u [m], whose x = u - u_0 is the stroke, growing as chamber A is filled; a, b [m], virtual coordinates: the
- * ways the piston would have gone by the oil fed into A and into B if oil could not be compressed.  With the columns
- * L_a = V_a/A and L_b = V_b/B at x = 0 and the bulk modulus K
+ * piston displacements by the oil fed into A and B for incompressible oil.  With the columns L_a = V_a/A and L_b =
+ * V_b/B at x = 0 and the bulk modulus K
  *
  *     p_a = p_a0 + K ln[(L_a + a)/(L_a + x)],     p_b = p_b0 + K ln[(L_b + b)/(L_b - x)],     F = A p_a - B p_b
  *     a' = (Q_a/A) exp[(p_a - p_a0)/K],           b' = (Q_b/B) exp[(p_b - p_b0)/K]
@@ -27,8 +27,8 @@ namespace gestell::mechanism
  *     y > 0:  Q_a = Q_N y r(p_S - p_a),   Q_b = -Q_N y r(p_b - p_T)
  *     y < 0:  Q_a = Q_N y r(p_a - p_T),   Q_b = -Q_N y r(p_S - p_b),     r(d) = d/d_N / ((d/d_N)^2 + e^2)^(1/4),
  *
- * sqrt(d/d_N) but for small d.  Leakage past the piston: k_L (p_a - p_b) from A to B.  What the cylinder gives to the
- * machine, F x', is input.  Oil does not cavitate: a pressure may fall below zero, and tells so.
+ * sqrt(d/d_N) but for small d.  Leakage past the piston: k_L (p_a - p_b) from A to B.  The work on the machine, F x',
+ * is input. Cavitation is not modelled: a pressure may become negative, which the signals show.
  *
  * Source: H. Murrenhoff, Fundamentals of Fluid Power, Part 1: Hydraulics; docs/theory/position_functions.md (5).
  */

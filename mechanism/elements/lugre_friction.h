@@ -22,8 +22,8 @@ namespace gestell::mechanism
  * a small motion sees the spring sigma_0 and the damper sigma_1 + d.  Stored is F^2/(2 sigma_0).  Where v changes its
  * sign |v| has a kink: event "reversal".
  *
- * In an ideal joint all forces are told per unit of its normal force N, which multiplies p_u; z does not know it.  What
- * the bristles store then is not told apart from what is dissipated.
+ * In an ideal joint all forces are per unit of its normal force N, which multiplies p_u; z is independent of it. The
+ * energy stored in the bristles is then counted as dissipated.
  *
  * Source: C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419-425.
  */
@@ -59,7 +59,7 @@ public:
     p[1]                  = m.u[1] + lag() * parameters_.bristle_stiffness * z_rate;
   }
 
-  /// sigma_0, sigma_1 + d: to a small motion the joint is a spring.  Zero where N is unknown.
+  /// sigma_0, sigma_1 + d: for small motion the joint is a spring.  Zero where N is unknown.
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: the sign of v.

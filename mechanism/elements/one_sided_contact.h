@@ -6,7 +6,7 @@ namespace gestell::mechanism
 {
 
 /**
- * Branches of a contact on one side, closed or open, which the motion alone decides.
+ * Branches of a one-sided contact, closed or open, determined by the motion only.
  *
  * closes() is the condition of the closed branch; the only guard rises through zero where an open contact closes and
  * falls through zero where a closed one opens.
@@ -29,7 +29,7 @@ public:
   void transition(int, const LocalMotion &, double *history) const final { history[0] = 1. - history[0]; }
 
 protected:
-  /// Whether the contact is closed in a motion by itself.
+  /// Whether the contact is closed by the motion itself.
   virtual bool closes(double u, double v) const = 0;
   /// Name of the event that closes or opens it.
   virtual std::string event(bool closing) const = 0;

@@ -10,10 +10,10 @@ namespace gestell::mechanism
 {
 
 /**
- * Force or torque that follows a course over time:   p = F(t)        [N or N m]
+ * Force or torque with a given time history: p = F(t)        [N or N m]
  *
- * +F acts on the measure u [m or rad].  Corners of the course are events.  Its work counts as input.  Or F is an input
- * that is set from outside, which obeys no orders.
+ * +F acts on the measure u [m or rad].  Corners of the profile are events. Its work counts as input. Or F is an
+ * external input, without commands.
  */
 class ProfileForce : public DifferentiableElement<ProfileForce, 1, Branches, Commands>
 {
@@ -21,7 +21,7 @@ public:
   explicit ProfileForce(const CommandedProfile &course) : course_(course) {}
   explicit ProfileForce(std::shared_ptr<InputValue> input) : input_(std::move(input)) {}
 
-  const std::shared_ptr<InputValue> &input() const { return input_; } ///< null: it follows its course
+  const std::shared_ptr<InputValue> &input() const { return input_; } ///< null: it follows its profile
 
   template <typename Number>
   void law(const Measures<Number> &m, const double *history, Number *p) const

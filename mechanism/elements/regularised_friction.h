@@ -19,7 +19,7 @@ public:
     double force = 0.;   ///< F [N or N m], >= 0
     double speed = 1e-3; ///< v0 [m/s or rad/s], > 0
 
-    double static_force      = 0.; ///< R0 [N or N m], >= F; without a Stribeck speed of no meaning
+    double static_force      = 0.; ///< R0 [N or N m], >= F; unused without a Stribeck speed
     double stribeck_speed    = 0.; ///< v_s [m/s or rad/s], >= 0; 0: none
     double stribeck_exponent = 1.; ///< 1 or 2
     double viscous           = 0.; ///< d [N s/m or N m s/rad], >= 0

@@ -7,13 +7,12 @@ namespace gestell::mechanism
 {
 
 /**
- * Rope (chain, belt): a spring and damper that only pulls.
- *
- * Measure u [m or rad], by which its ends are further apart than in the drawing; elongation d = u - slack:
+ * Rope (chain, belt): a spring and damper in tension only. Measure u [m or rad]: increase of the distance of its ends
+ * from the reference configuration; elongation d = u - slack:
  *
  *     d > 0 and c d + b u' > 0:   p = -(c d + b u'),        otherwise p = 0.
  *
- * A rope that contracts faster than it can follow is slack before d = 0.  With b > 0 the force sets in with a jump.
+ * A rope that contracts fast becomes slack before d = 0. With b > 0 the force begins with a jump.
  * Events "taut" and "slack".  Stored is c d^2/2 while d > 0, the rest is dissipated.
  */
 class Rope : public DifferentiableElement<Rope, 1, OneSidedContact, Structure>

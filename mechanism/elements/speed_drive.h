@@ -13,16 +13,16 @@ namespace gestell::mechanism
  * Drive with speed control (PI) and limited torque.
  *
  * Measures: phi [rad], angle of the driven shaft; z [N m], a lag of the time constant T_i = k_p/k_i that follows the
- * torque.  With the wanted speed w_r(t) of a course
+ * torque.  With the commanded speed w_r(t) of a profile
  *
  *     M = k_p (w_r - phi') + z,  but  -M_max <= M <= M_max        [N m],     p_phi = M
  *     T_i z' + z = M,                                                         p_z   = M
  *
  * Within the limits T_i z' = k_p (w_r - phi'): z is k_i times the integral of the error.  At a limit z follows the
- * torque that acts and does not wind up (automatic reset, the same as back-calculation with the tracking time T_i).
- * Without an integral (k_i = 0) z stays zero.
+ * actual torque, without windup (automatic reset, the same as back-calculation with the tracking time T_i). Without an
+ * integral (k_i = 0) z stays zero.
  *
- * Events: corners of the course, "limit_reached", "limit_left".  Its work counts as input, negative where it
+ * Events: corners of the profile, "limit_reached", "limit_left".  Its work counts as input, negative where it
  * brakes.
  *
  * Source: K. J. Astrom, T. Hagglund, PID Controllers, 2nd ed. 1995 (automatic reset, windup).

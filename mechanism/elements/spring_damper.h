@@ -6,11 +6,8 @@ namespace gestell::mechanism
 {
 
 /**
- * Spring and damper on one measure u, such as the distance between two points of turning bodies:
- *
- *     F = F_0 + c (u - u_0) + b u',     p = -F.
- *
- * Between places that move along a constant direction the linear base system takes them instead.
+ * Spring and damper on one measure u, such as the distance between two points of rotating bodies: F = F_0 + c (u - u_0)
+ * + b u', p = -F. Along a constant direction they are part of the linear base system instead.
  */
 class SpringDamper : public DifferentiableElement<SpringDamper, 1, Structure>
 {

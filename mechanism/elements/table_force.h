@@ -16,8 +16,8 @@ namespace gestell::mechanism
  * begins: events "next_segment" and, where x may go back, "previous_segment".
  *
  * Over the displacement it is conservative, with the energy E(u) = -integral of F from the first row on.  Over time or
- * rate its work counts as input, negative where it brakes.  A jump over the rate by which the force falls, like that of
- * dry friction, holds the rate where it is and chatters: CoulombFriction sticks.
+ * rate its work counts as input, negative where it brakes.  A falling jump over the rate, like that of dry friction,
+ * keeps the rate there and chatters; use CoulombFriction for sticking.
  */
 class TableForce : public DifferentiableElement<TableForce, 1, Branches, Structure>
 {

@@ -6,18 +6,18 @@ namespace gestell::mechanism
 {
 
 /**
- * Unbalance of a rotor: its centre of mass lies off its axis, so that turning and the motion of the carrier act on each
- * other.  Measures u = (phi, x_1, x_2): angle of the rotor [rad] and displacements of the point of its axis [m] along
- * e_1, e_2 across the axis, e_1 x e_2 along it.  With
+ * Unbalance of a rotor: its centre of mass is off its axis, which couples rotation and the motion of the carrier.
+ * Measures u = (phi, x_1, x_2): angle of the rotor [rad] and displacements of the point of its axis [m] along e_1, e_2
+ * across the axis, e_1 x e_2 along it.  With
  *
  *     n = (cos, sin)(phi + psi),     t = dn/dphi,     U = m e [kg m],
  *
- * the kinetic energy that mass and inertia of the rotor do not have, T = U phi' x'.t, and the weight -U g.n give
+ * the additional kinetic energy beyond mass and inertia of the rotor, T = U phi' x'.t, and the weight -U g.n give
  *
  *     p_phi = -U (x'' - g).t,     p_x = U (phi'^2 n - phi'' t):
  *
- * the centrifugal force on the carrier, and the torque by which a shaking carrier brakes the rotor (Sommerfeld).  The
- * forces do no work but that of T and the weight.
+ * the centrifugal force on the carrier, and the torque by which a vibrating carrier brakes the rotor (Sommerfeld). The
+ * forces change only T and the potential energy.
  *
  * Source: docs/theory/elements.md, Unbalance.
  * foundation).

@@ -7,11 +7,11 @@ namespace gestell::mechanism
 {
 
 /**
- * Elastic wheel or foot that stands on the ground and may leave it.  Measure s: height of its hub above the position in
- * which the tyre is just unloaded; compression u = -s.
+ * Elastic wheel or foot on the ground that may lift off. Measure s: height of its hub above the unloaded position;
+ * compression u = -s.
  *
- *     contact:  F = c u + d u'     until F falls to zero ("lift_off"): before the tyre is unloaded, as it cannot pull
- *     free:     F = 0              until u > 0 and c u + d u' > 0 again ("touch_down"), where F jumps to d u'
+ *     contact:  F = c u + d u'     until F falls to zero ("lift_off"): before the tyre is unloaded, as it has no
+ * tension free:     F = 0              until u > 0 and c u + d u' > 0 again ("touch_down"), where F jumps to d u'
  *
  * p = F on s.  With `bilateral` it never leaves the ground.  The energy left in the tyre at lift-off is lost while it
  * unloads.

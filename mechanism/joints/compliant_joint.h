@@ -12,16 +12,17 @@ namespace gestell::mechanism
 {
 
 /**
- * A joint that yields: where an ideal joint between the same two places demands s(u) = s_0, it acts with
+ * A compliant joint: instead of the constraint s(u) = s_0 of an ideal joint between the same two points it has the
+ * force
  *
  *     p = sum_i G_i^T lambda_i,     lambda_i = -k_i (s_i - s_0i) - d_i s_i',     G_i = ds_i/du
  *
- * of all its relative measures s_i.  lambda_i has the meaning of an ideal joint's multiplier, the force [N] (torque
- * [N m]) that drives s_i up, and tends to it as k grows.  1/2 k s^2 is stored, d s'^2 dissipated.
+ * of all its relative measures s_i.  lambda_i has the meaning of an ideal joint's multiplier, the force [N] (torque [N
+ * m]) that increases s_i, and converges to it as k grows.  1/2 k s^2 is stored, d s'^2 dissipated.
  *
- * With an s along an axis that body 1 carries, lambda depends on the motion of body 2 as body 1 sees it alone, and G
- * holds the moment that the force has about body 1: bodies that turn together are not braked.  Along an axis fixed in
- * space damping brakes their turning by d s^2 omega.
+ * With an s along an axis that body 1 carries, lambda depends on the motion of body 2 relative to body 1 only, and G
+ * contains the moment of the force about body 1: a common rotation is not damped. Along an axis fixed in space damping
+ * brakes a common rotation by d s^2 omega.
  *
  * The tangent holds G, as that of a TransmittedElement does; geometric() is the rest of it.
  *
@@ -30,7 +31,7 @@ namespace gestell::mechanism
 class CompliantJoint : public ForceLaw, public Structure
 {
 public:
-  /// What an ideal joint would demand of a measure, and what keeps it there.
+  /// Constraint of an ideal joint on a measure, with stiffness and damping.
   struct Equation
   {
     IdealJoint::Equation demand;
@@ -66,7 +67,7 @@ public:
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 
   int n_equations() const { return int(equations_.size()); }
-  /// How far measure i is from s_0 and its rate: what a start closes.  gradient [k]
+  /// Deviation of measure i from s_0 and its rate, closed by the initial conditions.  gradient [k]
   RelativeMeasure::Value opening(int i, const double *u, const double *v, double *gradient) const;
 
 private:

@@ -14,8 +14,8 @@ namespace gestell::mechanism
 {
 
 /**
- * What ideal joints have in common: if a MotionLaw drives them, history, corners and orders are those of the law and
- * their work is an input.
+ * Base of ideal joints: if driven by a MotionLaw, history, corners and commands are those of the law and their work is
+ * an input.
  */
 class ConstraintElement : public Constraint, public Branches, public Structure, public Commands
 {

@@ -7,8 +7,8 @@ namespace gestell::mechanism
 {
 
 /**
- * A law of friction in an ideal joint whose one free motion is a displacement [m], or an angle [rad] that slides at the
- * radius r.  It tells what friction in joints tells (JointFriction): the force on the motion, the speed of sliding.
+ * A friction law in an ideal joint with one DOF, a displacement [m], or an angle [rad] with the sliding radius r. Its
+ * signals are those of JointFriction: the force on the motion, the speed of sliding.
  *
  * The law is that of the surface: coefficients [1], speeds [m/s], bristles per metre; on the angle act
  *

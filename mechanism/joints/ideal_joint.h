@@ -11,11 +11,11 @@ namespace gestell::mechanism
 {
 
 /**
- * An ideal joint between two places on two bodies: equations g(t, u) = s(u) - f(t) = 0 of their measures u = (u_1,
+ * An ideal joint between two points on two bodies: equations g(t, u) = s(u) - f(t) = 0 of their measures u = (u_1,
  * u_2), in relative measures s such as a . (x_2 - x_1) or |x_2 - x_1|.
  *
  * f is constant, or follows a MotionLaw: then the joint is a drive, whose work is an input.  The multiplier lambda_i is
- * the force [N] (torque [N m]) that drives s up: of `along` the force on body 2 along a, of `distance` the push of the
+ * the force [N] (torque [N m]) that increases s: of `along` the force on body 2 along a, of `distance` the push of the
  * rod, of `ratio` what acts on a measure with c_i = 1.
  *
  * Source: docs/theory/joints.md (3).

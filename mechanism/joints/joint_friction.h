@@ -11,15 +11,13 @@ namespace gestell::mechanism
 {
 
 /**
- * Friction in an ideal joint, by the forces that close it.
- *
- * Measures: the k motions s that the joint leaves free, displacements [m], or angles [rad] that slide at the radius
- * r_i (r_i = 1 for displacements), and
+ * Friction in an ideal joint, by its constraint forces. Measures: the k free motions s of the joint, displacements [m],
+ * or angles [rad] with the sliding radius r_i (r_i = 1 for displacements), and
  *
  *     p_i = -r_i mu(|v|) N tanh(|v|/v0) v_i/|v|,   v_i = r_i s_i',   N of JointLoad.
  *
- * Of a ball the three are rates of rotation alone (RelativeMeasure, spin).  The law sees multipliers in LocalMotion;
- * its tangent holds them.
+ * Of a ball the three are rates of rotation alone (RelativeMeasure, spin).  The law reads multipliers from LocalMotion;
+ * its tangent keeps them constant.
  *
  * Source: docs/theory/contact.md (4), (4a).
  */

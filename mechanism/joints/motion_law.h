@@ -16,8 +16,8 @@ struct PrescribedMotion
 };
 
 /**
- * A prescribed motion, smooth between corners.  Where it stands (which stage, since when, from where) is history, as
- * that of Branches: corners and commands lead from one stage to the next.
+ * A prescribed motion, smooth between corners.  Its state (stage, its start time and value) is history, as for
+ * Branches: corners and commands lead to the next stage.
  */
 class MotionLaw
 {
@@ -32,17 +32,17 @@ public:
   virtual int                n_guards(const double *history) const { return (void)history, 0; }
   virtual std::vector<Guard> guards(const double *history) const { return (void)history, std::vector<Guard>{}; }
   virtual void guard_values(double t, const double *history, double *g) const { (void)t, (void)history, (void)g; }
-  /// Goes on behind the corner of guard i at t.
+  /// Continues after the corner of guard i at t.
   virtual void transition(int i, double t, double *history) const { (void)i, (void)t, (void)history; }
-  /// Obeys an order of a switch ("brake") at t; false: the law knows no such order.
+  /// Executes a command of a switch ("brake") at t; false: the law does not accept it.
   virtual bool                     command(const SwitchCommand &order, double t, double *history) const;
   virtual std::vector<std::string> commands() const { return {}; }
-  /// @throws std::invalid_argument if the values of one of these orders are none for it
+  /// @throws std::invalid_argument if the values of one of these commands are invalid
   virtual void check_order(const SwitchCommand &) const {}
 };
 
 /**
- * Constant speed until the order "brake", then a given fall of the speed v_0 to zero, then rest:
+ * Constant speed until the command "brake", then a given decrease of the speed v_0 to zero, then rest:
  *
  *     f' = v_0 w(tau/T),     f'' = v_0 w'(tau/T)/T,     tau = t - t_brake
  *
@@ -75,8 +75,11 @@ public:
   /// @throws std::invalid_argument for a duration that is not positive, or shares that do not add up to one
   explicit BrakedMotion(const Parameters &parameters);
 
-  int  n_history() const override { return 3; } ///< corners passed since the order; t_brake, before it t_start; f there
-  void start(double t, double *history) const override;
+  int n_history() const override
+  {
+    return 3;
+  } ///< corners passed since the command; t_brake, before it t_start; f there
+  void                     start(double t, double *history) const override;
   PrescribedMotion         at(double t, const double *history) const override;
   int                      n_guards(const double *history) const override { return brakes(history) ? 1 : 0; }
   std::vector<Guard>       guards(const double *history) const override;
@@ -99,7 +102,7 @@ class ProfileMotion : public MotionLaw
 {
 public:
   /// @param speed  [m/s or rad/s], a level or a profile
-  /// @throws std::invalid_argument if it jumps: no finite force makes a body do that
+  /// @throws std::invalid_argument if it jumps, which no finite force can cause
   explicit ProfileMotion(const CommandedProfile &speed);
 
   int                n_history() const override { return 1 + speed_.n_history(); } ///< what to add to the integral

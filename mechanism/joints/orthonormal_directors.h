@@ -9,14 +9,14 @@ namespace gestell::mechanism
 {
 
 /**
- * Keeps the directors of a body that turns freely in space at right angles and of length one:
+ * Orthonormality constraints of the directors of a free spatial body:
  *
  *     g = (1/2 (d_1 . d_1 - 1), 1/2 (d_2 . d_2 - 1), 1/2 (d_3 . d_3 - 1), d_2 . d_3, d_3 . d_1, d_1 . d_2) = 0,
  *
  * d_i = e_i + u_i with the measures u = (u_1, u_2, u_3) [9, 1].  Its forces L d with a symmetric L have no torque.
  *
- * Signals: angular velocity "wx", "wy", "wz" [rad/s] about the global axes, and the rotation from the position
- * described as axis times angle (0 to pi), "rx", "ry", "rz" [rad].
+ * Signals: angular velocity "wx", "wy", "wz" [rad/s] about the global axes, and the rotation from the reference
+ * configuration as axis times angle (0 to pi), "rx", "ry", "rz" [rad].
  *
  * Source: docs/theory/joints.md (7).
  */

@@ -16,10 +16,10 @@ namespace gestell::mechanism
  *     G    = (c_1 G_1, c_2 G_2, ..., -f' G_x),
  *     s''  = G u'' + sum c_j b_j - f' b_x - f'' x'^2.
  *
- * A screw is  along - pitch/2pi angle,  rolling  along - r angle,  a cam  lift - f(angle of the shaft).  Joints demand
- * a value of it, elements act on it; a spring in a cam drive is one on  lift - f.
+ * A screw is  along - pitch/2pi angle,  rolling  along - r angle,  a cam  lift - f(angle of the shaft).  Joints
+ * prescribe its value, elements act on it; a spring in a cam drive is one on  lift - f.
  *
- * `history` [n_history()] is that of f, kept by whoever uses the measure.
+ * `history` [n_history()] is that of f, stored by the user of the measure.
  *
  * Source: docs/theory/position_functions.md (2).
  */
@@ -46,7 +46,7 @@ public:
   /// matrix += factor s''(u) [k x k, column major].
   void   add_curvature(const double *u, double factor, double *matrix, const double *history = nullptr) const;
   double size() const; ///< of the numbers whose sum s is [m or rad]
-  /// An angle that jumps by a turn where it passes 180 degrees.
+  /// An angle that jumps by 360 degrees at 180 degrees.
   bool wraps() const { return plain() && plain()->measure.wraps(); }
   /// The plain measure that this is, or null.
   const PlacedMeasure *plain() const;

@@ -11,19 +11,18 @@ namespace gestell::mechanism
 using Vector3d = Eigen::Vector3d;
 
 /**
- * A point with directions on a body, as a function of the body's k measures u (m, rad), which are zero in the position
- * the scene describes:
+ * A point with directions on a body, as a function of the body's k measures u (m, rad), which are zero in the reference
+ * configuration:
  *
  *     x(u) = c + sum u_i t_i + (1 + theta x) rho(phi),     theta = sum u_i r_i,     rho(phi) = R(n, phi) (x_0 - c).
  *
  * Each linear measure moves by t_i and turns by the small rotation r_i (a frame, a slide and its guide, a point); one
- * last measure may turn by any angle phi about n (a rotor on its carrier; a body in a plane).  Directions turn alike.
- *
- * A body that turns freely in space has the measures (u_c, u_1, u_2, u_3), 3 numbers each, in which all is linear:
+ * last measure may be a large angle phi about n (a rotor on its carrier; a body in a plane). Directions rotate in the
+ * same way. A free spatial body has the measures (u_c, u_1, u_2, u_3), 3 numbers each, in which all is linear:
  *
  *     x(u) = x_0 + u_c + sum (x_0 - c)_i u_i,     e(u) = e + sum e_i u_i,
  *
- * with the directors d_i = e_i + u_i, along x, y, z in the position described, which OrthonormalDirectors keeps rigid.
+ * with the directors d_i = e_i + u_i, along x, y, z in the reference configuration, kept rigid by OrthonormalDirectors.
  *
  * Source: kinematics of rigid bodies; docs/theory/joints.md (1), (1a).
  */
@@ -32,7 +31,7 @@ class Placement
 public:
   static constexpr int max_measures = 12;
 
-  /// What one measure does to the body at `centre`: translation [1 or m/rad] and small rotation per unit.
+  /// Effect of one measure on the body at `centre`: translation [1 or m/rad] and small rotation per unit.
   struct LinearMeasure
   {
     Vector3d translation, rotation;
@@ -60,16 +59,16 @@ public:
   const Vector3d &point() const { return point_; }                                    ///< at u = 0 [m]
   double          size() const { return centre_.norm() + (point_ - centre_).norm(); } ///< of the terms of x [m]
 
-  /// Whether measure i is one of those that may be left out: not the angle, nor those of a body in space.
+  /// Whether measure i may be omitted: not the angle, nor those of a spatial body.
   bool is_linear(int i) const { return i < int(linear_.size()); }
-  /// The same place of a body without the linear measure i.
+  /// The same point of a body without the linear measure i.
   Placement without(int i) const;
 
-  /// What measure i does to the reference point and to the directions of the body, per unit at u = 0.
+  /// Effect of measure i on the reference point and the directions of the body, per unit at u = 0.
   Vector3d translation(int i) const;
   Vector3d rotation(int i) const;
 
-  /// @param v  null: no rate and bias are wanted
+  /// @param v  null: no rate and bias are needed
   void position(const double *u, const double *v, MovedVector &x) const;
   /// @param e  direction at u = 0
   void     direction(const Vector3d &e, const double *u, const double *v, MovedVector &moved) const;

@@ -8,7 +8,7 @@ namespace gestell::mechanism
 {
 
 /**
- * A scalar s of the motion of two places x_1, x_2 on two bodies, with d = x_2 - x_1:
+ * A scalar s of the motion of two points x_1, x_2 on two bodies, with d = x_2 - x_1:
  *
  *     along          a . d               a fixed in space, or carried by one of the bodies    [m]
  *     square         a_1 . b_2           cosine between directions carried by the two         [1]
@@ -23,7 +23,7 @@ namespace gestell::mechanism
  * of which psi is the inclination, continued over any number of turns, cos(alpha) = |c|/|d| in the plane of a, b and
  * inv(x) = tan(x) - x the involute function.
  *
- * Ideal joints demand a value of it, elements act on it, signals tell it.
+ * Ideal joints prescribe its value, elements act on it, signals report it.
  *
  * Source: docs/theory/joints.md (2); of spin contact.md (4a), of mesh position_functions.md (2a).
  */
@@ -47,7 +47,7 @@ struct RelativeMeasure
     second
   };
 
-  /// s jumps by a turn where it passes pi.
+  /// s jumps by 2 pi at pi.
   bool wraps() const { return form == Form::inclination || form == Form::angle; }
 
   Form                form    = Form::along;
@@ -91,7 +91,7 @@ private:
   Value mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias, double turned, Vector3d &of_d) const;
 };
 
-/// Where two bodies are, and a scalar of their motion.
+/// Positions of two bodies, and a scalar of their motion.
 struct PlacedMeasure
 {
   Placement       first, second;
@@ -99,7 +99,7 @@ struct PlacedMeasure
 
   static constexpr int max_measures = 2 * Placement::max_measures;
 
-  /// One measure of the machine as it is: s = u.
+  /// One measure of the machine itself: s = u.
   static PlacedMeasure linear();
 
   int                    n_measures() const { return first.n_measures() + second.n_measures(); }
