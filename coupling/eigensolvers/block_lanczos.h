@@ -39,9 +39,9 @@ public:
 
   /// Coordinates, those of other processes included.
   virtual int size() const { return int(order().size()); }
-  /// Adds up what each found by its own rows; the same on all.
+  /// Sum of the partial results of all processes; the same on all.
   virtual void sum(Eigen::MatrixXd &) const {}
-  /// Takes the first one's numbers on all, that rounding leads none astray.
+  /// Broadcasts the numbers of the first process, so that rounding is the same on all.
   virtual void share(Eigen::MatrixXd &) const {}
   /// Place of a row among those of all.
   virtual int place(int row) const { return row; }
@@ -89,7 +89,7 @@ struct LowestModes
   Eigen::VectorXd bound; // [m] an exact frequency lies within omega (1 +- bound)
 };
 
-/// Looks for the lowest modes of (C - omega^2 M) v = 0.
+/// Computes the lowest modes of (C - omega^2 M) v = 0.
 class ModeSearch
 {
 public:
@@ -102,7 +102,8 @@ public:
   /// The lowest of those found, in an unbroken sequence.
   virtual LowestModes modes(int count) const = 0;
 
-  /// Frequencies [rad/s] without a mode, as far as is known, and how many found lie below: for a count by other means.
+  /// A frequency range [rad/s] without a found mode, and the number of found modes below it, for verification by
+  /// counting.
   struct Gap
   {
     double low, high; // high is infinite where no further mode exists
@@ -126,9 +127,9 @@ public:
  * within r of the computed one: |delta omega| / omega <= r / (2 theta - 2 r), and about the square of that where the
  * frequency stands alone.
  *
- * Where the inverse holds coordinates the modes are those of the held structure.  A block that
- * breaks down is continued with vectors of any direction, until the whole range of M is used up.  The space starts anew
- * from its best vectors where it would outgrow `room` (thick restart).
+ * If the inverse fixes coordinates, the modes are those of the fixed structure. A block that breaks down is continued
+ * with arbitrary vectors, until the whole range of M is used. The space restarts from its best vectors when it would
+ * exceed `room` (thick restart).
  *
  * Source: Grimes, Lewis & Simon, SIAM J. Matrix Anal. Appl. 15 (1994) 228-272; Wu & Simon, ibid. 22 (2000) 602-616.
  */

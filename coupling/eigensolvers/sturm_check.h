@@ -10,14 +10,11 @@ namespace gestell::coupling
 {
 
 /**
- * The lowest modes of a frame, as many as are asked for, and the proof that none of them is missing.
- *
- * A search by Krylov spaces may pass over a mode, above all one of several with the same frequency, and cannot know it.
- * The number of negative eigenvalues of C - omega^2 M can: it is the number of modes below omega (Sylvester's law of
- * inertia).  confirm() takes it in a gap above the modes asked for; where the search has found fewer, it goes on,
- * orthogonal to the modes known, until it has them all.
- *
- * Frames of few coordinates are solved densely, which yields all modes there are.
+ * The requested number of lowest modes of a frame, with a proof of completeness. A Krylov search may miss a mode
+ * without notice, above all a multiple one. The number of negative eigenvalues of C - omega^2 M is the number of modes
+ * below omega (Sylvester's law of inertia). confirm() computes it in a gap above the requested modes; if modes are
+ * missing, the search continues, orthogonal to the known modes, until all are found. Small frames are solved densely
+ * for all modes.
  */
 class SturmCheckedModes
 {
@@ -26,7 +23,7 @@ public:
 
   virtual ~SturmCheckedModes() = default;
 
-  /// Looks for the lowest `count`, 0 <= count <= coordinates.
+  /// Computes the lowest `count`, 0 <= count <= coordinates.
   /// @throws ConvergenceFailure with the number found.
   void find(int count);
 
@@ -37,7 +34,7 @@ public:
   /// @throws ConvergenceFailure as these do, and if some are missing in every round.
   LowestModes find_all(int count);
 
-  /// No more will be asked for than the modes looked for last: gives back the memory of the search and of the factor.
+  /// Ends the search: frees the memory of the search and of the factor.
   void finish();
 
   /// After finish(): the modes looked for last, and some more, up to a gap.  If dense, all there are.
@@ -46,14 +43,14 @@ public:
   /**
    * After finish(): whether the modes found are all there are below the gap.
    *
-   * If not, those that are missing have been found, and the frame's factor is there again; what was made of the modes
-   * must be made anew, from find() on.
+   * If not, the missing ones have been computed, and the frame's factor is available again; repeat all uses of the
+   * modes, starting at find().
    *
-   * @throws ConvergenceFailure if the inertia cannot be told, or what is missing not found.
+   * @throws ConvergenceFailure if the inertia cannot be determined, or missing modes are not found.
    */
   bool confirm();
 
-  /// What was proved, as a sentence; empty before confirm(), and where nothing had to be.
+  /// The verification as a sentence; empty before confirm(), and if not needed.
   const std::string &statement() const { return statement_; }
 
   bool dense() const { return dense_; }

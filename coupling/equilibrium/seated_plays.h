@@ -6,8 +6,8 @@ namespace gestell::coupling
 {
 
 /**
- * Where plays that a motion closes rest while they are open at a state: on the side on which weight and inertia press,
- * docs/theory/start.md (16).  A play that carries no force stays in its middle; one that would pull is left to its law.
+ * Seating of plays that a motion closes but that are open at a state: on the side loaded by weight and inertia,
+ * docs/theory/start.md (16). A play without force stays centred; one in tension is left to its law.
  *
  * The position closes joints and keeps what is held; it is where the search for the equilibrium (15) begins.
  *

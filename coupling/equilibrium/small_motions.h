@@ -12,7 +12,7 @@ struct SmallMotions
 {
   Eigen::MatrixXd Z;                   ///< [n x m] motions that joints allow; virtual coordinates do not move
   Eigen::MatrixXd K;                   ///< [m x m]
-  bool            circulatory = false; ///< forces follow the motion: K is not symmetric
+  bool            circulatory = false; ///< with follower forces: K is not symmetric
 };
 
 /// @param C  [n x n] the stiffness of `balance` where it was evaluated last; of forces that have a potential its
@@ -23,7 +23,7 @@ SmallMotions small_motions(StaticBalance &balance, const Eigen::MatrixXd &C);
 struct Growth
 {
   double          rate = 0.; ///< [1/s] of exp(rate t), without damping
-  double          hz   = 0.; ///< of a flutter, which the forces that follow the motion excite; 0: it falls
+  double          hz   = 0.; ///< of a flutter by follower forces; 0: a divergence
   Eigen::VectorXd motion;    ///< [n]
 
   bool        falls() const { return rate > 0. && hz == 0.; }

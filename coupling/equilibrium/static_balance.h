@@ -10,13 +10,13 @@ namespace gestell::coupling
 {
 
 /**
- * The equations of statics of a machine and what is held of it,
+ * The static equations of a machine with its fixed coordinates,
  *
  *     r = [ C q - s f_t - W p(q, 0) - A^T lambda ],     A = [ G W^T ],     saddle = [ K  -A^T ] = dr/d(q, lambda),
  *         [              open                    ]          [ held  ]               [ A    0  ]
  *
- * with the share s of the loads; p holds the joints' forces, K the geometric stiffness.  Rows of virtual coordinates
- * keep them as they are.  Laws that depend on u' act as at rest; what sticks carries no force.
+ * with the share s of the loads; p holds the joints' forces, K the geometric stiffness.  Virtual coordinates are kept
+ * constant. Laws that depend on u' act as at rest; sticking elements carry no force.
  *
  * In motion r has M (a + S alpha) + B v besides, alpha in place of the multipliers of what is held; laws act as at v
  * and a + S alpha, and virtual coordinates take their stationary values.
@@ -42,7 +42,7 @@ public:
                 Eigen::VectorXd &residual);
   /// The forces on these measures act no more.
   void leave_out(int first_measure, int n_measures) { acts_.segment(first_measure, n_measures).setZero(); }
-  /// The saddle matrix with the stiffness of engaged elements: open play gives none, closed elements show the way.
+  /// The saddle matrix with the stiffness of engaged elements, since open play has none.
   Eigen::MatrixXd with_closed_chains(const Eigen::VectorXd &q, Eigen::MatrixXd saddle) const;
 
 private:
@@ -63,9 +63,8 @@ private:
 };
 
 /**
- * Says of a motion [n] that runs away under the loads which part of the machine does: "the motion of slide has neither
- * stiffness nor weight that holds it here; hold it", or of a frame that moves as a whole how it is free and what would
- * hold it.
+ * Text on a motion [n] that diverges under the loads: "the motion of slide has neither stiffness nor weight to restore
+ * it here; add a spring, ...", or the rigid-body modes of the frame and the remedy.
  */
 std::string mechanism_mode_text(const Machine &machine, const Eigen::VectorXd &motion);
 

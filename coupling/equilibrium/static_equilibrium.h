@@ -24,18 +24,18 @@ enum class Floating
  *
  *     C q = f_t + W p(q, 0),     p = G^T lambda of joints,     g(t, q) = 0,
  *
- * by Newton's method with the whole tangent (geometric stiffness included); where it fails, constant loads are put on
- * in parts.  Laws that depend on u' act as at rest; what sticks carries no force.  The velocity of the drift follows
+ * by Newton's method with the whole tangent (geometric stiffness included); where it fails, constant loads are applied
+ * in steps. Laws that depend on u' act as at rest; sticking elements carry no force.  The velocity of the drift follows
  * from the equilibrium's derivative, K q' = W G^T lambda',  G W^T q' = -dg/dt.
  *
- * Relieved, a machine that floats has the deflection in which it accelerates as a whole, with the motions R that cost
- * no energy and break no joint, R^T M R = E:
+ * With inertia relief a floating machine has the deflection of its accelerated motion, with the rigid-body modes R, R^T
+ * M R = E:
  *
  *     C q = (1 - M R R^T)(f_t + W p),     R^T M (q - q_assembled) = 0,     acceleration R R^T (f_t + W p),
  *
- * so that a run starts without vibration; a note tells the acceleration.
+ * so that a run starts without vibration; a note gives the acceleration.
  *
- * @throws std::invalid_argument if a motion has neither stiffness nor weight to hold it, or no equilibrium is found
+ * @throws std::invalid_argument if a motion has neither stiffness nor weight, or no equilibrium is found
  */
 InitialState static_equilibrium(Machine &machine, const InitialState &assembled, Drift drift,
                                 Floating floating = Floating::refused);
@@ -47,10 +47,10 @@ struct HeldEquilibrium
 };
 
 /**
- * The same with the machine held where it is asked for: given coordinates of bodies and measures keep their values,
- * driven joints stand where `position.shifts` has them; what holds them takes up any force.  Of loads that vary with
- * time the constant part acts; technological forces and drives rest (Acting::structure), for the machine stands still.
- * A motion without stiffness along which no force acts stays where it is.
+ * The same with fixed coordinates: given coordinates of bodies and measures keep their values,
+ * driven joints are at `position.shifts`; constraint forces are arbitrary.  Of loads that vary with
+ * time the constant part acts; technological forces and drives are off (Acting::structure), since the machine is at
+ * rest. A motion without stiffness along which no force acts stays where it is.
  *
  * Of a machine in motion everything acts, what is held goes on with an acceleration that no force holds it to, and
  * loads have the inertia and the damping of the motion beside them, docs/theory/start.md (15).

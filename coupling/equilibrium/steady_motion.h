@@ -14,8 +14,8 @@ namespace gestell::coupling
  *     G W^T v = -rate,        v_h = given,       G W^T a = -bias,       a_h = 0,
  *     G W^T S = 0,            S_h = E.
  *
- * What that leaves open closes compliant joints and chains of closed elements, then plays, the tightest first, then
- * costs least elastic energy, then moves least.
+ * Remaining freedom closes compliant joints and chains of closed elements, then plays, the smallest first, then
+ * minimises elastic energy, then motion.
  */
 struct SteadyMotion
 {

@@ -20,26 +20,25 @@ struct SteadyStart
 };
 
 /**
- * State from which the machine runs on steadily for an instant (docs/theory/start.md): the frame rests, rotors turn as
+ * Initial state of a steady motion (docs/theory/start.md): the frame rests, rotors turn as
  * given, sliders follow the closed elements kinematically, g(q) = 0, grad g . q' = 0, grad g . q'' = -q'^T g'' q'; the
  * positions are those of equilibrium with weights, element forces and the inertia of that motion; what sticks carries
  * no force,
  *
  *     M q'' + B q' + C q = f_t + W p(q, q', q'').
  *
- * @throws std::invalid_argument if angles and driver do not match, or if a motion is free and not balanced: it is
- * named; ConvergenceFailure if Newton finds no equilibrium.
+ * @throws std::invalid_argument if angles and driver do not match, or for an unbalanced free motion, with its name;
+ * ConvergenceFailure if Newton's method finds no equilibrium.
  */
 InitialState steady_start(Machine &machine, const SteadyStart &start);
 
 /**
- * The jointed counterpart of steady_start(): the state from which the machine runs on quietly, joints closed in
- * position and rate, everything elastic in equilibrium with the forces of the instant and with the inertia of its
- * motion (docs/theory/start.md (15)),
+ * The counterpart of steady_start() with joints: joints closed in position and rate, everything elastic in equilibrium
+ * with the forces of the instant and with the inertia of its motion (docs/theory/start.md (15)),
  *
  *     M (a + S alpha) + B v + C q = f_t + W p(t, q, v, a + S alpha),     g(t, q) = 0.
  *
- * alpha [n_h] accelerates what has a given speed: what the drives give too much or too little.
+ * alpha [n_h] accelerates the coordinates with given speed: the imbalance of the drives.
  *
  * @param known  as for assemble(); what has a given speed keeps its position, other positions are first guesses
  * @throws std::invalid_argument without a given speed, or as assemble(), steady_motion() and static_equilibrium()

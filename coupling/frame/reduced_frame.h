@@ -32,21 +32,21 @@ struct ReducedFrame
   Eigen::MatrixXf                    displacement; // [3 points x (n1+m)]
   ReducedStress                      stress;
 
-  // what is known about the model
+  // known properties of the model
   int             n_full        = 0; ///< coordinates of the unreduced frame
   int             n_cells       = 0;
   int             n_fixed_modes = 0;       ///< of the columns behind the interface; the rest are static shapes
   double          mass          = 0.;      ///< [kg]
   fem::FrameFacts facts;                   ///< of a frame made of cells
   Eigen::VectorXd frequencies_hz;          // [p] supported frame, interface free, from the reduced model
-  double          frequency_limit_hz = 0.; ///< up to which the model is meant to hold
+  double          frequency_limit_hz = 0.; ///< up to which the model should be valid
   Eigen::VectorXd frequency_error;         // [p] estimated relative error of these, >= 0; NaN: unknown
   /// [n1 x n1] Psi^T M (C22^-1 - V22 diag(1/omega_0^2) V22^T) M Psi, sum of m_j m_j^T/omega_j^2 over the truncated
   /// fixed-interface modes, m_j their coupling masses; or empty: unknown. Static shapes of the basis are not included.
   Eigen::MatrixXd          left_out;
   double                   static_residual = 0.; ///< relative part of the static load on q2 that the modes do not carry
-  std::vector<std::string> notes;                ///< warnings of the making
-  std::vector<std::string> statements;           ///< what was checked in the making and is as it should be
+  std::vector<std::string> notes;                ///< warnings of the reduction
+  std::vector<std::string> statements;           ///< checks of the reduction without warning
   std::vector<std::string> cache_notes;          ///< from the cache of this computer; in no file
 
   std::vector<std::string> all_notes() const

@@ -8,27 +8,27 @@
 namespace gestell::coupling
 {
 
-/// Where a reduced frame comes from, kept with it; all of it may be empty.
+/// Origin of a reduced frame, stored with it; every part may be empty.
 struct FrameOrigin
 {
-  Recipe      recipe; ///< what it was made from; its key follows from it
-  std::string scene;  ///< file of the scene that asked for it first
+  Recipe      recipe; ///< its inputs, which determine its key
+  std::string scene;  ///< file of the scene that requested it first
   std::string source; ///< CAD file or matrix; for people
 };
 
 /**
  * Writes a reduced frame as HDF5: matrices as datasets in column-major order (dimensions reversed, as HDF5 counts rows
  * first), one group per interface and output, and its origin.  Format's version and a checksum of the whole stand as
- * text in the first 512 bytes (checksummed_file.h).  The file appears complete or not at all: it is written beside its
- * place and then renamed, so that any number of processes may write the same one.  Equal frames give equal files.
+ * text in the first 512 bytes (checksummed_file.h).  The file is written atomically (temporary file, then rename), so
+ * that several processes may write the same one. Equal frames give equal files.
  *
- * @throws std::runtime_error if the folder cannot be made or the file not be written.
+ * @throws std::runtime_error if the folder cannot be created or the file not be written.
  * @throws std::invalid_argument for a frame that is not modal.
  */
 void write_reduced_frame(const std::string &file, const ReducedFrame &frame, const FrameOrigin &origin = {});
 
-/// Reads what write_reduced_frame() wrote, bit by bit; a file that this process has not read yet in a forked child
-/// first (tried_file.h), as somebody may have forged it.  read_stored_frame() makes none: it is for files of our own.
+/// Reads what write_reduced_frame() wrote, bit by bit; a file not yet read by this process in a forked child first
+/// (tried_file.h), since it may be forged. read_stored_frame() uses no child: it is for our own files.
 /// @throws std::invalid_argument if the file is missing, damaged, of another version or not a reduced frame.
 ReducedFrame read_reduced_frame(const std::string &file);
 

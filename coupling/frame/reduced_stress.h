@@ -12,13 +12,13 @@ namespace gestell::coupling
 {
 
 /**
- * Stresses at the skin of a reduced frame, see fem::StressRecovery; empty unless they were asked for.
+ * Stresses at the skin of a reduced frame, see fem::StressRecovery; empty unless requested.
  *
  *     sigma = mean [p; g],   g [3] the acceleration field (gravity).
  *
- * The columns of p hold the stresses of constraint modes and of fixed-interface modes: loads at the interfaces are
- * carried statically exactly, vibrations by the kept modes.  Those of g hold what the static deflection under a unit
- * field has beyond the modes, so that the stress of the weight is exact as well.
+ * The columns of p contain the stresses of constraint modes (exact statics under interface loads) and of
+ * fixed-interface modes (vibration). Those of g contain the static deflection under a unit field beyond the modes, so
+ * that the stress under weight is also exact.
  */
 struct ReducedStress
 {

@@ -16,7 +16,7 @@ struct StressPeak
   double von_mises = 0.; ///< [Pa]
 };
 
-/// Where among all states and all points that count sigma_v is largest, and how many points had to be looked at.
+/// State and point of the largest sigma_v, and the number of evaluated points.
 struct StressSearch
 {
   StressPeak peak;
@@ -31,10 +31,10 @@ struct StressSearch
  *
  *     max_t sigma_v,i(t)  <=  sum_r |A_i b_r| max_t |c_r(t)|.
  *
- * The b_r are the principal components of the states in the norm z^T S^T S z, few of which carry most of the motion, so
- * that the bound is near; what rounding hides in that norm, taken of coordinates over their largest values, is added
- * direction by direction.  Points are looked at in the order of their bounds until the largest bound left is below what
- * was found: the result is exact over all states given.
+ * The b_r are the principal components of the states in the norm z^T S^T S z, few of which contain most of the motion,
+ * so that the bound is tight; parts below rounding in that norm, scaled by the largest coordinates, are added direction
+ * by direction. Points are evaluated in the order of their bounds until the largest remaining bound is below the
+ * maximum found: the result is exact over all states.
  *
  * @param states  (p; g) [n1 + m + 3 x k], k >= 1
  * @param counts  [points]

@@ -9,19 +9,18 @@
 namespace gestell::coupling
 {
 
-/// Held while HDF5 works: it has one lock of its own, which a child must not inherit from another thread.
+/// Locked while HDF5 works: it has one internal lock, which a child must not inherit from another thread.
 std::unique_lock<std::mutex> hdf5_alone();
 
 /**
- * Reads a file in a forked child first, once in this process for a file as it is, so that a crash of HDF5, which
- * follows the addresses of a file wherever they lead, becomes a message.  (A seal shows damage, not forgery.)
- * hdf5_alone() is held.
+ * Reads a file in a forked child first, once in this process for a file as it is, so that a crash of HDF5, which trusts
+ * the addresses in a file, becomes a message. (A checksum detects damage, not forgery.) hdf5_alone() is locked.
  *
  * @param phase   what of it is read, for the message: "reading the frame"
  * @param defect  reads the file; why it cannot be read, "" if it can
  * @return        what `defect` returned; "" where no child is made, by GESTELL_ONE_PROCESS
- * @throws std::invalid_argument if the child dies or does not end, with the way out; std::runtime_error if none can be
- *         made
+ * @throws std::invalid_argument if the child dies or does not end, with the remedy; std::runtime_error if none can be
+ * created
  */
 std::string defect_in_child(const std::string &file, const std::string &phase, const fem::ReadingLimits &limits,
                             const std::function<std::string()> &defect);

@@ -15,7 +15,7 @@ struct DampedMode
   Eigen::Index nearest; ///< column of DenseModes::V
 };
 
-/// How much of the coupling of modes by dampers may be left out: relative errors of s, and of its real part.
+/// Tolerance of neglected mode coupling by dampers: relative errors of s, and of its real part.
 struct CouplingTolerance
 {
   double of_s, of_decay;
@@ -26,12 +26,12 @@ struct CouplingTolerance
  *
  *     (s^2 E + s B + diag(omega^2)) y = 0,     B = V^T B V [p x p], symmetric.
  *
- * Modes that dampers couple hardly are taken each by itself: coupling of mode j with mode i moves its s by about
+ * Weakly coupled modes are solved separately: coupling of mode j with mode i moves its s by about
  *
  *     B_ij^2 s^2 / ((2 s + B_jj) (s^2 + B_ii s + omega_i^2))
  *
- * and as much of this as the tolerance allows is left out, the smallest first.  What is joined by the rest is solved
- * together: a frame with a few dashpots takes the time of its few joined modes, not that of all.
+ * and couplings within the tolerance are neglected, the smallest first. Modes joined by the rest are solved together: a
+ * frame with a few dashpots needs the time of its few coupled modes only.
  *
  * Source: docs/stability.md, Damped modes.
  * @throws std::invalid_argument if an entry of B is not finite
@@ -40,7 +40,7 @@ std::vector<DampedMode> damped_modes(const DenseModes &modes, const Eigen::Matri
                                      const CouplingTolerance &tolerance);
 
 /**
- * The same of forces that follow the motion, all modes together: B and C are by the dual basis of circulatory_modes()
+ * The same with follower forces, all modes together: B and C are by the dual basis of circulatory_modes()
  * and not symmetric, C in place of diag(omega^2).  A flutter has zeta < 0.
  */
 std::vector<DampedMode> all_damped_modes(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B);

@@ -6,15 +6,15 @@ namespace gestell::coupling
 {
 
 /**
- * Where the energies of modes lie.  A mode v with v^T M v = 1 and v^T K v = omega^2 has in a spring p, of stiffness
- * K_p, and in the coordinates I of a body
+ * Distribution of the energies of modes.  A mode v with v^T M v = 1 and v^T K v = omega^2 has in a spring p, of
+ * stiffness K_p, and in the coordinates I of a body
  *
  *     strain:   v^T K_p v / omega^2,     kinetic:   sum_{i in I} v_i (M v)_i,
  *
  * each of which sums up to 1.  Springs are the frame on its supports, linear elements, and nonlinear ones as they are
- * engaged; what forces that turn with the motion do (geometric stiffness) is one more and may be negative.  The mass of
- * a body that moves with a marker of the frame counts as the frame's.  Strain shares of a mode without frequency are
- * nan, and all shares of one that flutters, whose energies are no constants.
+ * engaged; geometric stiffness is one more share and may be negative.  The mass of
+ * a body that moves with a marker of the frame counts as the frame's.  Strain shares of a mode with frequency zero are
+ * nan, and all shares of a flutter mode, whose energies are not constant.
  */
 struct EnergyShares
 {

@@ -7,7 +7,7 @@
 namespace gestell::coupling
 {
 
-/// Which linear machine a mode belongs to.
+/// The linear machine of a mode.
 enum class ModeOrigin
 {
   base,  ///< frame and bodies, with what elements are while they are open
@@ -19,9 +19,9 @@ enum class ModeOrigin
  *
  *     y'' + B y' + diag(omega^2) y = 0,     q = Z V y,     B = V^T Z^T B Z V [p x p]
  *
- * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.  Of forces
- * that follow the motion it is not symmetric: V are those of circulatory_modes(), B and C [p x p] are by the dual
- * basis, and C takes the place of diag(omega^2).
+ * where Z spans the motions that joints leave free; geometric stiffness of joints and elements is part of C.  With
+ * follower forces it is not symmetric: V are those of circulatory_modes(), B and C [p x p] are by the dual basis, and C
+ * takes the place of diag(omega^2).
  */
 struct LinearMachine
 {
@@ -42,7 +42,7 @@ struct LargeMode
 };
 
 /**
- * What an integrator with a fixed step sees of a machine: base and, where that differs, closed.
+ * Modes relevant to an integrator with a fixed step: base and, if different, closed.
  *
  * A frame that is too large for dense matrices gives its lowest modes and, as a `bound`, the highest one with closed
  * contacts, by power iteration.

@@ -22,7 +22,7 @@ struct DampedOscillation
 struct PencilFit
 {
   std::vector<DampedOscillation> oscillations;  ///< the strongest, ascending in frequency
-  double                         residual = 0.; ///< what all poles leave of the samples, relative to them
+  double                         residual = 0.; ///< relative residual of all poles
 };
 
 /**
@@ -32,8 +32,8 @@ struct PencilFit
  *     z = eigenvalues of V_first^+ V_last,     s = log(z)/h,
  *
  * V_first and V_last being V without its last and first row, L = n/2.  r is where singular values fall below 1e-4 of
- * the largest, so that weak oscillations and a constant have poles of their own and do not spoil the strong ones;
- * `most` oscillations with the largest amplitudes are told, each signal measured by its own range.
+ * the largest, so that weak oscillations and a constant have separate poles and do not disturb the strong ones; the
+ * `most` oscillations with the largest amplitudes, relative to the range of each signal, are returned.
  *
  * @param samples  [n x signals] at equal times, n at least 16
  * @param h        [s] between samples

@@ -6,8 +6,8 @@ namespace gestell::coupling
 {
 
 /**
- * A small frame given by matrices as a machine takes it: every physical coordinate kept (not modal), those of
- * interfaces first, the others in their order.  A modal damping ratio zeta becomes
+ * A small frame given by matrices in the form of a machine: all physical DOFs (not modal), those of interfaces first,
+ * the others in their order.  A modal damping ratio zeta becomes
  *
  *     B + M Phi diag(2 zeta omega) Phi^T M,     C phi = omega^2 M phi,   phi^T M phi = 1.
  *

@@ -8,12 +8,12 @@
 namespace gestell::coupling
 {
 
-/// What is known about a reduced model.
+/// Error estimate of a reduced model.
 struct ReductionEstimate
 {
   FrequencyEstimate frequencies; ///< of the model, and their errors
   RefinedModes      damped;      ///< modes that a modal damping ratio refers to
-  double            limit;       ///< [rad/s] up to which the model is meant to hold
+  double            limit;       ///< [rad/s] up to which the model should be valid
 };
 
 /**
@@ -25,7 +25,7 @@ struct ReductionEstimate
 ReductionEstimate estimate(const ReductionSpace &space, const ReducedMatrices &star, bool completed,
                            const ReductionOptions &options);
 
-/// What the modes leave out of the static deflection of q2 under loads f [n x k]:  C22^-1 f2 - V22 diag(1/omega_0^2)
+/// Part of the static deflection of q2 under loads f [n x k] that the modes miss:  C22^-1 f2 - V22 diag(1/omega_0^2)
 /// V22^T f2.
 struct StaticRemainder
 {

@@ -15,11 +15,11 @@ struct ReducedModel
 };
 
 /**
- * Reduces a frame by the method that options name (Reductions): T of the method, one projection and one estimate of
- * what the model leaves out for all.
+ * Reduces a frame by the method that options name (Reductions): T of the method, with a common projection and error
+ * estimate.
  *
- * @param frame   M, B, C [n x n] symmetric, both triangles stored; C22 positive definite (nothing of the frame may move
- *                freely while the interface is held); interfaces may be none if modes are kept.
+ * @param frame   M, B, C [n x n] symmetric, both triangles stored; C22 positive definite (no rigid-body mode with the
+ * interface fixed); interfaces may be empty if modes are retained.
  * @param options 0 <= n_modes <= n - n1 or < 0; tolerance > 0; frequency >= 0 [Hz].
  * @throws std::invalid_argument (sizes, free motions, names), ConvergenceFailure (eigenvalue solver).
  */

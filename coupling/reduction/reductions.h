@@ -9,13 +9,13 @@
 namespace gestell::coupling
 {
 
-/// The names are of the light half, the work is of the heavy one: only reduce_frame() asks for `basis`.
+/// The names are in the core part, the work in the FEM part: only reduce_frame() uses `basis`.
 template <typename... Methods>
 struct ReductionTable
 {
   static std::vector<ReductionEntry> entries() { return {Methods::entry()...}; }
 
-  /// Null where nothing is to be made, or nothing is called so.
+  /// Null without a reduction, or for an unknown name.
   static BasisFunction *basis(const std::string &name)
   {
     BasisFunction *found = nullptr;
@@ -24,7 +24,7 @@ struct ReductionTable
   }
 };
 
-/// All there are: a line each.
+/// All reductions, a line each.
 using Reductions = ReductionTable<CraigBampton,  //
                                   FreeInterface, //
                                   Guyan,         //

@@ -13,14 +13,14 @@
 namespace gestell::coupling
 {
 
-/// Where a part stands:  x = at + Q x_part,  Q orthogonal, with det Q = -1 a mirror image.
+/// Placement of a part:  x = at + Q x_part,  Q orthogonal, with det Q = -1 a mirror image.
 struct Placement
 {
   Eigen::Matrix3d Q  = Eigen::Matrix3d::Identity();
   Eigen::Vector3d at = Eigen::Vector3d::Zero(); ///< [m]
 };
 
-/// A part of a frame as it is drawn, and where it stands.
+/// A part of a frame as drawn, and its placement.
 struct FramePart
 {
   std::string             name;
@@ -32,12 +32,12 @@ struct FramePart
 enum class JointKind
 {
   weld,    ///< the two interfaces move as one
-  contact, ///< the same as long as they are pressed together
+  contact, ///< the same while in compression
   bolts,   ///< springs and dampers
-  tie_rod  ///< a bar that pulls two interfaces together
+  tie_rod  ///< a tension bar between two interfaces
 };
 
-/// Springs and dampers along orthonormal axes, at each of several points, with springs against turning.
+/// Springs and dampers along orthonormal axes, at each of several points, with springs against rotation.
 struct BoltedJoint
 {
   Eigen::Matrix3d              axes               = Eigen::Matrix3d::Identity(); ///< columns
@@ -82,7 +82,7 @@ struct FrameJoint
   bool                  keep = false; ///< the first interface carries something of the mechanism, too
   std::string           place;
 
-  /// Whether an opening joint would be one that the linear frame does not know of.
+  /// Whether the joint may open, which a linear frame cannot model.
   bool closes() const
   {
     return kind == JointKind::contact || (kind == JointKind::bolts && normal != Eigen::Vector3d::Zero());
@@ -107,7 +107,7 @@ std::vector<std::string> kept_interfaces(const FrameOfParts &frame);
 /// The same with their names in the frame.
 std::vector<fem::InterfaceSpecification> interfaces_in_frame(const FrameOfParts &frame);
 
-/// Forces of a joint that a scene may ask for, and their units: "joint.left foot.fx" ..., "joint.rod.force".
+/// Forces of a joint available in a scene, and their units: "joint.left foot.fx" ..., "joint.rod.force".
 std::vector<std::pair<std::string, std::string>> joint_outputs(const FrameJoint &joint);
 
 } // namespace gestell::coupling

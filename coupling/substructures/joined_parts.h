@@ -25,14 +25,15 @@ struct JoinedParts
 /**
  * Joins parts at their interfaces.
  *
- * The coordinates of all parts beside each other, q = G q_j, are those q_j of the joined frame: at a weld the second
+ * The coordinates of all parts, q = G q_j, follow from those q_j of the joined frame: at a weld the second
  * interface moves with the first, u_2 = u_1 + theta_1 x (x_2 - x_1), theta_2 = theta_1.  Bolts and tie rods are springs
  * between interfaces:
  *
  *     M = G^T diag(M_i) G + rods,   C = G^T (diag(C_i) + sum R^T K R) G,   R q the motion of the second end against
  *     the first at the point of the joint.
  *
- * q = 0 is the frame with tightened rods.  A joint's force on its second part is what this needs beside its springs:
+ * q = 0 is the frame with tightened rods.  A joint's force on its second part is the rest of the equation of motion
+ * beyond its springs:
  *
  *     f_2 = M_2. q'' + B_2. q' + C_2. q - f_g + preload,
  *

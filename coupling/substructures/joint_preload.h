@@ -7,7 +7,7 @@
 namespace gestell::coupling
 {
 
-/// What tightened tie rods do to a joint at rest, without other loads.
+/// Preload of a joint at rest by tightened tie rods, without other loads.
 struct JointPreload
 {
   std::string                 joint;

@@ -12,8 +12,8 @@ namespace gestell::coupling
  * Springs and dampers between two interfaces:  force on the second  f = -(K r + D r'),  r = R q its motion against the
  * first.
  *
- * Bolts: r [6] at the point x amid the two interfaces; each bolt at x_i with stiffnesses k along the axes A gives
- * K += H_i^T A diag(k) A^T H_i,  H_i the motion of x_i with the point.  Tie rod: r its elongation, K = E A / L.
+ * Bolts: r [6] at the point x midway between the two interfaces; each bolt at x_i with stiffnesses k along the axes A
+ * gives K += H_i^T A diag(k) A^T H_i,  H_i the motion of x_i with the point.  Tie rod: r its elongation, K = E A / L.
  */
 struct JointSpring
 {
@@ -21,7 +21,7 @@ struct JointSpring
   Eigen::MatrixXd K, D; // [k x k]
 };
 
-/// @throws std::invalid_argument of a tie rod whose ends are at one place.
+/// @throws std::invalid_argument for a tie rod with coinciding ends.
 JointSpring spring_of(const FrameJoint &joint, const PartUnion &parts);
 
 /// Unit elongation of a tie rod [n], d^T (u_2 - u_1), d from the first end to the second.

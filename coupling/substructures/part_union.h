@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-/// Parts beside each other, nothing joined: q = (q_1, q_2, ...), block diagonal matrices.
+/// All parts, not joined: q = (q_1, q_2, ...), block diagonal matrices.
 struct PartUnion
 {
   Eigen::MatrixXd               M, B, C;           // [n x n]

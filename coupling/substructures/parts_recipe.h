@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-/// What the joined frame is made from: the recipes of its parts, where they stand, and their joints.
+/// Inputs of the joined frame: the recipes of its parts, their placements, and their joints.
 /// @throws std::invalid_argument if a file cannot be read.
 Recipe recipe_of(const FrameOfParts &frame, const ReductionOptions &options);
 

@@ -7,15 +7,15 @@ namespace gestell::coupling
 {
 
 /**
- * A part where it stands in the frame: interfaces move along the frame's axes, outputs and interfaces are called after
- * the part, "crown.bearing".  Forces of supports keep the axes of the part.
+ * A part placed in the frame: interface DOFs along the frame's axes, outputs and interfaces named after the part,
+ * "crown.bearing".  Forces of supports keep the axes of the part.
  *
  *     u_part = Q^T u,   theta_part = det(Q) Q^T theta,   q_part = S q,   M <- S^T M S,   f_g <- S^T f_g Q^T
  *
  * (rotations are axial vectors: a mirror turns them about).
  *
  * @param part  reduced in its own coordinates.
- * @throws std::invalid_argument if it turns while some coordinates of an interface are held.
+ * @throws std::invalid_argument if it is rotated while some DOFs of an interface are fixed.
  */
 ReducedFrame placed(ReducedFrame part, const std::string &name, const Placement &placement);
 

@@ -7,8 +7,8 @@
 namespace gestell::coupling
 {
 
-/// A frame of parts, each reduced (equal ones once, and taken from the cache or kept there), joined, and reduced once
-/// more to the interfaces that are kept.
+/// A frame of parts, each reduced (equal ones once, from the cache or stored there), joined, and reduced once more to
+/// the retained interfaces.
 ReducedFrame reduced_frame_of_parts(const FrameOfParts &frame, const ReductionOptions &options,
                                     const Progress &progress);
 

@@ -13,10 +13,8 @@ namespace gestell::coupling
 {
 
 /**
- * (C - omega^2 M) v = 0 as vectors of PETSc have it: without the coordinates held, and on each of several processes by
- * the rows that it owns.
- *
- * Nothing of the matrices is copied.  Products and solutions are collective.
+ * (C - omega^2 M) v = 0 in the layout of PETSc vectors: without fixed coordinates, and on each process with its own
+ * rows. Matrices are not copied.  Products and solutions are collective.
  */
 class ModeProblem
 {
@@ -42,7 +40,7 @@ public:
   void mass_times(const double *x, double *y) const { multiply(M_, x, y); }
   void stiffness_times(const double *x, double *y) const;
 
-  /// What was thrown within a callback of PETSc: exceptions must not cross C.
+  /// Exception thrown in a PETSc callback, since exceptions must not cross C.
   mutable std::exception_ptr failure;
 
 private:

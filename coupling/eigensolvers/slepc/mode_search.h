@@ -21,16 +21,16 @@ struct ModePencil
 };
 
 /**
- * The search for the lowest modes by an EPS of SLEPc: generalised Hermitian, shift-and-invert at 0 by the inverse at
- * hand.
+ * The search for the lowest modes by an EPS of SLEPc: generalised Hermitian, shift-and-invert at 0 by the given
+ * inverse.
  *
  * `eigensolver` is "block-lanczos" (our own type), "krylov-schur" or any type of SLEPc; hyphens in the names of SLEPc's
  * types do not count.  Preconditioned ones (lobpcg, gd, jd, rqcg) take the inverse as preconditioner.  Options of
  * PETSc and SLEPc with the prefix reduction_ (PETSC_OPTIONS="-reduction_eps_view") have the last word; a factor or a
  * solver of theirs (-reduction_st_pc_factor_mat_solver_type cholmod) gets copies of C22 and M22, in one process.
  *
- * @param known  modes found elsewhere, M-orthonormal: only further ones are looked for.
- * @throws ConvergenceFailure, also with what PETSc and SLEPc tell.
+ * @param known  modes found elsewhere, M-orthonormal: only further ones are computed.
+ * @throws ConvergenceFailure, also with the messages of PETSc and SLEPc.
  */
 std::unique_ptr<ModeSearch> search_modes(MPI_Comm comm, const ModePencil &pencil, const std::string &eigensolver,
                                          const BlockLanczos::Options &options, const LowestModes &known);

@@ -11,13 +11,13 @@
 namespace gestell::coupling
 {
 
-/// Static shapes of the inside under its own dampers.
+/// Static internal shapes under internal dampers.
 struct DamperAttachmentModes
 {
   Eigen::MatrixXd W;         ///< [n x k], zero on q1
   double          left = 0.; ///< estimated relative error of the damped receptance with them, including truncated modes
-  std::vector<double> of_groups{}; ///< the same of each interface by itself
-  bool exhausted = false; ///< no shape is left that has mass: what remains no coordinate of the model could carry
+  std::vector<double> of_groups{};       ///< the same of each interface by itself
+  bool                exhausted = false; ///< no remaining shape has mass: no DOF of the model could represent the rest
 };
 
 /// Whether B acts on anything but q1.
@@ -32,7 +32,7 @@ struct ModelOfModes
   const Eigen::MatrixXd &X;    ///< its shapes [n x k], zero on q1, or [n x 0]
 };
 
-/// What is asked of a receptance.
+/// Required accuracy of a receptance.
 struct ReceptanceGoal
 {
   std::vector<ReceptanceFrequency> frequencies; ///< to look at, as for InterfaceReceptance
@@ -42,8 +42,7 @@ struct ReceptanceGoal
 };
 
 /**
- * Completes a model by what it lacks of the deflection under the dampers inside the frame, such as those of its
- * foundation.
+ * Completes a model by the missing deflection under dampers inside the frame, such as those of its foundation.
  *
  * At the frequency omega let U = T p be the displacements of the model, the interface moved by E.  With
  * Z = (1 + 2 i zeta) C - omega^2 M + i omega B they leave the forces  r = (Z U)_2  unbalanced, and the dynamic
@@ -52,11 +51,11 @@ struct ReceptanceGoal
  *     r^T Z22^-1 r,    Z22^-1 ~ sum_j v_j v_j^T / ((1 + 2 i zeta) omega_0j^2 - omega^2)
  *                               + (C22^-1 - sum_j v_j v_j^T / omega_0j^2) / ((1 + 2 i zeta) (1 - omega^2 / omega_0^2))
  *
- * with the modes j that are known and omega_0 what no other lies below: from above for what inertia does beyond, and
- * without the dampers in Z22, which would lower it.  It is the error of modes left out and of dampers alike.
- * At the frequency where it makes the largest error of the receptance, principal directions of C22^-1 r become shapes,
- * and again, until the error is within the tolerance or `most` shapes are made.  Thus dampers of any strength are met:
- * shapes of second order, C22^-1 B C22^-1 B Psi, come with the second round.
+ * with the known modes j and omega_0 a lower bound of the others: an upper bound for inertia beyond, without the
+ * dampers in Z22, which would reduce it. It includes the errors of truncated modes and of dampers. At the frequency
+ * where it makes the largest error of the receptance, principal directions of C22^-1 r become shapes, and again, until
+ * the error is within the tolerance or `most` shapes are made.  Thus dampers of any strength are met: shapes of second
+ * order, C22^-1 B C22^-1 B Psi, come with the second round.
  *
  * @param held  with its factor.
  * Source: docs/theory/reduction.md (16e).

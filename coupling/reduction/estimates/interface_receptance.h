@@ -46,7 +46,7 @@ enum class Inside
 /// How many of them.
 struct InsideCount
 {
-  int modes  = -1; ///< < 0: those known do not do
+  int modes  = -1; ///< < 0: the known modes are not sufficient
   int shapes = 0;
 
   bool enough() const { return modes >= 0; }
@@ -54,8 +54,7 @@ struct InsideCount
 };
 
 /**
- * How far the receptance of the interface, H(omega) = D^-1 [n1 x n1], of a reduced model is from that of the full
- * frame.
+ * Error of the interface receptance H(omega) = D^-1 [n1 x n1] of a reduced model relative to the full frame.
  *
  * With g_j = M*_12 e_j the inertia by which fixed-interface mode j couples to the interface, the dynamic stiffness of
  * the full frame is, condensed to q1,
@@ -93,7 +92,7 @@ public:
   /// Fewest modes with an error within the tolerance.
   InsideCount fewest(double tolerance, Inside inside) const;
 
-  /// Error that the bounds of what lies beyond the modes known leave in D itself.
+  /// Uncertainty of D by the bounds of the modes beyond the known ones.
   double uncertainty() const;
 
   /// sum_i f_i f_i^T / (1 - s nu_i)

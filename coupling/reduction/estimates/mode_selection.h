@@ -17,9 +17,9 @@ namespace gestell::coupling
 /// frame.
 double highest_of_interest(const ReductionOptions &options, const RefinedModes &refined);
 
-/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", which
-/// interface is worst by itself, and what the book's rule, modes up to 3.5 times the highest frequency, would take.
-/// @param dampers inside the frame, if there are any and their effect is known.
+/// "reduction: 23 fixed-interface modes keep the receptance of the interface up to 80 Hz within 0.8 % ...", the worst
+/// single interface, and the number of modes of the book's rule (up to 3.5 times the highest frequency).
+/// @param dampers inside the frame, if any, with known effect.
 std::string receptance_statement(const InterfaceReceptance &receptance, const ReductionBasis &basis,
                                  const std::vector<fem::Interface> &interfaces, const InsideCount &inside,
                                  double frequency_hz, const DamperAttachmentModes *dampers = nullptr);
@@ -34,17 +34,17 @@ struct ModeSelection
 };
 
 /**
- * Brings the basis to the smallest number m of modes that will do.
+ * Reduces the basis to the smallest sufficient number m of modes.
  *
  * With options.frequency given: the receptance of the interface up to it is within options.tolerance of the full
  * frame's (InterfaceReceptance), by modes alone, or by fewer modes and the shapes X = C22^-1 (M Psi)_2 where these
  * are fewer together; where dampers act inside the frame their static shapes join them (damper_attachment_modes()).
  * Without, or without an interface: the twelve lowest elastic frequencies of the supported frame are, by modes.
  *
- * The basis grows by half of its modes at a time until its own estimate says so and its highest fixed-interface mode
- * lies 1.5 times above the limit, so that no mode is missing and what lies beyond is known well.  The smallest m is
- * then looked for among the modes there are.  At 200 modes growth
- * stops, for frequencies at the book's rule, modes up to 3.5 times the highest; then a note tells what was reached.
+ * The basis grows by half of its modes at a time until its estimate is within the tolerance and its highest
+ * fixed-interface mode is 1.5 times above the limit, so that no mode is missing and the rest is well bounded. The
+ * smallest m is then chosen among these modes. Growth stops at 200 modes, for frequencies at the book's rule (modes up
+ * to 3.5 times the highest); a note then gives the error reached.
  *
  * @param basis    with its constraint modes.
  * @param statics  its factor is released in the end.

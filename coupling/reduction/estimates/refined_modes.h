@@ -9,7 +9,7 @@ namespace gestell::coupling
 {
 
 /**
- * Modes of the supported frame with its interface free, better than the reduced model gives them.
+ * Modes of the supported frame with free interface, more accurate than those of the reduced model.
  *
  * All Ritz vectors T Phi* of the reduced model are improved together by one step of inverse iteration and a
  * Rayleigh-Ritz projection onto the result Y (one round of simultaneous iteration):
@@ -20,8 +20,8 @@ namespace gestell::coupling
  *
  *     C^-1 f = (0; C22^-1 f2) + Psi S^-1 Psi^T f,     S = C*_11 = C11 - C12 C22^-1 C21  [n1 x n1].
  *
- * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of ResidualFlexibility: all of it
- * takes place among the 2 n1 + m columns of [T, X], and nothing of the size of the frame is made or solved.
+ * For T Phi* = Psi a + V b this is Y = X a + V diag(1 / omega0^2) b + Psi c with X of ResidualFlexibility: only the 2
+ * n1 + m columns of [T, X] are needed, without matrices or solutions of the size of the frame.
  *
  * If the frame floats, S has its rigid motions as null space (motions_without_stiffness()); they are exact in the
  * reduced model and left out here.
@@ -41,7 +41,8 @@ RefinedModes refined_modes(const ReductionBasis &basis, const ReducedMatrices &s
 /// fixed-interface modes; for damping and as reference of its frequencies.
 RefinedModes ritz_modes(const ReducedMatrices &star, int n_rigid);
 
-/// How far the frequencies of the reduced model of the first m fixed-interface modes lie above the refined ones.
+/// Relative excess of the frequencies of the reduced model with the first m fixed-interface modes over the refined
+/// ones.
 struct FrequencyEstimate
 {
   Eigen::VectorXd omega; // [n1 + m] of the reduced model, rigid motions first (0)

@@ -6,13 +6,13 @@ namespace gestell::coupling
 {
 
 /**
- * Every coordinate kept, T = E, under two names of one thing: a machine takes the matrices as they are, dense if they
- * are few, else sparse.  Then each step is condensed to the coordinates that forces of the mechanism act on,
+ * All DOFs retained, T = E, under two names: a machine uses the matrices unchanged, dense if small, else sparse.  Then
+ * each step is condensed to the coordinates that forces of the mechanism act on,
  *
  *     A_LL q_L = b_L - A_LN q_N,     (A_NN - A_NL A_LL^-1 A_LN) q_N = b_N - A_NL A_LL^-1 b_L,     A = M + h B + h^2 C,
  *
- * with one sparse factor for each step width, kept over the ladder of steps: only q_N is in Newton's method.  The keys
- * are of the reduced companion that large frames start from.
+ * with one sparse factor for each step size, stored for all step sizes: only q_N is in Newton's method. The keys belong
+ * to the reduced companion of large frames.
  *
  * Source: (5.5.3/1 to 7); docs/theory/integration.md (8) to (10).
  */

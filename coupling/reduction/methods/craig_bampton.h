@@ -14,7 +14,7 @@ namespace gestell::coupling
  * q1, the coordinates of all interfaces, stays physical, so mechanisms attach to it unchanged; deflection under static
  * interface loads is exact for any number of modes.  One Cholesky factor of C22 serves all steps.
  *
- * Automatic number of modes (options.n_modes < 0): see select_modes().  That none is missing is proved by inertia, see
+ * Automatic number of modes (options.n_modes < 0): see select_modes().  Completeness is verified by inertia, see
  * SturmCheckedModes.
  *
  * Source: Craig & Bampton, AIAA Journal 6(7), 1968, 1313-1319; docs/theory/reduction.md.

@@ -6,8 +6,8 @@ namespace gestell::coupling
 {
 
 /**
- * Static shapes of the interface and modes of the frame as supported, its interface free, whose frequencies the reduced
- * model has exactly.  Together they span all of MacNeal's and Rubin's space: see free_modes().
+ * Constraint modes and modes of the supported frame with free interface, whose frequencies are exact in the reduced
+ * model. They span the space of MacNeal and Rubin: see free_modes().
  *
  * Source: Rubin, AIAA Journal 13(8), 1975, 995-1006; docs/theory/reduction.md.
  */

@@ -11,11 +11,9 @@ namespace gestell::coupling
  *     q = [ q1 ]  =  T q1,     T = [     E        ]
  *         [ q2 ]                   [ -C22^-1 C21  ]
  *
- * Statics under loads on the interface are exact, inertia of the inside follows them; frequencies come from above.
- * Modes that the frame has with its interface held are left out, and counted by inertia up to the frequency of
- * interest.
- *
- * options.frequency of zero: the model is meant to hold as far as the estimated error of its frequencies stays within
+ * Statics under loads on the interface are exact, internal inertia follows the static shapes; frequencies are upper
+ * bounds. Fixed-interface modes are omitted, and counted by inertia up to the frequency of interest. With
+ * options.frequency = 0 the model is valid as far as the estimated error of its frequencies is within
  * options.tolerance.
  *
  * Source: Guyan, AIAA Journal 3(2), 1965, 380; docs/theory/reduction.md (22).

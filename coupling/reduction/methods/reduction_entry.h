@@ -16,7 +16,7 @@ struct InterfaceStatics;
 struct ReductionOptions;
 struct ReductionSpace;
 
-/// A way to reduce a frame, as scenes name it.
+/// A reduction method with its name in scenes.
 struct ReductionEntry
 {
   enum class Makes

@@ -13,10 +13,9 @@ namespace gestell::coupling
 {
 
 /**
- * The columns of T that a method has chosen, and what it knows of the modes of the frame as supported, interface free.
- *
- * Their structure is what lets all reductions share one projection: E and zeros on the rows of q1, constraint modes
- * orthogonal in C to all others, the others orthonormal in M and orthogonal in C (ReductionBasis).
+ * The columns of T chosen by a method, and its knowledge of the modes of the supported frame with free interface. All
+ * reductions share one projection by their common structure: E and zeros on the rows of q1, constraint modes orthogonal
+ * in C to all others, the others orthonormal in M and orthogonal in C (ReductionBasis).
  */
 struct ReductionSpace
 {
@@ -26,7 +25,7 @@ struct ReductionSpace
 
   RefinedModes                   refined{};        ///< better than the model has them; n_rigid at least
   std::optional<Eigen::VectorXd> exact{};          ///< in place of it frequencies that the model has exactly [rad/s]
-  double                         limit = INFINITY; ///< [rad/s] up to which the model is meant to hold
+  double                         limit = INFINITY; ///< [rad/s] up to which the model should be valid
 
   std::vector<std::string> statements{}, notes{};
 };

@@ -16,18 +16,16 @@ namespace gestell::coupling
 class TeamFactor;
 
 /**
- * The frame with its interface held: the one factor of C22 that constraint modes, fixed-interface modes, static
- * residual and damping refinement share.  Vectors have all n rows; those of q1 are held at zero.
+ * The frame with its interface fixed: the factor of C22 shared by constraint modes, fixed-interface modes, static
+ * residual and damping refinement. Vectors have all n rows; those of q1 are zero. The factor dominates the memory;
+ * release() frees it before modes are counted.
  *
- * The factor is by far the largest thing in memory; release() gives it back before modes are counted.
- *
- * Where mpirun started several ranks the factor lies on all of them, and they find the modes together: see
- * DividedFactor.
+ * Under mpirun the factor is distributed over all ranks, which compute the modes together: see DividedFactor.
  */
 class FixedInterfaceFrame
 {
 public:
-  /// @throws std::invalid_argument if C22 is singular, naming the motion that is free.
+  /// @throws std::invalid_argument if C22 is singular, with the free motion.
   /// @param eigensolver  see search_modes().
   FixedInterfaceFrame(const fem::FrameMatrices &frame, const std::vector<int> &q1,
                       std::string eigensolver = "block-lanczos");
@@ -46,7 +44,7 @@ public:
   /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; works when released too.
   Inertia below(double omega) const;
 
-  /// The same of the frame with nothing held, rigid motions among them; makes a pattern of its own at first.
+  /// The same for the free interface, rigid-body modes included; creates its own pattern at first.
   Inertia below_if_free(double omega);
 
   const std::string &eigensolver() const { return eigensolver_; }

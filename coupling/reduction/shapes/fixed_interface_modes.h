@@ -12,7 +12,7 @@ namespace gestell::coupling
 class FixedInterfaceModes final : public SturmCheckedModes
 {
 public:
-  /// Both must outlive this; the frame's factor may be released while nothing is searched for.
+  /// Both must outlive this; the frame's factor may be released outside of searches.
   FixedInterfaceModes(FixedInterfaceFrame &held, const fem::FrameMatrices &frame, const std::vector<int> &q1,
                       const BlockLanczos::Options &options = {});
 

@@ -14,7 +14,7 @@ namespace gestell::coupling
 {
 
 /**
- * C^+ of the frame with its interface free, on loads in balance, from the factor of C22 by block elimination
+ * C^+ of the frame with its interface free, for balanced loads, from the factor of C22 by block elimination
  * (reduction.md (15)):
  *
  *     x = (0; C22^-1 f2) + Psi S^+ Psi^T f,     x^T M R = 0,     S = C*_11.
@@ -36,7 +36,7 @@ private:
   Eigen::MatrixXd            S_inverse_, R_, MR_;
 };
 
-/// The elastic modes of a frame as it is supported, its interface free; those of a floating one are M-orthogonal to its
+/// The elastic modes of the supported frame with free interface; those of a floating one are M-orthogonal to its
 /// rigid motions.
 class FreeInterfaceModes final : public SturmCheckedModes
 {
@@ -60,20 +60,19 @@ private:
   FreeInverse               inverse_;
 };
 
-/// Modes of the frame as supported, its interface free.
+/// Modes of the supported frame with free interface.
 struct FreeModes
 {
   Eigen::VectorXd omega;     // [k] elastic, ascending [rad/s]
   Eigen::MatrixXd W;         // [n x k] modes less their static part, phi - Psi phi_1: zero on q1
-  std::string     statement; // that none is missing; empty where nothing had to be proved
+  std::string     statement; // verification of completeness; empty if not needed
   int             n_rigid = 0;
 };
 
 /**
- * The lowest elastic modes with the interface free, counted by inertia like those with the interface held.
- *
- * Together with the constraint modes their shapes span all of MacNeal's and Rubin's space: rigid motions, residual
- * flexibility of every interface coordinate, and the modes themselves, whose frequencies the reduced model has exactly.
+ * The lowest elastic modes with the interface free, counted by inertia like fixed-interface modes. With the constraint
+ * modes their shapes span the space of MacNeal and Rubin: rigid-body modes, residual flexibility of every interface
+ * DOF, and the modes themselves, whose frequencies are exact in the reduced model.
  *
  * @param held     its factor is released: restore() it to solve again.
  * @param basis    constraint modes only.

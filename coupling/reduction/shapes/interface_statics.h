@@ -13,8 +13,7 @@ namespace gestell::coupling
 /// T without modes.
 ReductionBasis static_basis(const FixedInterfaceFrame &held, const fem::FrameMatrices &frame);
 
-/// What every reduction starts from: the factor of C22, the static shapes of the interface, and deflections that do not
-/// depend on modes.
+/// Common start of every reduction: the factor of C22, the constraint modes, and deflections independent of modes.
 struct InterfaceStatics
 {
   /// The frame must outlive it.

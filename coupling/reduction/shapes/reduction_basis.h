@@ -12,7 +12,7 @@ namespace gestell::coupling
  * T of (5.5.3/16) with its rows in the frame's own order of coordinates: q = T p, p = (q1, modes).
  *
  * On the rows of q1 the first n1 columns are E and the modes zero; on all others they are -C22^-1 C21 and V22.  Work
- * vectors of the held frame likewise keep all n rows, with zeros on q1, so that nothing is gathered or scattered.
+ * vectors of the fixed-interface frame also have all n rows, with zeros on q1, which avoids gathering and scattering.
  */
 struct ReductionBasis
 {
@@ -43,7 +43,8 @@ struct ReducedMatrices
  *
  *     M*_11 = Psi^T M Psi,   M*_12 = (M Psi)^T V,   C*_11 = Psi^T C Psi,   B* = T^T B T.
  *
- * C*_11 = C11 - C12 C22^-1 C21 is taken as this energy because errors of Psi enter it squared: rigid motions stay free.
+ * C*_11 = C11 - C12 C22^-1 C21 is computed as this energy because errors of Psi enter squared: rigid-body modes remain
+ * free.
  */
 ReducedMatrices reduced_matrices(const ReductionBasis &basis, const Eigen::SparseMatrix<double> &B,
                                  const Eigen::SparseMatrix<double> &C);

@@ -9,14 +9,11 @@ namespace gestell::coupling
 {
 
 /**
- * Deflection of the inside, the interface held, under what does not depend on the modes kept: the inertia forces of the
- * constraint modes and given loads.  Of the first,
- *
- *     X = C22^-1 (M Psi)_2     [n x n1], zero on q1,
- *
- * some products tell all that is asked: with V22 exact, C22^-1 (M T)_2 = [X, V22 diag(1 / omega0^2)] and V22^T M X =
- * diag(1 / omega0^2) M*_21.  Thus a round of inverse iteration for all Ritz vectors of the reduced model costs no
- * solution but these n1.  A third product, with X2 = C22^-1 (M X)_2, serves InterfaceReceptance.
+ * Internal deflection with the interface fixed under loads independent of the retained modes: the inertia forces of the
+ * constraint modes and given loads. For the former, X = C22^-1 (M Psi)_2 [n x n1], zero on q1, a few products are
+ * sufficient: with V22 exact, C22^-1 (M T)_2 = [X, V22 diag(1 / omega0^2)] and V22^T M X = diag(1 / omega0^2) M*_21.
+ * Thus a round of inverse iteration for all Ritz vectors of the reduced model needs only these n1 solutions.  A third
+ * product, with X2 = C22^-1 (M X)_2, serves InterfaceReceptance.
  */
 struct ResidualFlexibility
 {
@@ -26,7 +23,7 @@ struct ResidualFlexibility
   Eigen::MatrixXd loads;   // C22^-1 f2 [n x k]
 };
 
-/// @param loads f [n x k]; its part on q1 has no meaning here.
+/// @param loads f [n x k]; its part on q1 is ignored.
 ResidualFlexibility residual_flexibility(const FixedInterfaceFrame &held, const ReductionBasis &basis,
                                          const Eigen::SparseMatrix<double> &M, const Eigen::MatrixXd &loads);
 
