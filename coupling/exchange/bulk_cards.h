@@ -13,21 +13,21 @@ namespace gestell::coupling
 /**
  * Cards of Nastran's bulk data, in the small field format (10 columns of 8), the large one (names that end with *,
  * columns of 16) or the free one (commas), with their continuations.  Comments ($) and what is before BEGIN BULK or
- * after ENDDATA do not count; nor do lines of cards that nobody wants.
+ * after ENDDATA are ignored, as are lines of other cards.
  */
 class BulkCards
 {
 public:
-  /// @param wanted  names of cards, in capitals.
+  /// @param wanted  names of cards, in upper case.
   BulkCards(TextFile &file, std::set<std::string> wanted);
 
-  /// Steps to the next card that is wanted; false at the end.
+  /// Steps to the next requested card; false at the end.
   bool next();
 
   const std::string &name() const { return name_; } ///< in capitals, without *
   long               line() const { return line_; } ///< of its first line
 
-  /// Fields behind the name, blanks removed, line after line: 8 of each, or 4 of a large one.
+  /// Fields after the name, blanks removed, line by line: 8 of each, or 4 of a large one.
   const std::vector<std::string_view> &fields() const { return fields_; }
   const std::vector<long>             &lines() const { return lines_; } ///< of each field
 

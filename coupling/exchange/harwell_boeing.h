@@ -7,18 +7,18 @@ namespace gestell::coupling
 
 /**
  * Reads a matrix in Harwell-Boeing format, as Ansys writes it (HBMAT with Form = ASCII): assembled and real, symmetric
- * (RSA, one triangle) or not (RUA).  A right-hand side behind it does not count.  What the rows are stands in a file
- * beside it (read_row_table()).
+ * (RSA, one triangle) or not (RUA).  A following right-hand side is ignored. The row table is in a separate file
+ * (read_row_table()).
  *
  * Source: Duff, Grimes and Lewis, Users' Guide for the Harwell-Boeing Sparse Matrix Collection, TR/PA/92/86, 1992.
  *
- * Width of the columns is that of the head; numbers may touch.
+ * Column widths are those of the header; numbers may touch.
  *
  * @throws std::invalid_argument with line: complex, pattern and element matrices, sizes that do not fit the file.
  */
 LabelledMatrix read_harwell_boeing(const std::string &file);
 
-/// Whether the third line of a file tells a matrix of this format.
+/// Whether the third line of a file is that of this format.
 bool is_harwell_boeing(TextFile &file);
 
 } // namespace gestell::coupling

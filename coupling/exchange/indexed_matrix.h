@@ -7,9 +7,9 @@ namespace gestell::coupling
 
 /**
  * Reads lines `row column value`, as CalculiX writes .sti and .mas (*FREQUENCY, SOLVER=MATRIXSTORAGE): from 1, one
- * triangle, either of them.  What the rows are stands in a file beside it (read_row_table()).
+ * triangle, either of them.  The row table is in a separate file (read_row_table()).
  *
- * @throws std::invalid_argument with line: numbers of rows beyond what a file of its length can hold, entries twice.
+ * @throws std::invalid_argument with line: row numbers impossible for a file of its length, duplicate entries.
  */
 LabelledMatrix read_indexed_matrix(const std::string &file);
 

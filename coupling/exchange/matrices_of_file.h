@@ -9,7 +9,7 @@ namespace gestell::coupling
 {
 
 /**
- * All matrices of a file, by their names in it; "" where the format has one without a name.  Told apart by content:
+ * All matrices of a file, by name; "" for a matrix without a name. Formats are distinguished by content:
  * DMIG of Nastran, *MATRIX of CalculiX and Abaqus, Harwell-Boeing, lines `row column value`, else MatrixMarket or
  * PETSc's binary format.
  *
@@ -18,7 +18,7 @@ namespace gestell::coupling
  */
 std::map<std::string, LabelledMatrix> matrices_of_file(const std::string &file, std::int64_t known_size = 0);
 
-/// What a matrix of a frame is for.
+/// Role of a matrix of a frame.
 enum class MatrixRole
 {
   mass,
@@ -27,10 +27,10 @@ enum class MatrixRole
 };
 
 /**
- * The one of them that is meant: of name `asked`, or without it the one whose name says what it is (MAAX, BAAX, KAAX;
+ * The matrix of a role: of name `asked`, or without it the one identified by its name (MAAX, BAAX, KAAX;
  * MASS, STIFFNESS; the only one that begins with M, B or K).
  *
- * @throws std::invalid_argument  with the names that are there.
+ * @throws std::invalid_argument  with the available names.
  */
 const LabelledMatrix &matrix_for(const std::map<std::string, LabelledMatrix> &matrices, MatrixRole role,
                                  const std::string &requested, const std::string &file);

@@ -16,11 +16,11 @@ namespace gestell::coupling
 struct ModelNodes
 {
   NodePlaces places; ///< in units of the file
-  /// Axes in which nodes count their motions, as columns, where these are not the global ones.
+  /// Axes of nodal DOFs, as columns, if not the global ones.
   std::map<long, Eigen::Matrix3d> axes;
 };
 
-/// What comes of nodes whose place counts in a system that the file does not give.
+/// Treatment of nodes with a position in a system missing in the file.
 enum class UnknownPlaces
 {
   refused,
@@ -28,14 +28,13 @@ enum class UnknownPlaces
 };
 
 /**
- * Reads the places of nodes from the model of another program, in units of the file: GRID cards of Nastran, *NODE of
- * CalculiX and Abaqus (with *INCLUDE and INPUT=), NBLOCK of Ansys (CDWRITE).  Systems of Nastran that count are those
- * of CORD2R cards in the same file.
+ * Reads the positions of nodes from the model of another program, in units of the file: GRID cards of Nastran, *NODE of
+ * CalculiX and Abaqus (with *INCLUDE and INPUT=), NBLOCK of Ansys (CDWRITE).  Nastran systems must be CORD2R cards of
+ * the same file.
  *
- * @param wanted  nodes that have rows; others may be in systems of their own.
+ * @param wanted  nodes that have rows; others may be in any system.
  * @return        those of `wanted` that are there.
- * @throws std::invalid_argument with line: a node in two places, a node that counts its place or motions in another
- *         system.
+ * @throws std::invalid_argument with line: a node with two positions, a node with position or DOFs in another system.
  */
 ModelNodes read_model_nodes(const std::string &file, const std::set<long> &wanted,
                             UnknownPlaces unknown = UnknownPlaces::refused);

@@ -6,14 +6,14 @@ namespace gestell::coupling
 {
 
 /**
- * Reads what the rows of a matrix are, one line a row:
+ * Reads the labels of matrix rows, one line per row:
  *
  *     12.3          node and direction, as CalculiX writes .dof
  *     5  12  UZ     row, node and motion, as Ansys writes .mapping (HBMAT with Mapping = YES), below a title
  *
- * Motions of Ansys are UX UY UZ ROTX ROTY ROTZ.
+ * DOFs of Ansys are UX UY UZ ROTX ROTY ROTZ.
  *
- * @throws std::invalid_argument with line: other motions, rows that are there twice or not at all.
+ * @throws std::invalid_argument with line: other DOFs, duplicate or missing rows.
  */
 std::vector<RowLabel> read_row_table(const std::string &file);
 

@@ -9,10 +9,10 @@ namespace gestell::coupling
 {
 
 /**
- * A text of another program, in memory, line by line, with messages that say where.
+ * A text file of another program, in memory, line by line, with located messages.
  *
- * @throws std::invalid_argument from all of it: "frame.pch:12: 'DMIG ...': what is wrong".  Binary files are refused
- * at once, with what their program can write instead.
+ * @throws std::invalid_argument from all of it: "frame.pch:12: 'DMIG ...': what is wrong".  Binary files are rejected
+ * at once, with text formats as alternatives.
  */
 class TextFile
 {

@@ -14,19 +14,19 @@ namespace gestell::coupling
 struct MachinePoint
 {
   InitialState             state;
-  Eigen::VectorXd          a; ///< q'' [n] with which the motion goes on; zero where something has no mass
+  Eigen::VectorXd          a; ///< q'' [n] of the motion; zero for massless coordinates
   OperatingPoint           point;
   std::vector<std::string> closed, open; ///< elements with play that are in contact, and those that are not: names
-  std::vector<std::string> touching; ///< those whose force has another slope beside the point: they are about to touch
+  std::vector<std::string> touching;     ///< those with a kink of the force at the point: about to touch
 };
 
-/// The motion `state` with its forces, multipliers and accelerations; branches of the laws are those a run begins with
-/// there, and stay so in the machine.
+/// The motion `state` with its forces, multipliers and accelerations; branches of the laws are the initial ones of a
+/// run from there, and stay set in the machine.
 /// @throws ConvergenceFailure if joints depend on each other there
 MachinePoint machine_point(Machine &machine, const InitialState &state);
 
 /**
- * A signal in first order about a point.  Weights of coordinates and of linear elements are exact; quantities of
+ * A signal linearised about a point.  Weights of coordinates and of linear elements are exact; quantities of
  * nonlinear elements are differentiated in their own measures, forces and multipliers by quotients that are
  * extrapolated to step zero, measures of position functions by their gradient.
  *
@@ -34,8 +34,7 @@ MachinePoint machine_point(Machine &machine, const InitialState &state);
  */
 LinearAnswer linear_signal(const Machine &machine, const Signal &signal, const MachinePoint &at);
 
-/// Generalised force [n] of a unit force (or torque) along a signal that tells a displacement or an angle: its
-/// gradient.
+/// Generalised force [n] of a unit force (or torque) along a signal that is a displacement or an angle: its gradient.
 /// @throws std::invalid_argument if the signal depends on anything but the position
 Eigen::VectorXd force_along(const Machine &machine, const Signal &signal, const MachinePoint &at);
 

@@ -12,23 +12,23 @@ namespace gestell::coupling
 struct SuperpositionOptions
 {
   int                      n_modes   = -1; ///< below zero: by `frequency`, the loads or `tolerance`
-  double                   frequency = 0.; ///< [Hz] up to which modes are kept; 0: four times the loads'
+  double                   frequency = 0.; ///< [Hz] up to which modes are retained; 0: four times that of the loads
   double                   tolerance = 0.; ///< of static deflections; 0: 0.01 under forces whose frequency is not known
   bool                     diagonal_damping = false; ///< couplings of modes are omitted
   std::vector<std::string> open{};                   ///< elements that the averaged system has open
   std::string              place{};                  ///< heads messages: "portal.toml:60: reduction"
 };
 
-/// The modes that a machine is superposed of, and what they leave out.
+/// The modes of a superposition, and their truncation error.
 struct Superposition
 {
   ModalCoordinates         modes;
-  double                   static_residual = 0.; ///< largest share of a static deflection that they do not carry
+  double                   static_residual = 0.; ///< largest missing share of a static deflection
   double                   coupling        = 0.; ///< of damping: largest |b_ij| / sqrt(b_ii b_jj), i != j
   std::vector<std::string> statements{}, notes{};
 };
 
-/// Refuses what can be known without the modes: joints, virtual coordinates, bodies that a drive turns.
+/// Checks that need no modes: joints, virtual coordinates, driven rotors.
 /// @throws std::invalid_argument naming it
 void check_superposition(const Machine &machine, const std::string &place);
 
@@ -48,8 +48,8 @@ void check_superposition(const Machine &machine, const std::string &place);
  *
  * @param machine  dense or on an unreduced frame
  * @throws std::invalid_argument where the eigenproblem is singular or the coordinates are no vibrations: ideal joints,
- *         virtual coordinates, coordinates without mass, motions without stiffness such as a drive that turns freely,
- *         each named; more modes than coordinates, or none.
+ *         virtual coordinates, coordinates without mass, free motions such as an unloaded drive, with their names; more
+ * modes than coordinates, or none.
  */
 Superposition superpose(const Machine &machine, const Eigen::VectorXd &q, const SuperpositionOptions &options);
 

@@ -5,12 +5,12 @@
 namespace gestell::coupling
 {
 
-/// A scalar of the configuration that modes are followed along: a coordinate of a body, a measure, or the length of a
+/// A scalar of the configuration along which modes are computed: a coordinate of a body, a measure, or the length of a
 /// driven joint.
 struct SweptCoordinate
 {
   std::string name, unit;           ///< "crank.angle", "rad"
-  bool        full_turn  = false;   ///< an angle that comes back to the same position
+  bool        full_turn  = false;   ///< an angle that returns to the same position
   int         coordinate = -1;      ///< of the machine
   std::string measure{};            ///< NamedMeasure
   int         joint = -1, row = -1; ///< driven joint, as an index of elements(), and its row of g

@@ -15,7 +15,7 @@
 namespace gestell::coupling
 {
 
-/// What rank 0 has of a matrix to be divided; nothing on others.
+/// Matrix on rank 0 to be divided; empty on others.
 struct MatricesOnFirst
 {
   const Eigen::SparseMatrix<double> *C       = nullptr; // [n x n] both triangles, compressed
@@ -61,7 +61,7 @@ public:
   /// The same of C, if it was not given away.
   fem::SparseMatrix own_C() const;
 
-  /// Makes the factor where it is not there.  @returns -1, or the coordinate of a pivot that is not positive, on rank
+  /// Computes the factor if needed.  @returns -1, or the coordinate of a pivot that is not positive, on rank
   /// 0.
   int    factorise();
   void   release();

@@ -8,9 +8,9 @@
 namespace gestell::coupling
 {
 
-// The tasks of Team with divided factors.  What rank 0 puts in is not read on other ranks; `number` names a factor.
+// The tasks of Team with divided factors.  Inputs of rank 0 are not read on other ranks; `number` names a factor.
 
-/// The other ranks load what they need while rank 0 reads and meshes; it does not wait for them.
+/// The other ranks load their libraries while rank 0 reads and meshes, without waiting.
 struct PrepareTask
 {
   static constexpr RankTask order = RankTask::prepare;

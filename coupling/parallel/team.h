@@ -22,7 +22,7 @@ enum class RankTask
 };
 
 /**
- * The ranks of this run, as rank 0 employs them.
+ * The ranks of this run, controlled by rank 0.
  *
  * A task is a class with `static constexpr RankTask order` and a collective `void run(const fem::Ranks &)`.  Rank 0
  * makes one with what it needs and calls together(); obey() makes an empty one on every other rank and runs it there.

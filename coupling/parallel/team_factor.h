@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// Rank 0's hand on a DividedFactor, and on the search for modes by it: each call orders all ranks to do theirs.
+/// Rank 0's handle of a DividedFactor and its mode search: each call runs the task on all ranks.
 class TeamFactor
 {
 public:
@@ -18,11 +18,11 @@ public:
   TeamFactor(const TeamFactor &)            = delete;
   TeamFactor &operator=(const TeamFactor &) = delete;
 
-  /// Makes the factor where it is not there.  @returns whether all pivots are positive.
+  /// Computes the factor if needed.  @returns whether all pivots are positive.
   bool   factorise();
   int    failed() const { return failed_; } ///< coordinate of a pivot that is not positive, or -1
   double pivot_ratio() const { return pivot_ratio_; }
-  /// Gives its memory back.
+  /// Frees its memory.
   void release();
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X) const;
 

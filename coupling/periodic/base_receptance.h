@@ -11,7 +11,7 @@ namespace gestell::coupling
 {
 
 /**
- * The base system of a machine as it answers harmonic forces F e^(i w t), in its complex modes:
+ * The response of the base system to harmonic forces F e^(i w t), in its complex modes:
  *
  *     q = Y(s) F,     Y(s) = (s^2 M + s B + C)^-1 = Q (s E - Lambda)^-1 G,     s = i w,
  *
@@ -20,8 +20,8 @@ namespace gestell::coupling
  *
  *     R(s) = read^T (s E - Lambda)^-1 put = sum over the blocks of their products, weighed by shares that tell of s,
  *
- * m operations for a frequency and an entry.  What is singular at s = 0 (motions without stiffness) is left out there.
- * Virtual coordinates T x' + x = f are states of their own.
+ * m operations for a frequency and an entry.  Singular parts at s = 0 (motions without stiffness) are omitted there.
+ * Virtual coordinates T x' + x = f are separate states.
  *
  * Source: docs/frf.md (3), docs/theory/periodic.md (6).
  */
@@ -51,7 +51,7 @@ public:
     none,
     with
   };
-  /// Forms R at s = i h omega, h = 0 ... H, and the slopes over omega if wanted.
+  /// Computes R at s = i h omega, h = 0 ... H, and the derivatives by omega if requested.
   void             tabulate(double omega, int harmonics, Slopes slopes);
   Eigen::MatrixXcd R(int h) const { return entry(table_, h); }       ///< [n_rows x n_u]
   Eigen::MatrixXcd R_slope(int h) const { return entry(slope_, h); } ///< over omega [s/rad]

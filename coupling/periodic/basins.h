@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-/// Starts of which two numbers of (q, q') [2n] vary over a rectangle, in the middles of points x points cells.
+/// Initial states with two numbers of (q, q') [2n] varied over a rectangle, at the centres of points x points cells.
 struct StartPlane
 {
   int    x = 0, y = 1; ///< which; from n on rates
@@ -22,7 +22,7 @@ struct StartPlane
   double y_at(int j) const { return y_begin + (j + 0.5) * (y_end - y_begin) / points; }
 };
 
-/// Which motion each start settles to.
+/// The solution to which each initial state settles.
 struct Basins
 {
   static constexpr int not_reached = 0, not_looked_at = -1;
@@ -50,8 +50,8 @@ struct Basins
  *
  *     |S (x - x_motion)| <= 0.01 min(size, distance),     S = diag(2 pi/T, 1)
  *
- * A start that does not come there in options.periods, runs away or needs too many steps, has not_reached.  An
- * interruption leaves not_looked_at what comes behind it.
+ * An initial state that does not settle in options.periods, diverges or needs too many steps has not_reached; those
+ * after an interruption have not_looked_at.
  *
  * @param solutions  all that are known; numbers are their places in this list
  * @param rest       of the start: what does not vary

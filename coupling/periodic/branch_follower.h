@@ -12,8 +12,8 @@ namespace gestell::coupling
  *
  *     |dz|^2/size^2 + dlambda^2/range^2 = ds^2.
  *
- * Newton's method begins with the derivatives of a point near by and mends them with every step (Broyden 1965); they
- * are taken anew where that contracts slowly.  So a point costs few passages with tangents: one at the end, for its own
+ * Newton's method begins with the derivatives of a nearby point and updates them in every step (Broyden 1965); they are
+ * recomputed if convergence is slow. So a point needs few passages with tangents: one at the end, for its own
  * derivatives and multipliers.
  */
 class BranchFollower

@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-/// Where a branch is followed.
+/// Range and steps of a continuation.
 struct ContinuationOptions
 {
   double from = 0., to = 1.; ///< of the parameter
@@ -19,7 +19,7 @@ struct ContinuationOptions
   double located   = 1e-9;   ///< special points, of the range
 };
 
-/// A place where motions begin, end or change their stability.
+/// A point where solutions begin, end or change their stability.
 struct SpecialMotion
 {
   std::string      kind; ///< "fold", "period doubling", "Neimark-Sacker", "branch", "grazing"
@@ -42,7 +42,7 @@ struct Branch
   bool                       failed = false;
 };
 
-/// Told of each point; false: that was enough.
+/// Called for each point; false: stop.
 using BranchProgress = std::function<bool(const BranchPoint &)>;
 
 /**
@@ -50,7 +50,8 @@ using BranchProgress = std::function<bool(const BranchPoint &)>;
  *
  *     |dz|^2/size^2 + dlambda^2/range^2 = ds^2
  *
- * along the tangent, a step that grows with quick convergence and shrinks where the branch turns or Newton fails.
+ * along the tangent, a step that grows with quick convergence and shrinks where the branch folds or Newton's method
+ * fails.
  *
  * Special points are zeros of test functions between two points, located by regula falsi in the arclength:
  *
@@ -62,7 +63,7 @@ using BranchProgress = std::function<bool(const BranchPoint &)>;
  *
  * @param first     a solution at options.from
  * @throws NoPeriodicMotion, ConvergenceFailure if not even the first point is found; later failures end the branch and
- * are told in `ended`
+ * are stored in `ended`
  */
 Branch follow_branch(BranchEquations &equations, const PeriodicSolution &first, const ContinuationOptions &options,
                      const BranchProgress &progress = {});

@@ -8,7 +8,7 @@ namespace gestell::coupling
 {
 
 /**
- * Keeps a search for zeros of r(z) off those that are known: M r has the other ones alone, with
+ * Deflates known zeros of r(z) from a search: M r has only the other zeros, with
  *
  *     M(z) = prod_k (size^2/|z - z_k|^2 + 1),
  *

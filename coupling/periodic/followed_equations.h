@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// A problem at one value of a parameter, with what it lives on.
+/// A problem at one value of a parameter, with the data it refers to.
 struct FamilyMember
 {
   PeriodicProblem       problem;

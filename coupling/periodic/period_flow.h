@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-/// Where a start leads in one period.
+/// End state of one period.
 struct PeriodPassage
 {
   double          period = 0.;      ///< T [s]
@@ -21,7 +21,7 @@ struct PeriodPassage
   Eigen::MatrixXd monodromy;        ///< d(q, q')(T)/d(q, q')(0) [2n x 2n]; empty: not asked for.  Of some
                                     ///< tangents alone: their images [2n x k].  Put back likewise
   std::vector<Event>       events;
-  std::vector<std::string> grazing;         ///< events whose guard touches its zero rather than crosses it
+  std::vector<std::string> grazing;         ///< events whose guard touches zero without crossing
   double                   chattering = 0.; ///< share of the period with too many events to locate
   IntegrationWork          work;
 };
@@ -29,13 +29,13 @@ struct PeriodPassage
 /**
  * The motion over one period of a problem, with the derivative of its end with respect to its start.
  *
- * Tangents ride with the integrator (MotionTangents).  At an event with guard g, located at t*, the time of the switch
- * moves with the start,
+ * Tangents are integrated with the motion (MotionTangents).  At an event with guard g, located at t*, the time of the
+ * switch moves with the start,
  *
  *     dt* = -(grad g . dx)/g',     dx_behind = dx_before + (x'_before - x'_behind) dt*,
  *
  * the saltation matrix (Aizerman, Gantmakher 1958; Mueller 1995).  Transitions that follow at the same instant share
- * dt*.  Where g' is zero beside what the motion moves, the guard is touched only: dt* is left out, and told.
+ * dt*.  If g' is negligible, the event is grazing: dt* is omitted, and this is reported.
  */
 class PeriodFlow : private RunObserver
 {

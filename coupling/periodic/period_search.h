@@ -16,27 +16,27 @@ std::vector<int> whole_ratios(const std::vector<double> &values, double toleranc
 double common_period(const std::vector<double> &omega);
 
 /**
- * How far coordinates go in `time` [s] from q, q' at t_0 without ever turning back [n]; 0: one that swings.
+ * Travel of coordinates in `time` [s] from q, q' at t_0 without reversal [n]; 0: oscillating ones.
  *
  * @throws ConvergenceFailure, SearchInterrupted
  */
 Eigen::VectorXd advance_of(SecondOrderSystem &system, const MethodOptions &integration, const PeriodicGuess &from,
                            double begin, double time, const std::atomic<bool> *stop);
 
-/// An oscillation that goes on by itself.
+/// A free or self-excited oscillation.
 struct FreeOscillation
 {
   PeriodicGuess at;                  ///< on it, with its period
   int           phase       = -1;    ///< the coordinate that moves most
   double        phase_value = 0.;    ///< its middle, through which `at` rises
   bool          falls       = false; ///< `at` falls through it, as something sticks where it rises
-  bool          pushed      = false; ///< the start rests, and was given a small velocity
+  bool          pushed      = false; ///< the initial state is at rest and got a small velocity
 };
 
 /**
- * What a system does by itself, to which nothing tells the time: followed from q, q' until the largest excursions of a
- * time of many periods of its lowest frequency are those of the time before, then its period is that after which the
- * state comes back at a passage of the coordinate that moves most.  From a tenth more it must come back.
+ * The oscillation of an autonomous system: integrated from q, q' until the largest excursions over many periods of its
+ * lowest frequency are constant; its period is that of the state at passages of the dominant coordinate. It must return
+ * after an increase by a tenth.
  *
  * @throws NoPeriodicMotion if it comes to rest, keeps any size or none; ConvergenceFailure
  */

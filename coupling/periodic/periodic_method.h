@@ -11,7 +11,7 @@
 namespace gestell::coupling
 {
 
-/// A motion near which a search begins.
+/// Initial guess of a search.
 struct PeriodicGuess
 {
   Eigen::VectorXd q, v;        ///< at t_0 [n]
@@ -30,8 +30,8 @@ struct PeriodicOption
 /**
  * A method for periodic motions, as periodic_methods() lists it.
  *
- * It sees a second-order system and what is to repeat, and returns what it found, with Floquet multipliers where it
- * knows them.
+ * It gets a second-order system and the periodicity condition, and returns solutions, with Floquet multipliers if
+ * available.
  */
 class PeriodicMethod
 {
@@ -41,12 +41,12 @@ public:
   virtual std::string name() const    = 0; ///< --method
   virtual std::string meaning() const = 0; ///< a sentence, with the source of its formulas
 
-  /// Why it cannot treat this problem, and what serves instead; empty: it can.
+  /// Why it cannot treat this problem, and an alternative; empty: it can.
   virtual std::string refuses(const PeriodicProblem &problem) const = 0;
 
-  /// What it takes besides the options of all.
+  /// Its options in addition to the common ones.
   virtual std::vector<PeriodicOption> options() const { return {}; }
-  /// It integrates the motion itself, so that its failure says something about the motion.
+  /// It integrates the motion itself, so that its failure is a property of the motion.
   virtual bool integrates() const = 0;
   /// It searches for all solutions.
   virtual bool finds_all() const { return false; }
@@ -56,7 +56,7 @@ public:
   virtual std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                               const PeriodicOptions &options) const = 0;
 
-  /// Why it follows no branch, and what serves instead; empty: it does.
+  /// Why it cannot follow a branch, and an alternative; empty: it can.
   virtual std::string follows_none() const { return ""; }
   /// Equations of a branch from `first` on, whose motions repeat after `ratio` times the period of the family.
   virtual std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,

@@ -5,10 +5,10 @@
 namespace gestell::coupling
 {
 
-/// All ways to periodic motions.
+/// All methods for periodic solutions.
 const std::vector<const PeriodicMethod *> &periodic_methods();
 
-/// @throws std::invalid_argument for a name there is not
+/// @throws std::invalid_argument for an unknown name
 const PeriodicMethod &periodic_method(const std::string &name);
 
 /// Options of single methods, each once.

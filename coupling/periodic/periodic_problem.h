@@ -22,13 +22,12 @@ namespace gestell::coupling
  * depends on the time, T is unknown too, and the coordinate `phase` is given at t_0 instead: q_phase(t_0) =
  * phase_value.
  *
- * A shift along the columns F of `free` changes no equation.  The motion itself chooses how far it goes along them,
+ * A shift along the columns F of `free` changes no equation.  The motion along them is free,
  *
  *     q(t_0 + T) = q(t_0) + turn + F s,     s = F^T (q(t_0 + T) - q(t_0) - turn),
  *
- * and keeps the F^T q(t_0) with which a search begins.  F leaves the phase alone.
- *
- * What elements remember starts anew at t_0 and in every period after it, as when a press is fed.
+ * and keeps the F^T q(t_0) with which a search begins.  F does not change the phase. The history of elements is reset
+ * at t_0 and in every period, as when a press is fed.
  */
 struct PeriodicProblem
 {
@@ -67,7 +66,7 @@ struct PeriodicOptions
   double        tolerance   = 1e-10; ///< of PeriodicSolution::residual
   int           iterations  = 40;    ///< of Newton's method
   MethodOptions integration = options_of("exact", 8).with("force", "collocation");
-  int           segments    = 0;   ///< M of multiple shooting; 0: where one does not close the motion 8, then 32
+  int           segments    = 0;   ///< M of multiple shooting; 0: 8, then 32 if single shooting fails
   int           periods     = 500; ///< most of them that settling integrates
 
   std::map<std::string, double> own; ///< given ones of those that methods declare (PeriodicMethod::options()), by name
@@ -79,13 +78,13 @@ struct PeriodicOptions
   }
 };
 
-/// There is no such motion, or the method does not come to it; the message tells the place and what serves instead.
+/// There is no such solution, or the method does not reach it; the message gives the location and an alternative.
 struct NoPeriodicMotion : std::runtime_error
 {
   using std::runtime_error::runtime_error;
 };
 
-/// A search was ended from outside.
+/// A search was interrupted.
 struct SearchInterrupted : NoPeriodicMotion
 {
   SearchInterrupted() : NoPeriodicMotion("interrupted") {}

@@ -41,8 +41,7 @@ struct PeriodicWork
   void add(const PeriodicWork &other);
 };
 
-/// A periodic motion (5.5.4/1).
-/// A state on the way of a motion.
+/// A periodic solution (5.5.4/1). A state of it.
 struct OrbitState
 {
   double          t; ///< [s]
@@ -54,7 +53,7 @@ struct RunVerification
 {
   int         periods     = 0;     ///< that were run; 0: none
   double      departure   = 0.;    ///< largest distance at their ends, of the fastest speed
-  bool        leaves      = false; ///< it goes away from the motion
+  bool        leaves      = false; ///< it leaves the solution
   bool        starts_anew = false; ///< elements have hysteresis, which was reset in every period
   std::string failure{};           ///< not empty: why it ended early
 };
@@ -74,7 +73,7 @@ struct PeriodicSolution
   RunVerification              verification;                                     ///< by a run
   std::string                  method;                                           ///< that found it
   MethodOptions                integration{};                                    ///< that traces it
-  std::vector<std::string>     notes;                                            ///< what a user should know of it
+  std::vector<std::string>     notes;                                            ///< notes for the user
   PeriodicWork                 work;
 
   bool   stability_is_known() const { return multipliers.size() > 0; }
@@ -83,7 +82,7 @@ struct PeriodicSolution
 };
 
 /**
- * How far a motion is from closing, relative to how fast it moves: sqrt(F / max_t sum_k q'_k^2), with (5.5.4/2)
+ * Periodicity residual relative to the speed of the motion: sqrt(F / max_t sum_k q'_k^2), with (5.5.4/2)
  *
  *     F = sum_k { [q_k(T) - q_k(0) - turn_k]^2 Omega^2 + [q'_k(T) - q'_k(0)]^2 },     Omega = 2 pi/T.
  */

@@ -9,9 +9,9 @@
 namespace gestell::coupling
 {
 
-constexpr int least_section = 64; ///< periods: fewer tell too little
+constexpr int least_section = 64; ///< periods: fewer are not sufficient
 
-/// What a motion does in the long run.
+/// Long-term behaviour of a motion.
 struct Recurrence
 {
   /// "periodic": repeats after one period of the excitation; "sub-harmonic": after several; "settling": converging to
@@ -29,8 +29,8 @@ struct Recurrence
 };
 
 /**
- * Follows a motion for many periods of the excitation, T, and tells what it is by its Poincare section and its largest
- * Lyapunov exponent, the mean rate at which neighbours part (Benettin et al. 1980, Meccanica 15, 9-30):
+ * Integrates a motion for many periods of the excitation, T, and classifies it by its Poincare section and its largest
+ * Lyapunov exponent, the mean divergence rate of neighbouring trajectories (Benettin et al. 1980, Meccanica 15, 9-30):
  *
  *     exponent = 1/(K T) sum_k ln |S Phi_k d_k|,     d_(k+1) = Phi_k d_k / |S Phi_k d_k|,     S = diag(2 pi/T, 1),
  *

@@ -6,17 +6,17 @@
 namespace gestell::coupling
 {
 
-/// Why exact propagation, whose tangents shooting needs, cannot treat the system, and that `instead` serves; empty: it
+/// Why exact propagation (tangents for shooting) cannot treat the system, with the alternative `instead`; empty: it
 /// can.
 std::string why_not_propagated(const SecondOrderSystem &system, const std::string &instead);
 
-/// Integrates the periods of the option "lead-in", less where the motion closes to a percent before, and makes their
-/// end the guess.
+/// Integrates the periods of the option "lead-in", fewer if the periodicity residual is below 1 % before; their end
+/// becomes the guess.
 void lead_in(PeriodFlow &flow, const PeriodicProblem &problem, const PeriodicOptions &options, PeriodicGuess &guess);
 
 /**
- * Integrates period by period until (5.5.4/1) holds to the tolerance, and tells how many periods that took.  What it
- * finds is stable, and but one of several such motions.
+ * Integrates period by period until (5.5.4/1) is satisfied within the tolerance, and returns the number of periods. The
+ * solution is stable, and one of possibly several.
  *
  * Raised damping, by the option "damping" D of critical, is put on the whole motion as -2 D omega M q' and set back by
  * a tenth part a period.

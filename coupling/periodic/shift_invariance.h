@@ -15,12 +15,12 @@ namespace gestell::coupling
 struct AngleDependence
 {
   Eigen::RowVectorXd of;
-  int                turns = 0; ///< the equations repeat after so many turns of f; 0: never
+  int                turns = 0; ///< the equations repeat after this number of revolutions of f; 0: never
   std::string        element;   ///< whose law it is
 };
 
 /**
- * The shifts of some angles that leave all equations of a system as they are.
+ * The shifts of some angles that do not change any equation of a system.
  *
  * Found from the equations: the rows of dp/du W^T, of dg/du W^T of the joints and of C, at states about one that is
  * given, span the functions f of the angles on which anything depends; a shift along their common null space is free.

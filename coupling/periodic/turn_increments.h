@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// How far angles go in a period after which the equations are what they were.
+/// Increments of angles in a period after which the equations repeat.
 struct AngleIncrements
 {
   Eigen::VectorXd turn;        ///< [n] [rad]; along `free` that of the speeds

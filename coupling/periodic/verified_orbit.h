@@ -9,17 +9,15 @@ namespace gestell::coupling
 constexpr int verified_periods = 20; ///< of a run that verifies a motion
 
 /**
- * Runs the system from the initial values of a motion for 20 periods and notes in solution.verification how far it goes
- * from the motion: angles are not set back, and the steps are others than those of the search.
+ * Runs the system from the initial values of a motion for 20 periods and stores the largest departure in
+ * solution.verification: angles are not reset, and the steps differ from those of the search.
  *
  *     d_k = |S (x(t_0 + k T) - x(t_0) - k turn)| / max_t |q'|,     x = (q, q'),  S = diag(2 pi/T, 1),  k = 1 ... 20,
  *
  * without its share along free shifts and, where the period is unknown, along the motion itself, in which the errors of
  * the steps add up.  A motion with multipliers mu, |mu| < 1, stays: errors e of a period sum to e/(1 - |mu|), and to
- * 20 e at most.  One that closes only by what the search assumed goes away at once.
- *
- * What elements remember starts anew with every period, as in the search (PeriodicProblem).  It costs 20 periods
- * without tangents.
+ * 20 e at most.  A solution that is periodic only by assumptions of the search departs at once. The history of elements
+ * is reset in every period, as in the search (PeriodicProblem). Cost: 20 periods without tangents.
  */
 void verify_by_run(const PeriodicProblem &problem, PeriodicSolution &solution);
 

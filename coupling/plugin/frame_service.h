@@ -12,8 +12,8 @@ namespace gestell::coupling
 struct MeshReport; // coupling/plugin/mesh_report.h
 
 /**
- * The heavy half of Gestell (gmsh, deal.II, PETSc, SLEPc) behind one door: a plugin that is loaded only when a frame
- * must be made.  Throws std::invalid_argument for wrong input, ConvergenceFailure for failed methods.
+ * Interface of the FEM part (gmsh, deal.II, PETSc, SLEPc), a plugin loaded only to make a frame.  Throws
+ * std::invalid_argument for wrong input, ConvergenceFailure for failed methods.
  */
 class FrameService
 {

@@ -19,17 +19,17 @@ struct SurfaceReport
   int                   tag;
   std::string           name;     ///< names and groups it has in the file, then those of the specification
   std::string           type;     ///< "plane, normal (0 0 1), through (0 0 0.9)"
-  std::string           selector; ///< that finds it, as an entry of [frame.surface.NAME]
+  std::string           selector; ///< selector of it, for [frame.surface.NAME]
   double                area;     ///< [m^2]
   std::array<double, 3> min, max, centre;
-  std::vector<int>      found_with{}; ///< tags of other faces that no selector parts from it
+  std::vector<int>      found_with{}; ///< tags of other faces that no selector distinguishes from it
   std::string           kind{};       ///< "plane", "cylinder", else gmsh's word
   std::array<double, 3> direction{};  ///< outward normal of a plane, axis of a cylinder
   std::array<double, 3> through{};    ///< [m] a point of the plane, of the axis
   double                radius = 0.;  ///< [m] of a cylinder
 };
 
-/// The outside of a mesh: which triangle shows which face.
+/// The skin of a mesh: triangles and their faces.
 struct FacePicture
 {
   std::vector<std::array<double, 3>> points;    ///< [m]
@@ -37,7 +37,7 @@ struct FacePicture
   std::vector<int>                   face;      ///< index into MeshReport::surfaces of each triangle
 };
 
-/// The length of what a file calls 1.
+/// The length unit of a file.
 struct LengthUnit
 {
   double      length = 1.;  ///< [m]

@@ -11,7 +11,7 @@
 namespace gestell::coupling
 {
 
-/// Frames that come with a statement of the error of their mesh: the other door of the plugin behind FrameService.
+/// Frames with an estimate of their mesh error: the second interface of the plugin of FrameService.
 class MeshService
 {
 public:
@@ -31,7 +31,7 @@ public:
   };
   virtual Inspection inspect(const fem::FrameSpecification &frame) = 0;
 
-  /// Meshes, assembles and reduces; a statement or a note of the frame tells the error of its mesh.
+  /// Meshes, assembles and reduces; a statement or a note of the frame gives the error of its mesh.
   virtual ReducedFrame reduce(const fem::FrameSpecification &frame, const ReductionOptions &options,
                               const Progress &progress) = 0;
 
@@ -44,8 +44,8 @@ public:
   virtual Unreduced assemble(const fem::FrameSpecification &frame, const ReductionOptions &options,
                              const Progress &progress) = 0;
 
-  /// The same frame in elements of degree three on the same mesh (fem::raised_matrices()), which judges that of degree
-  /// two; it tells no forces through cuts and on clamped supports.
+  /// The same frame in elements of degree three on the same mesh (fem::raised_matrices()), a reference for degree two;
+  /// without forces through cuts and on clamped supports.
   virtual ReducedFrame reduce_raised(const fem::FrameSpecification &frame, const ReductionOptions &options,
                                      const Progress &progress) = 0;
 

@@ -7,7 +7,7 @@
 namespace gestell::coupling
 {
 
-/// This process among those that a launcher (mpirun, srun) started, by what it says in the environment.
+/// Rank of this process in a launch (mpirun, srun), by its environment variables.
 struct Launch
 {
   int         rank = 0, size = 1;
@@ -21,15 +21,15 @@ Launch launch();
  * The first call must be made by all ranks.
  *
  * @return nullptr where one process runs by itself, or this build has no finite element side.
- * @throws std::invalid_argument if the launcher gave its processes no MPI, or belongs to another one, so that they do
- * not find each other.
+ * @throws std::invalid_argument if the launcher gave its processes no MPI, or is of another MPI, so that they cannot
+ * communicate.
  */
 TeamService *team_service();
 
-/// How many ranks were called otherwise than rank 0, by other words or in another folder; to be called by all.
+/// Number of ranks with another command line or folder than rank 0; to be called by all.
 int ranks_called_otherwise(const std::string &words, const std::string &folder);
 
-/// What a user says who wants a case per process: "--apart ..."
+/// Option for a separate case per process: "--apart ..."
 extern const char *const way_of_cases;
 
 } // namespace gestell::coupling

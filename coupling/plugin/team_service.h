@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// The processes that mpirun started, behind a door of their own that loads MPI and nothing else.
+/// The processes started by mpirun, an interface that loads MPI only.
 class TeamService
 {
 public:

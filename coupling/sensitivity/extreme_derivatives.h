@@ -14,11 +14,11 @@ namespace gestell::coupling
 /**
  * Derivatives of the largest and smallest values of signals, of their instants and of the values at the end of a run.
  *
- * An extreme has one where its signal turns, y' = 0, or at an event.  Of the values that a signal has about an event it
- * is the derivative of the one nearest to the extreme.  None have, and their notes tell why: extremes that are zero but
- * for rounding; those at a corner or a jump that is no event, and all others whose y' does not vanish; instants of a
- * peak that is flat, whose y'' is not known to a ten thousandth, whose slope asks for more than a step to where it
- * turns, whose change is lost in rounding, or which one percent of a parameter moves by more than the run lasts.
+ * An extreme has a derivative at a turning point of its signal, y' = 0, or at an event.  Of the values that a signal
+ * has about an event it is the derivative of the one nearest to the extreme.  No derivative, with the reason in the
+ * note, have: extremes that are zero within rounding; those at a corner or a jump without event, and all others with
+ * nonzero y'; instants of a flat peak, with y'' not accurate to 1e-4, with the turning point more than a step away,
+ * with a change lost in rounding, or shifted by more than the run by 1 % of a parameter.
  *
  * Source: docs/sensitivities.md (9) to (11).
  */

@@ -8,7 +8,7 @@
 namespace gestell::coupling
 {
 
-/// How a reduced frame changes with an entry x of its scene, in the coordinates p of one frame: dM/dx and so on.
+/// Derivatives of a reduced frame by a scene parameter x, in the coordinates p of one frame: dM/dx and so on.
 struct FrameDerivative
 {
   Eigen::MatrixXd                    M, B, C, translations_load;
@@ -22,9 +22,9 @@ struct FrameDerivative
 };
 
 /**
- * Central quotient of two reduced frames, (F+ - F-)/2 step.  Each has coordinates of its own: behind the interface
- * stand its modes, which have any sign and, where frequencies meet, any order and combination.  Theirs are turned by
- * the orthogonal matrix R that brings their shapes nearest to those of `at`,
+ * Central quotient of two reduced frames, (F+ - F-)/2 step.  Each frame has its own coordinates: after the interface
+ * its modes, with arbitrary sign and, for close frequencies, arbitrary order and combination. They are rotated by the
+ * orthogonal matrix R that brings their shapes closest to those of `at`,
  *
  *     p± = diag(E, R) p,   R = U V^T of  X = U S V^T,   D± X = D in the mean square,
  *
@@ -32,7 +32,7 @@ struct FrameDerivative
  * that any R near E gives derivatives of the same motions.
  *
  * @param minus, plus  at x -+ step, with the interfaces of `at` and as many modes
- * @throws std::invalid_argument where they are of another structure, or other modes are kept (a singular value of X
+ * @throws std::invalid_argument if they have another structure, or other modes are retained (a singular value of X
  * below one half)
  */
 FrameDerivative frame_derivative(const ReducedFrame &at, const ReducedFrame &minus, const ReducedFrame &plus,

@@ -9,8 +9,8 @@
 namespace gestell::coupling
 {
 
-/// Where a machine is linearised: q, and the elements that are not engaged.  It has not been run: modes are those of
-/// laws that follow the motion, not of branches that a run has left.
+/// Where a machine is linearised: q, and the elements that are not engaged.  Before any run: modes use the laws by the
+/// motion, not the branches of a run.
 struct LinearisedAt
 {
   const Machine                  *machine = nullptr;

@@ -10,10 +10,10 @@ namespace gestell::coupling
 {
 
 /**
- * How far derivatives of a motion can be believed.  A change dx of a parameter moves coordinate i of a body by s_i dx;
- * where that is more than the whole way that the coordinate goes in the run, the motion is another one, and first order
- * says nothing.  Coordinates count that take part, by their momentum: in the motion and in its derivative.  Motions
- * that are chaotic or unstable let s grow by orders of magnitude.
+ * Validity of derivatives of a motion.  A change dx of a parameter moves coordinate i of a body by s_i dx;
+ * if that exceeds the whole travel of the coordinate in the run, the first order is not valid. Only coordinates with
+ * considerable momentum count, in the motion and in its derivative. In chaotic or unstable motions s grows by orders of
+ * magnitude.
  */
 class Growth
 {
@@ -26,8 +26,8 @@ public:
   double first_look() const { return first_; }
   void   look(double t, const Eigen::MatrixXd &s);
 
-  /// For each parameter of which one percent moves a coordinate by ten times its way: by how much, how its derivative
-  /// grew, and the change up to which it holds.
+  /// For each parameter whose change by 1 % moves a coordinate by ten times its travel: the ratio, the growth of its
+  /// derivative, and the valid change.
   std::vector<std::string> warnings() const;
 
 private:

@@ -9,8 +9,8 @@
 namespace gestell::coupling
 {
 
-/// Refuses a machine whose variational equations are not built, before it runs.
-/// @throws std::invalid_argument with what it is and the way out
+/// Rejects a machine without variational equations before its run.
+/// @throws std::invalid_argument with the reason and the remedy
 void require_variational(const Machine &machine);
 
 /// The motion and its accelerations, forces and multipliers, as the equation of motion gives them.
@@ -57,11 +57,11 @@ public:
   /// if these motions have the same forces at the first of these instants. None: nothing is skipped.
   void begin_piece(const std::vector<MotionState> &passed);
   /// What there is at a state, by the histories that the machine and its twins have now.
-  /// @param way  [s] short against what moves: rates by the time are found too; 0: they are not
+  /// @param way  [s] short relative to the motion: also time derivatives; 0: none
   void linearise(const MotionState &state, Linearised &at, double way = 0.);
 
 private:
-  /// What a parameter changes; of M, B, C, W the derivatives by it, empty: none.
+  /// Derivatives of M, B, C, W by a parameter; empty: none.
   struct Changes
   {
     bool                        load   = false;

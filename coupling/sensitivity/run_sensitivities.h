@@ -16,7 +16,7 @@ struct RunSensitivities
 {
   std::vector<OutputDerivatives> outputs;
   std::vector<std::string>       warnings;
-  bool                           interrupted = false; ///< outputs behind `reached` have no derivatives
+  bool                           interrupted = false; ///< outputs after `reached` have no derivatives
   double                         reached     = 0.;    ///< [s]
   long                           steps       = 0;     ///< of the variational equations
   double                         wall_s      = 0.;
@@ -31,11 +31,11 @@ struct SensitivityProblem
   const RunResult                   &run;
   const Trajectory                  &trajectory;
   const std::vector<ParameterTwins> &twins;
-  const std::atomic<bool>           *stop = nullptr; ///< ends the pass, which keeps what it has; null: nothing does
+  const std::atomic<bool>           *stop = nullptr; ///< ends the pass, which keeps its results so far; null: none
 };
 
 /**
- * Derivatives of what a run tells by parameters: largest and smallest value of every signal and their instants, values
+ * Derivatives of run results by parameters: largest and smallest value of every signal and their instants, values
  * at the end, times of events.
  *
  * At an event, the zero of a guard g located at t_e,
@@ -46,8 +46,8 @@ struct SensitivityProblem
  * machines of a parameter are carried along, at x -+ step.  A largest value at t* has the partial derivative at t*, its
  * instant -(dy/dx)'/y''; one at an event has dy/dx + y' dt_e.
  *
- * @throws std::invalid_argument where the machines of a parameter are of another structure, where events were gone
- * over, velocities jump, or the machine has what the equations do not carry; ConvergenceFailure
+ * @throws std::invalid_argument if the machines of a parameter have another structure, for events that were not
+ * located, velocity jumps, or unsupported elements; ConvergenceFailure
  *
  * Source: docs/sensitivities.md (7) to (11).
  */

@@ -14,7 +14,7 @@ struct Told
   Eigen::MatrixXd dy;
 };
 
-/// How a signal goes on behind an instant.
+/// Continuation of a signal after an instant.
 enum class Kink
 {
   none,
@@ -22,7 +22,7 @@ enum class Kink
   jump    ///< it does
 };
 
-/// What becomes of a signal in time where it turns, or nearly.
+/// Time derivatives of a signal at or near a turning point.
 struct Turn
 {
   double          rate = 0., second = 0., off = 0.; ///< y', y'', error of y''
@@ -53,11 +53,11 @@ struct Moving
  * parameter at the motion moved by as much of its derivative; in time, by quotients over a little of the smooth motion
  * about an instant, of order 4, on the branches that hold there.
  *
- * Over which way: the shorter, the less the quotients err and the more does rounding.  turn() goes through ways of
- * 1/3 of a step to 1/50000 and takes the first of two neighbours whose y'' agree best; what they differ by is the
- * error. At a corner y'' grows as the way shortens, and neighbours never agree.
+ * A shorter increment has less truncation error and more rounding. turn() tries increments of 1/3 to 1/50000 of a step
+ * and uses the first of two neighbours with the best agreement of y''; their difference is the error. At a corner y''
+ * grows as the increment shrinks, and neighbours never agree.
  *
- * A signal that is slow beside what the steps follow changes by less than its rounding over such ways.  Its rate is
+ * A signal that is slow relative to the steps changes by less than its rounding over such increments.  Its rate is
  * then found along the rates of the motion, y'(t) = (y(z + sigma z') - y(z - sigma z'))/2 sigma with z all that it
  * reads, where sigma may be as long as the signal's own law is smooth, up to 5000 steps; y'' and dy'/dx are quotients
  * of these rates. Again the two neighbours that agree best count, of y'' over two ways.
@@ -73,12 +73,12 @@ public:
   /// The measures and forces at a motion moved by `by` times its derivative by parameter k.
   LocalState local_at(const MotionState &state, const MotionColumns &columns, int k, double by) const;
 
-  /// @param way  [s] short against what moves
+  /// @param way  [s] short relative to the motion
   Course course(const MotionState &state, double way);
   /// The motion at another instant.
   MotionState moved(const MotionState &state, const Course &course, double by);
   /// Rates of measures, forces and multipliers, and of the signals.
-  /// @param way  [s] short against what moves
+  /// @param way  [s] short relative to the motion
   void find_rates(const MotionState &state, double way, LocalState &rates, Eigen::VectorXd &of_signals);
   /// Of a signal at the turn next to a motion, where it is found by Newton's method.
   /// @param step  [s] of the variational equations

@@ -46,7 +46,7 @@ public:
   const Eigen::VectorXd  &mass_diagonal() const { return mass_; }
   const std::vector<int> &lags() const { return lags_; }
 
-  /// Moves s and s', as little as their masses allow, to where they keep joints closed,
+  /// Projects s and s' (mass-weighted least change) so that joints remain closed,
   ///
   ///     G W^T s + g_x = 0,   G W^T s' + (G u' + rate)_u W^T s + (G u' + rate)_x = 0,
   ///

@@ -10,7 +10,7 @@
 namespace gestell::coupling
 {
 
-/// Where the motion of a piece is between its nodes: by the quintic through q, q', q'' of the two next to it, or the
+/// Interpolation of a motion between its nodes: by the quintic through q, q', q'' of the two next to it, or the
 /// cubic through q, q' where nodes are close.
 class PieceReader
 {
@@ -34,17 +34,17 @@ private:
   MotionState                                            node_;
 };
 
-/// How far the derivatives of a motion can be believed, relative to the largest of them.
+/// Accuracy of the derivatives of a motion, relative to the largest of them.
 struct VariationalAccuracy
 {
-  static constexpr double believed = 0.02; ///< errors up to it are not told
+  static constexpr double believed = 0.02; ///< errors up to it are not reported
 
-  Eigen::RowVectorXd off; ///< of each parameter: largest error that steps have left so far
-  double             after = std::numeric_limits<double>::infinity(); ///< [s] from where one of them is not believed
+  Eigen::RowVectorXd off; ///< of each parameter: largest error of the steps so far
+  double             after = std::numeric_limits<double>::infinity(); ///< [s] after which one of them is not reliable
 };
 
 /**
- * Carries s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
+ * Integrates s and s' along a smooth piece of a motion, by the singly diagonally implicit Runge-Kutta method of five
  * stages and order 4, stiffly accurate and L-stable, whose stages are steps of A = M + c B + c^2 C with c = H/4; the
  * step H, from a ladder of powers of two, is controlled by the embedded method of order 3.  Steps of the run are
  * divided down to a sixteenth.  What that leaves, e, goes on as derivatives do, E'' = ... without what parameters

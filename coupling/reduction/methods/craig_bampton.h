@@ -24,7 +24,7 @@ struct CraigBampton
   static ReductionEntry entry()
   {
     return {"craig-bampton",
-            "static shapes of the interface and modes with the interface held",
+            "static shapes of the interface and fixed-interface modes",
             {"tolerance", "modes", "frequency", "inside", "eigensolver", "inertia_relief"}};
   }
   static BasisFunction basis;
