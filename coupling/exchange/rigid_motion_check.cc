@@ -227,7 +227,7 @@ std::string suspicion_of(const RigidMotionCheck &check, const std::vector<RowLab
   const bool is_free = check.n_free >= 6 || check.n_quiet == check.n_rows;
   if (check.n_free >= 6 && check.n_quiet < check.n_rows)
     return "the stiffness has " + std::to_string(check.n_free) +
-           " free motions, but not the rigid-body modes of the nodes: under translation, rows have " +
+           " unconstrained motions, but not the rigid-body modes of the nodes: under translation, rows have " +
            share_text(check.translation_residual) +
            " of the forces that cancel in them. The rows may be of other nodes or directions";
   const double largest = check.mass.maxCoeff();

@@ -281,7 +281,7 @@ TEST_F(ImportedFrame, WarnsOfPlacesThatBelongToOtherRows)
   expect(warning(in_millimetres, ""), {"of another model, unit or order"});
   auto other_directions = loose; // ux and rx of a node exchanged
   std::swap(other_directions.rows[0].second, other_directions.rows[3].second);
-  expect(warning(other_directions, ""), {"has 6 free motions", "other nodes or directions"});
+  expect(warning(other_directions, ""), {"has 6 unconstrained motions", "other nodes or directions"});
   auto other_mass    = loose;
   other_mass.M(0, 0) = 60.;
   expect(warning(other_mass, ""), {"the frame is free, but its mass is 180, 140 and 140 kg"});
