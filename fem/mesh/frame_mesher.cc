@@ -87,7 +87,7 @@ void require_straight(const ExtractedMesh &extracted, const FrameSpecification &
     throw std::invalid_argument(
         options.place + ": curved = true, but the cells of " + specification.cad +
         std::string(extracted.mesh.hexahedra.empty() ? " are prisms" : " are hexahedra") +
-        " have straight sides; remove curved and make cells smaller along curved faces, or mesh with tetrahedra.");
+        " with straight sides; remove curved and make cells smaller along curved faces, or mesh with tetrahedra.");
 }
 
 /// Whether a face of gmsh is among those of a surface, if there is such a surface.

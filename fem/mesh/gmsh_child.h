@@ -24,8 +24,8 @@ Value in_gmsh_child(const CadSource &source, const std::string &phase, const Chi
                            Value value = work(on_progress);
                            if (!is_finite(value))
                              throw std::invalid_argument(task.head +
-                                                         ": gmsh finds lengths or volumes in it that are no finite "
-                                                         "numbers; the file is damaged: export the model again.");
+                                                         ": gmsh finds lengths or volumes in it that are not "
+                                                         "finite; the file is damaged: export the model again.");
                            return value;
                          });
 }
