@@ -322,7 +322,7 @@ TEST(FollowerOrbits, HaveTheMultipliersOfTheLinearMachine)
 
 TEST(FollowerOrbits, AreNotAveraged)
 {
-  expect_refusal([] { vibrations("averaging", -200.); }, "forces follow the motion");
+  expect_refusal([] { vibrations("averaging", -200.); }, "follower forces");
 }
 
 } // namespace gestell::tests

@@ -113,7 +113,7 @@ TEST(TemporaryDirectory, ThatHasNoPlaceIsToldWithTheVariableThatSaysWhere)
   const std::string reported = refusal<std::runtime_error>([] { const fem::TemporaryDirectory folder; });
   EXPECT_EQ(fem::words_of_removal(), "");
   there ? setenv("TMPDIR", before.c_str(), 1) : unsetenv("TMPDIR");
-  EXPECT_NE(reported.find("TMPDIR says where they go"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("set TMPDIR to another folder"), std::string::npos) << reported;
 }
 
 TEST(NamedFile, IsThereOrNotWhereTheFileSystemSaysSo)

@@ -43,7 +43,7 @@ TEST_F(FrameCache, FindsAFrameByItsKeyAlone)
 
   fs::rename(cache_file(key), cache_file(content_key(coarse.recipe))); // by someone who tidies up
   EXPECT_FALSE(coupling::find_in_cache(content_key(coarse.recipe), note));
-  EXPECT_NE(note.find("something else"), std::string::npos) << note;
+  EXPECT_NE(note.find("other inputs"), std::string::npos) << note;
 }
 
 TEST_F(FrameCache, MakesAFrameOnceAndAnewWhereTheKeptOneIsDamaged)
@@ -64,7 +64,7 @@ TEST_F(FrameCache, MakesAFrameOnceAndAnewWhereTheKeptOneIsDamaged)
   const coupling::CachedFrame anew = coupling::cached_or_made(fine, make);
   EXPECT_FALSE(anew.from_cache);
   ASSERT_EQ(anew.frame.cache_notes.size(), 1u);
-  EXPECT_NE(anew.frame.cache_notes[0].find("reduced anew"), std::string::npos) << anew.frame.cache_notes[0];
+  EXPECT_NE(anew.frame.cache_notes[0].find("reduced again"), std::string::npos) << anew.frame.cache_notes[0];
   EXPECT_TRUE(coupling::cached_or_made(fine, make).from_cache);
 
   const auto fail = []() -> coupling::ReducedFrame { throw std::runtime_error("no frame"); };
@@ -283,7 +283,7 @@ TEST_F(FrameCache, IsWrittenForThisUserAlone)
 TEST_F(FrameCache, KeepsNoFrameThatMoreThanFilesDecides)
 {
   FrameOrigin beyond = fine;
-  beyond.recipe.push_back({"part.column.beyond its files", "frame.geo:3: has the word GetEnv"});
+  beyond.recipe.push_back({"part.column.beyond its files", "frame.geo:3: contains GetEnv"});
   EXPECT_NE(coupling::keep_in_cache(some_frame(), beyond).find("frame.geo:3"), std::string::npos);
   EXPECT_TRUE(coupling::cache_entries().empty());
 }

@@ -134,7 +134,7 @@ TEST(Materials, OfUnknownSolidsOrImpossibleNumbersAreRefusedWithThePlace)
   auto specification      = clamped_bar();
   specification.materials = {{"colum", {70e9, 0., 2700., "press.toml:8: frame.materials.colum"}}};
   const auto refuse       = [&] { return refusal([&] { fem::discretise(bar_of_two_solids(), specification); }); };
-  EXPECT_NE(refuse().find("press.toml:8: frame.materials.colum: no solid is called \"colum\"; the nearest names are "
+  EXPECT_NE(refuse().find("press.toml:8: frame.materials.colum: there is no solid \"colum\"; the nearest names are "
                           "\"column\""),
             std::string::npos)
       << refuse();

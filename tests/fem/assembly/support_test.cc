@@ -325,7 +325,7 @@ TEST(CutForce, ThroughAPlaneBesideTheFrameIsRefused)
             std::string::npos)
       << message;
   specification.cuts = {cut("columns", {{0., 0., 1.}}, {{0., 0., 0.}})};
-  expect_refusal([&] { discretise(upright_bar(), specification); }, "normal has no direction");
+  expect_refusal([&] { discretise(upright_bar(), specification); }, "normal is zero");
 }
 
 TEST(FreeMotions, AreNamedInWords)
