@@ -46,8 +46,10 @@ INSTANTIATE_TEST_SUITE_P(AtRest, FoundMachines, ::testing::Values(815, 1809, 837
 /// A mode that hardly turns in a step and grows by rounding.
 INSTANTIATE_TEST_SUITE_P(Guard, FoundMachines, ::testing::Values(7021));
 /// Weight moves it further than its scale says; extremes between fixed steps; a play that the start
-/// closes; a mode that nothing moves; friction within the tolerance; a piston at its end.
-INSTANTIATE_TEST_SUITE_P(Judge, FoundMachines, ::testing::Values(6015, 7041, 7122, 8275, 8666, 8884, 8999));
+/// closes; a mode that nothing moves; friction within the tolerance; a piston at its end, and one at the wall of its
+/// gas; drives that feed each other through a prescribed motion; a play between bars of which one begins at rest.
+INSTANTIATE_TEST_SUITE_P(Judge, FoundMachines,
+                         ::testing::Values(6015, 7041, 7122, 8275, 8666, 8884, 8999, 9609, 14299, 20061));
 
 } // namespace
 } // namespace gestell::tests

@@ -107,10 +107,12 @@ public:
     }
     draft_.table("start");
     std::string speeds;
-    for (std::size_t i = 0; i < (tree ? bars_.size() : 1); ++i)
-      if (dice_.chance(0.6))
-        speeds +=
-            (speeds.empty() ? "" : ", ") + ("\"" + bars_[i]) + ".angle\" = " + digits(omega_ * dice_.between(-2., 2.));
+    for (std::size_t i = 0; i < (tree ? bars_.size() : 1); ++i) // zero included: a play between them is meant so
+    {
+      const double speed = dice_.chance(0.6) ? omega_ * dice_.between(-2., 2.) : 0.;
+      if (tree || speed != 0.)
+        speeds += (speeds.empty() ? "" : ", ") + ("\"" + bars_[i]) + ".angle\" = " + digits(speed);
+    }
     draft_.line("v = { " + speeds + " }");
   }
 
