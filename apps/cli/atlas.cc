@@ -1,9 +1,9 @@
 #include "apps/cli/atlas.h"
 
+#include "apps/analysis/result_folder.h"
 #include "apps/atlas/atlas.h"
 #include "apps/cli/command.h"
 #include "apps/cli/progress.h"
-#include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"
 
 #include <cmath>

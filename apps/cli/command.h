@@ -1,10 +1,10 @@
 #pragma once
 
+#include "apps/analysis/command_option.h"
 #include "fem/values/cad_source.h"
 
 #include <functional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace gestell::apps
@@ -28,35 +28,6 @@ struct CommonOptions
   int                      jobs    = 1; ///< threads; of a study processes
   bool                     quiet   = false;
   fem::Scripts             scripts = fem::Scripts::harmless; ///< of gmsh, that scenes name
-};
-
-/// An option of a command, as it is typed, told and checked.
-struct CommandOption
-{
-  using Value = std::variant<bool *, int *, double *, std::string *, std::vector<std::string> *, std::vector<int> *,
-                             std::vector<double> *>;
-  enum class Range
-  {
-    any,
-    above_zero,
-    existing_file
-  };
-
-  std::string              name; ///< "--jobs"; "--peers,!--no-peers" of a flag with its opposite; "KEY" without a name
-  Value                    value;
-  std::string              does;
-  Range                    range     = Range::any;
-  std::vector<std::string> choices   = {}; ///< empty: any text
-  std::string              needs     = ""; ///< option without which it has no meaning
-  std::vector<std::string> proposals = {}; ///< words for completion, where others are refused elsewhere or are none
-  double                   most      = 0.; ///< of a number that memory grows with; 0: any
-
-  CommandOption above_zero() const;
-  CommandOption at_most(double number) const;
-  CommandOption existing_file() const;
-  CommandOption one_of(const std::vector<std::string> &names) const;
-  CommandOption proposing(const std::vector<std::string> &words) const;
-  CommandOption with(const std::string &option) const; ///< needs it
 };
 
 /// What the command is about.

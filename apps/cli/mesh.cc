@@ -1,3 +1,4 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/command_answers.h"
 #include "apps/cli/json_answer.h"
@@ -6,7 +7,6 @@
 #include "apps/output/faces/faces_page.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/paraview/face_surface.h"
-#include "apps/output/result_folder.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/scene/read/read_material.h"

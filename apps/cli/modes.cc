@@ -1,3 +1,4 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/json_answer.h"
 #include "apps/cli/modes_converge.h"
@@ -5,7 +6,6 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/frame_text.h"
-#include "apps/output/result_folder.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"

@@ -1,3 +1,4 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/cache_commands.h"
 #include "apps/cli/command.h"
 #include "apps/cli/command_answers.h"
@@ -7,7 +8,6 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/frame_text.h"
-#include "apps/output/result_folder.h"
 #include "apps/scene/build/far_places.h"
 #include "apps/session/session.h"
 #include "apps/version.h"

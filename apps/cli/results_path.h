@@ -1,9 +1,9 @@
 #pragma once
 
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
 #include "apps/output/folder_lock.h"
-#include "apps/output/result_folder.h"
 #include "apps/scene/values/requests.h"
 #include "apps/session/checkpoint/input_files.h"
 

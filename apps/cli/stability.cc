@@ -1,3 +1,4 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/atlas/scene_stability.h"
 #include "apps/cli/atlas.h"
 #include "apps/cli/command.h"
@@ -8,7 +9,6 @@
 #include "apps/output/describe/described_table.h"
 #include "apps/output/folder/writing.h"
 #include "apps/output/report/stability_report.h"
-#include "apps/output/result_folder.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/version.h"
 #include "fem/values/number_text.h"

@@ -1,3 +1,4 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/command_answers.h"
 #include "apps/cli/interruption.h"
@@ -6,7 +7,6 @@
 #include "apps/cli/results_path.h"
 #include "apps/cli/team.h"
 #include "apps/output/folder/own_folder.h"
-#include "apps/output/result_folder.h"
 #include "apps/study/results/findings_text.h"
 #include "apps/study/results/study_analysis.h"
 #include "apps/study/results/study_files.h"

@@ -1,7 +1,7 @@
 #include "apps/library/scene.h"
 
+#include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
-#include "apps/output/result_folder.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"

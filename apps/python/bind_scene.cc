@@ -1,4 +1,6 @@
 #include "apps/python/bind_scene.h"
+
+#include "apps/analysis/analyses.h"
 #include "apps/python/answer_values.h"
 #include "apps/python/python_scene.h"
 
@@ -64,17 +66,6 @@ apps::FrfOptions response_options(Names from, Names to, const std::string &kind,
   return options;
 }
 
-std::shared_ptr<PythonResult> frequency_response(const PythonScene &scene, Names from, Names to,
-                                                 const std::string &kind, const std::string &at,
-                                                 const std::string &lowest, const std::string &highest, int points)
-{
-  apps::FrfOptions options = response_options(std::move(from), std::move(to), kind, at);
-  options.lowest           = lowest;
-  options.highest          = highest;
-  options.points           = points;
-  return scene.frequency_response(options);
-}
-
 py::tuple size(const PythonScene &scene, double tolerance, const std::string &outputs, double max_cpu, bool exhaustive)
 {
   auto [found, sized] = scene.size({tolerance, outputs, max_cpu, exhaustive});
@@ -85,6 +76,16 @@ py::tuple size(const PythonScene &scene, double tolerance, const std::string &ou
 
 void bind_scene(py::module_ &module)
 {
+  py::dict analyses;
+  for (const apps::AnalysisEntry &entry : apps::analyses())
+  {
+    py::list options;
+    for (const apps::CommandOption &option : entry.begin()->options())
+      if (!option.writes)
+        options.append(py::make_tuple(option.name, option.does));
+    analyses[py::str(entry.name)] = py::make_tuple(entry.does, options);
+  }
+  module.attr("analyses") = analyses;
   py::class_<PythonScene>(module, "Scene", "A scene as gestell.Scene holds it.")
       .def_static("of_file", &PythonScene::of_file)
       .def_static("of_text", &PythonScene::of_text)
@@ -104,7 +105,7 @@ void bind_scene(py::module_ &module)
       .def("periodic", &periodic)
       .def("frame", &PythonScene::frame)
       .def("full_frame", &PythonScene::full_frame)
-      .def("frequency_response", &frequency_response)
+      .def("analyse", &PythonScene::analyse)
       .def("state_space",
            [](const PythonScene &scene, Names from, Names to, const std::string &kind, const std::string &at)
            { return scene.state_space(response_options(std::move(from), std::move(to), kind, at)); })

@@ -15,8 +15,10 @@ computed in its `result`), Ctrl-C KeyboardInterrupt, likewise.
 
 import collections
 import concurrent.futures
+import inspect
 import itertools
 import json
+import keyword
 import pathlib
 import re
 import sys
@@ -214,14 +216,6 @@ class Scene:
         """The frame of CAD or matrices as it is assembled, not reduced: M, B, C as scipy.sparse."""
         return self._core.full_frame()
 
-    def frequency_response(self, source, to, kind="receptance", at="start", lowest="", highest="", points=400):
-        """Answers of `to` per force at `source`, names or lists of names: frequencies [Hz], {(source, to): complex array}.
-
-        kind: "receptance", "mobility", "accelerance".  lowest, highest: [Hz].
-        """
-        texts = [text if isinstance(text, str) else f"{text} Hz" for text in (lowest, highest)]
-        return self._core.frequency_response(_names(source), _names(to), kind, at, *texts, points)._responses
-
     def state_space(self, source, to, kind="receptance", at="start") -> StateSpace:
         """The machine linearised there, x' = A x + B u, y = C x + D u: inputs are forces along `source`, outputs `to`.
 
@@ -276,6 +270,34 @@ class Scene:
             return f"<div><strong>{_escaped(self.name)}</strong><ul>{words}</ul></div>"
         except InputError as unfinished:
             return f"<div><strong>scene, not complete</strong><p>{_escaped(str(unfinished))}</p></div>"
+
+
+def _computes(name: str, answer, **renamed):
+    """A method of Scene that computes an analysis: options of its command are keywords, as declared."""
+    does, options = _gestell.analyses[name]
+    words = {option: option[2:].replace("-", "_") for option, _ in options}
+    keywords = {renamed.get(word, word + "_" * keyword.iskeyword(word)): option for option, word in words.items()}
+    parameters = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)]
+    parameters += [inspect.Parameter(key, inspect.Parameter.POSITIONAL_OR_KEYWORD, default="") for key in [*keywords, "progress"]]
+    signature = inspect.Signature(parameters)
+
+    def method(*values, **named):
+        given = signature.bind(*values, **named).arguments
+        texts = {option: _texts(given[key]) for key, option in keywords.items() if given.get(key, "") not in ("", None)}
+        return answer(given["self"]._core.analyse(name, texts, _progress(given.get("progress"))))
+
+    method.__signature__ = signature
+    method.__doc__ = f"{does[0].upper()}{does[1:]}.\n\n" + "\n".join(f"{key}: {dict(options)[option]}." for key, option in keywords.items())
+    return method
+
+
+def _responses(result: "Result"):
+    """Frequencies [Hz], {(source, to): complex array}."""
+    arrays = result._arrays
+    return arrays.pop("frequencies_hz"), arrays
+
+
+Scene.frequency_response = _computes("frf", _responses, **{"from": "source"})
 
 
 class Motion:
@@ -431,6 +453,10 @@ def _written(name: str) -> str:
 
 def _names(names):
     return names if names is None else [names] if isinstance(names, str) else list(names)
+
+
+def _texts(value) -> list:
+    return [str(each) for each in ([value] if isinstance(value, str) or not hasattr(value, "__iter__") else value)]
 
 
 def _text(quantity) -> str:

@@ -1,7 +1,7 @@
 // The module _gestell, on which gestell.py rests.
 
+#include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
-#include "apps/output/result_folder.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/summary_json.h"
 #include "apps/python/answer_values.h"
@@ -75,17 +75,19 @@ py::object sensitivities_of(const PythonResult &result)
   return std::move(all);
 }
 
-py::object responses_of(const PythonResult &result)
+/// By their names, those of several words by tuples.
+py::dict arrays_of(const PythonResult &result)
 {
-  const auto &found = result.result().frf;
-  if (!found)
-    return py::none();
-  py::dict pairs;
-  for (const apps::ResponsePair &pair : found->pairs)
-    pairs[py::make_tuple(pair.from, pair.to)] =
-        py::array_t<std::complex<double>>(py::ssize_t(pair.values.size()), pair.values.data());
-  return py::make_tuple(py::array_t<double>(py::ssize_t(found->frequencies_hz.size()), found->frequencies_hz.data()),
-                        pairs);
+  py::dict all;
+  for (const auto &answer : result.result().answers)
+    for (const apps::NamedArray &array : answer->arrays())
+    {
+      const py::object name =
+          array.name.size() == 1 ? py::object(py::str(array.name[0])) : py::tuple(py::cast(array.name));
+      const py::array values = py::array_t<std::complex<double>>(py::ssize_t(array.values.size()), array.values.data());
+      all[name]              = array.real ? py::object(values.attr("real").attr("copy")()) : values;
+    }
+  return all;
 }
 
 Eigen::MatrixXd states_of(const PythonResult &result)
@@ -205,7 +207,7 @@ void bind_result(py::module_ &module)
       .def_property_readonly("states", &states_of, "Coordinates at picture_times [times x coordinates], m or rad.")
       .def_property_readonly("sensitivities", &sensitivities_of,
                              "Derivatives of each output by each key, a dict of dicts in SI; None: not asked for.")
-      .def_property_readonly("_responses", &responses_of)
+      .def_property_readonly("_arrays", &arrays_of)
       .def_property_readonly("_periodic",
                              [](const PythonResult &result) -> py::object
                              {

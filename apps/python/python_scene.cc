@@ -1,5 +1,7 @@
 #include "apps/python/python_scene.h"
 
+#include "apps/analysis/analyses.h"
+#include "apps/analysis/frf/state_space_answer.h"
 #include "apps/atlas/scene_stability.h"
 #include "apps/python/callback_progress.h"
 #include "apps/python/interruptible.h"
@@ -9,7 +11,6 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
-#include "apps/session/exchange/state_space_answer.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/sizing/sized_scene.h"
 #include "apps/study/runs/reduced_frame_store.h"
@@ -343,15 +344,22 @@ std::shared_ptr<PythonResult> PythonScene::periodic(const apps::PeriodicRequest 
   return result;
 }
 
-std::shared_ptr<PythonResult> PythonScene::frequency_response(const apps::FrfOptions &options) const
+std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, const Texts &options,
+                                                   py::object progress) const
 {
+  const apps::AnalysisEntry &entry    = apps::analysis_named(name);
+  const auto                 analysis = entry.begin();
+  for (const apps::CommandOption &option : analysis->options())
+    if (const auto given = options.find(option.name); given != options.end())
+      option.set(given->second);
   return interruptibly(
       [&, self = *this](const apps::Watch &watch)
       {
         auto session = self.session(self.scene(), watch);
-        auto answer  = session->frequency_response(options);
+        auto answer  = apps::computed(entry, *analysis, *session);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
-      });
+      },
+      std::move(progress));
 }
 
 std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const

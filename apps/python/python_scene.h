@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/analysis/frf/response_search.h"
 #include "apps/output/report/stability_report.h"
 #include "apps/output/values/state_space_model.h"
 #include "apps/python/python_frame.h"
@@ -9,6 +10,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +29,8 @@ struct RunChoice
   std::string                             sensitivities{}; ///< entries, as at Session::run()
   pybind11::object                        progress = pybind11::none();
 };
+
+using Texts = std::map<std::string, std::vector<std::string>>;
 
 struct SizeChoice
 {
@@ -71,8 +75,10 @@ public:
   apps::StabilityStudy             stability(double step) const;
   /// The search, and this scene with the sizes that it chose.
   std::pair<apps::SizeResult, PythonScene> size(const SizeChoice &choice) const;
-  std::shared_ptr<PythonResult>            frequency_response(const apps::FrfOptions &options) const;
   std::shared_ptr<apps::StateSpaceModel>   state_space(const apps::FrfOptions &options) const;
+  /// @param options  texts by the names of options, "--from"
+  std::shared_ptr<PythonResult> analyse(const std::string &analysis, const Texts &options,
+                                        pybind11::object progress) const;
 
 private:
   PythonScene(apps::SceneNode root, std::string path) : root_(std::move(root)), path_(std::move(path)) {}

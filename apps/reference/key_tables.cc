@@ -1,6 +1,7 @@
 #include "apps/reference/key_tables.h"
 
-#include "apps/output/result_files.h"
+#include "apps/analysis/analyses.h"
+#include "apps/analysis/result_files.h"
 #include "apps/output/tables/summary_json.h"
 #include "apps/output/text/write_file.h"
 #include "apps/reference/declared_tables.h"
@@ -123,7 +124,7 @@ std::string generated(const std::string &marker)
   if (marker == "result files")
     return result_files_table();
   if (marker == "members: summary.json")
-    return member_table(summary_members());
+    return member_table(summary_members(result_of_all_kinds()));
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
                                 "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");
@@ -157,7 +158,7 @@ void renew_reference(const std::string &docs)
   for (const auto &document : documents)
     write_file(document.string(), renewed(content(document)));
   write_file((folder / "scene.schema.json").string(), json_schema());
-  write_file((folder / "summary.schema.json").string(), summary_schema());
+  write_file((folder / "summary.schema.json").string(), summary_schema(result_of_all_kinds()));
 }
 
 } // namespace gestell::apps

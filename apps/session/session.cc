@@ -9,7 +9,6 @@
 #include "apps/scene/scene.h"
 #include "apps/session/backbone.h"
 #include "apps/session/basin_answer.h"
-#include "apps/session/frequency_response.h"
 #include "apps/session/joint_opening.h"
 #include "apps/session/long_run.h"
 #include "apps/session/modes_along.h"
@@ -214,32 +213,30 @@ Partition Session::partition()
   return partition_of(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
 }
 
-Result Session::modes(const ModesOptions &options)
+Result Session::answered(const std::string &command, const std::function<void(Result &)> &add,
+                         coupling::GeometricStiffness geometric)
 {
   PreparedMachine &prepared = machine();
   progress()("modes", -1.);
-  const auto geometric =
-      options.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
-  Result result    = begin_result(scene_, "modes", prepared, geometric);
+  Result result    = begin_result(scene_, command, prepared, geometric);
   result.requested = {path_, overrides_, std::nullopt};
-  if (!options.along.empty())
-  {
-    result.along = modes_along_result(scene_, prepared, options, progress());
-    for (const std::string &warning : along_warnings(*result.along))
-      result.warnings.push_back(warning);
-  }
+  add(result);
   return finished(std::move(result));
 }
 
-Result Session::frequency_response(const FrfOptions &options)
+Result Session::modes(const ModesOptions &options)
 {
-  check_frf_options(options);
-  PreparedMachine &prepared = machine();
-  progress()("modes", -1.);
-  Result result    = begin_result(scene_, "frf", prepared);
-  result.requested = {path_, overrides_, std::nullopt};
-  result.frf       = frequency_response_of(scene_, prepared, options, progress(), result.warnings);
-  return finished(std::move(result));
+  const auto add = [&](Result &result)
+  {
+    if (options.along.empty())
+      return;
+    result.along = modes_along_result(scene_, *machine_, options, progress());
+    for (const std::string &warning : along_warnings(*result.along))
+      result.warnings.push_back(warning);
+  };
+  return answered("modes", add,
+                  options.geometric == "off" ? coupling::GeometricStiffness::left_out
+                                             : coupling::GeometricStiffness::included);
 }
 
 SceneNode Session::entries() const
@@ -331,12 +328,7 @@ Result Session::periodic(const PeriodicRequest &request)
 
 Result Session::periodic_here(const PeriodicRequest &request)
 {
-  PreparedMachine &prepared = machine();
-  progress()("modes", -1.);
-  Result result    = begin_result(scene_, "periodic", prepared);
-  result.requested = {path_, overrides_, std::nullopt};
-  result.periodic  = periodic_motions(request, result);
-  return finished(std::move(result));
+  return answered("periodic", [&](Result &result) { result.periodic = periodic_motions(request, result); });
 }
 
 PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result &result)

@@ -2,7 +2,6 @@
 
 #include "apps/scene/file/scene_node.h"
 #include "apps/session/checkpoint/run_checkpoints.h"
-#include "apps/session/frf_options.h"
 #include "apps/session/modes_options.h"
 #include "apps/session/partition.h"
 #include "apps/session/periodic_request.h"
@@ -10,6 +9,7 @@
 #include "apps/session/prepared_machine.h"
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,8 +78,9 @@ public:
   Partition partition();
   /// Modes of the frame and of the coupled machine, and along a coordinate where options say so.
   Result modes(const ModesOptions &options = {});
-  /// Frequency responses of the machine linearised at an operating point.
-  Result frequency_response(const FrfOptions &options);
+  /// Model and modes, as of every command, with what `add` finds of machine().
+  Result answered(const std::string &command, const std::function<void(Result &)> &add,
+                  coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
   /// From here on runs keep the states around the peaks of forces: pictures become dense around the main one, and
   /// add_story() tells which modes make them.  Takes some of their time.
   void keep_swings() { swings_ = true; }

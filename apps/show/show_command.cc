@@ -1,9 +1,9 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
-#include "apps/output/result_folder.h"
 #include "apps/show/result_collections.h"
 #include "coupling/plugin/plugin.h"
 

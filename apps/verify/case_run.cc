@@ -1,7 +1,8 @@
 #include "apps/verify/case_run.h"
 
+#include "apps/analysis/analyses.h"
+#include "apps/analysis/result_files.h"
 #include "apps/output/folder/own_folder.h"
-#include "apps/output/result_files.h"
 #include "apps/output/text/csv.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
@@ -190,19 +191,15 @@ Result modes(Session &session, CaseRequest &requested)
   return session.modes(options);
 }
 
-Result responses(Session &session, CaseRequest &requested)
+/// Settings are options of the analysis, by their names.
+Result analysed(const AnalysisEntry &entry, Session &session, CaseRequest &requested)
 {
-  FrfOptions options;
-  options.from    = requested.texts("from");
-  options.to      = requested.texts("to");
-  options.kind    = requested.text("kind", options.kind);
-  options.at      = requested.text("at", options.at);
-  options.lowest  = requested.text("lowest");
-  options.highest = requested.text("highest");
-  options.points  = requested.number("points", options.points);
-  options.spacing = requested.text("spacing", options.spacing);
+  const auto analysis = entry.begin();
+  for (const CommandOption &option : analysis->options())
+    if (const auto texts = requested.texts(option.name.substr(2)); !texts.empty())
+      option.set(texts);
   requested.finish();
-  return session.frequency_response(options);
+  return computed(entry, *analysis, session);
 }
 
 Result periodic(Session &session, CaseRequest &requested)
@@ -245,8 +242,7 @@ struct Computation
 
 const std::vector<Computation> &scene_computations()
 {
-  static const std::vector<Computation> all = {
-      {"run", run}, {"modes", modes}, {"frf", responses}, {"periodic", periodic}};
+  static const std::vector<Computation> all = {{"run", run}, {"modes", modes}, {"periodic", periodic}};
   return all;
 }
 
@@ -285,6 +281,9 @@ CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more,
   for (const Computation &computation : scene_computations())
     if (computation.name == one.compute)
       result_ = computation.compute(session, requested);
+  for (const AnalysisEntry &entry : analyses())
+    if (entry.name == one.compute)
+      result_ = analysed(entry, session, requested);
 }
 
 AnswerValue CaseRun::value(const std::string &entry) const

@@ -6,8 +6,8 @@
 // FOLDER/error_coordinates.svg and FOLDER/error_cpu.svg: the largest error of the frequencies of each mesh against
 // those of the last mesh of the reference.
 
+#include "apps/analysis/result_folder.h"
 #include "apps/output/charts/chart.h"
-#include "apps/output/result_folder.h"
 #include "apps/output/text/write_file.h"
 #include "apps/scene/file/csv_file.h"
 

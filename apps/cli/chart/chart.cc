@@ -1,3 +1,4 @@
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/chart/chart_files.h"
 #include "apps/cli/chart/chart_methods.h"
 #include "apps/cli/chart/chart_reductions.h"
@@ -9,7 +10,6 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/charts/work_precision.h"
 #include "apps/output/folder/own_folder.h"
-#include "apps/output/result_folder.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
 #include "apps/session/prepared_machine.h"

@@ -1,10 +1,10 @@
 #include "apps/cli/chart/chart_reductions.h"
 
+#include "apps/analysis/result_folder.h"
 #include "apps/cli/interruption.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/charts/chart.h"
 #include "apps/output/folder/writing.h"
-#include "apps/output/result_folder.h"
 #include "apps/session/session.h"
 #include "apps/sizing/error_budget.h"
 #include "apps/sizing/reduction_comparison.h"

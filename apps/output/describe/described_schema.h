@@ -28,6 +28,15 @@ struct SchemaMembers
   }
 };
 
+/// Of a described value, with what it holds in place of T{}.
+template <class T>
+Json object_schema(const T &value)
+{
+  SchemaMembers members;
+  describe(members, value);
+  return {{"type", "object"}, {"properties", members.properties}, {"required", members.required}};
+}
+
 template <class T>
 Json described_schema()
 {
@@ -39,11 +48,7 @@ Json described_schema()
     return schema;
   }
   else if constexpr (is_described<T>)
-  {
-    SchemaMembers members;
-    describe(members, T{});
-    return {{"type", "object"}, {"properties", members.properties}, {"required", members.required}};
-  }
+    return object_schema(T{});
   else if constexpr (is_pairs<T>)
     return {{"type", "object"}, {"additionalProperties", described_schema<typename T::value_type::second_type>()}};
   else if constexpr (is_list<T>)

@@ -1,7 +1,6 @@
 #include "apps/output/describe/described_table.h"
 
 #include "apps/output/text/csv.h"
-#include "apps/output/text/html.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -69,7 +68,7 @@ std::string DescribedTable::csv() const
   return text + '\n';
 }
 
-std::string DescribedTable::html() const
+HtmlTable DescribedTable::shown() const
 {
   std::vector<std::string> heads;
   for (const Column &column : columns)
@@ -82,36 +81,7 @@ std::string DescribedTable::html() const
       cells.push_back(cell_text(cell, short_number, "yes", "no"));
     table.add(cells);
   }
-  return table.scrolled_html();
-}
-
-std::string DescribedTable::terminal() const
-{
-  std::vector<std::vector<std::string>> lines(1);
-  for (const Column &column : columns)
-    lines.front().push_back(column.head());
-  for (const auto &row : rows)
-  {
-    lines.emplace_back();
-    for (const Cell &cell : row)
-      lines.back().push_back(cell_text(cell, short_number, "yes", "no"));
-  }
-  std::vector<std::size_t> widths(columns.size(), 0);
-  for (const auto &line : lines)
-    for (std::size_t j = 0; j < line.size(); ++j)
-      widths[j] = std::max(widths[j], n_letters(line[j]));
-  std::string text;
-  for (const auto &line : lines)
-  {
-    for (std::size_t j = 0; j < line.size(); ++j)
-    {
-      const std::string space(widths[j] - n_letters(line[j]), ' ');
-      text += "  " + (columns[j].numeric ? space + line[j] : line[j] + space);
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
-  }
-  return text;
+  return table;
 }
 
 void TableRow::add(const char *name, DescribedTable::Cell cell, const std::string &unit)

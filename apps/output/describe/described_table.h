@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/describe/described.h"
+#include "apps/output/text/html.h"
 
 #include <variant>
 
@@ -23,9 +24,10 @@ struct DescribedTable
   /// Columns under the names that files have had for long.
   DescribedTable renamed(const std::vector<std::pair<std::string, std::string>> &names) &&;
 
-  std::string csv() const;      ///< RFC 4180, numbers in full precision, truths as 1 and 0
-  std::string html() const;     ///< numbers to five digits
-  std::string terminal() const; ///< the same in columns
+  std::string csv() const;   ///< RFC 4180, numbers in full precision, truths as 1 and 0
+  HtmlTable   shown() const; ///< numbers to five digits
+  std::string html() const { return shown().scrolled_html(); }
+  std::string terminal() const { return shown().terminal(); }
 };
 
 /// One row of a table.

@@ -108,6 +108,14 @@ std::string what_it_gave(const coupling::RunResult &run)
   return text;
 }
 
+std::string computed_subject(const Result &result)
+{
+  std::string subject;
+  for (const auto &answer : result.answers)
+    subject += (subject.empty() ? "" : ", ") + answer->subject();
+  return subject;
+}
+
 std::string other_sentences(const Result &result)
 {
   std::string text;
@@ -115,8 +123,8 @@ std::string other_sentences(const Result &result)
     text += count_text(result.periodic->entries.size(), "periodic motion") + " of " + result.scene +
             (result.periodic->entries.size() == 1 ? " was" : " were") + " computed by " + result.periodic->method +
             model_text(result.model) + ". ";
-  else if (result.frf)
-    text += "Frequency responses of " + result.scene + " were computed" + model_text(result.model) + ". ";
+  else if (const std::string subject = computed_subject(result); !subject.empty())
+    text += subject + " of " + result.scene + " were computed" + model_text(result.model) + ". ";
   else if (result.along)
     text += "The natural frequencies of " + result.scene + " were computed along " +
             result.along->modes.coordinate.name + model_text(result.model) + ". ";

@@ -9,12 +9,12 @@
 #include "apps/output/report/budget_report.h"
 #include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frame_text.h"
-#include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/machine_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/order_report.h"
 #include "apps/output/report/overview_report.h"
 #include "apps/output/report/periodic_report.h"
+#include "apps/output/report/section.h"
 #include "apps/output/report/sensitivity_report.h"
 #include "apps/output/report/spectrum_report.h"
 #include "apps/output/report/stage_report.h"
@@ -327,33 +327,35 @@ std::string numerics_section(const Result &result)
   return section("numerics", "Model and work", html);
 }
 
-/// Links to the sections there are.
-std::string contents(const std::string &body)
+/// Sections in their order, those without content left out, and the links to them.
+class Body
 {
-  std::string html = "<nav>";
-  for (const auto &[id, name] : {std::pair("periodic", "Periodic motions"),
-                                 {"peaks", "Answer"},
-                                 {"view", "Machine"},
-                                 {"budget", "Error budget"},
-                                 {"sensitivities", "Sensitivities"},
-                                 {"forces", "Forces"},
-                                 {"motion", "Motion"},
-                                 {"stress", "Stress"},
-                                 {"orders", "Orders"},
-                                 {"story", "Events and modes"},
-                                 {"spectrum", "Spectra"},
-                                 {"events", "Events"},
-                                 {"energy", "Energy"},
-                                 {"frf", "Frequency response"},
-                                 {"along", "Frequencies along"},
-                                 {"compared-run", "Runs compared"},
-                                 {"compared-modes", "Modes compared"},
-                                 {"modes", "Modes"},
-                                 {"numerics", "Model and work"}})
-    if (body.find("<section id=\"" + std::string(id) + "\"") != std::string::npos)
-      html += "<a href=\"#" + std::string(id) + "\">" + name + "</a>";
-  return html + "</nav>\n";
-}
+public:
+  explicit Body(const Result &result, Pictures &pictures) : pictures_(pictures)
+  {
+    for (const auto &answer : result.answers)
+      for (Section &own : answer->sections(result))
+        answers_.push_back(std::move(own));
+  }
+  void add(const std::string &content, const std::string &id = "", const std::string &link = "")
+  {
+    html += content;
+    if (!content.empty() && !link.empty())
+      links += "<a href=\"#" + id + "\">" + link + "</a>";
+  }
+  void add(Section::Place place)
+  {
+    for (const Section &own : answers_)
+      if (own.place == place)
+        add(section_html(own, pictures_), own.id, own.link);
+  }
+
+  std::string html, links;
+
+private:
+  Pictures            &pictures_;
+  std::vector<Section> answers_;
+};
 
 } // namespace
 
@@ -366,27 +368,41 @@ Report make_report(const Result &result)
   for (const SignalChart &chart : charts)
     report.charts.emplace_back(chart.name, chart.svg);
 
-  const std::string body =
-      periodic_section(result, report.charts) + answer_section(result, has_view) +
-      section("view", "The machine to turn", view) + compared_run_section(result, report.charts) +
-      stage_section(result) + budget_section(result, report.charts) + sensitivity_section(result, report.charts) +
-      stress_section(result, has_view) + chart_section(charts, ChartTopic::force, "forces", "Forces") +
-      chart_section(charts, ChartTopic::motion, "motion", "Motion") +
-      chart_section(charts, ChartTopic::other, "signals", "Other signals") + order_section(result, report.charts) +
-      story_section(result) + spectrum_section(result, report.charts) + events_section(result) +
-      energy_section(result, charts) + frequency_response_section(result, report.charts) +
-      along_section(result, report.charts) + compared_modes_section(result, report.charts) +
-      modes_section(result, has_view, report.charts) + numerics_section(result);
+  Body body(result, report.charts);
+  body.add(periodic_section(result, report.charts), "periodic", "Periodic motions");
+  body.add(Section::Place::first);
+  body.add(answer_section(result, has_view), "peaks", "Answer");
+  body.add(section("view", "The machine to turn", view), "view", "Machine");
+  body.add(compared_run_section(result, report.charts), "compared-run", "Runs compared");
+  body.add(stage_section(result));
+  body.add(budget_section(result, report.charts), "budget", "Error budget");
+  body.add(sensitivity_section(result, report.charts), "sensitivities", "Sensitivities");
+  body.add(Section::Place::results);
+  body.add(stress_section(result, has_view), "stress", "Stress");
+  body.add(chart_section(charts, ChartTopic::force, "forces", "Forces"), "forces", "Forces");
+  body.add(chart_section(charts, ChartTopic::motion, "motion", "Motion"), "motion", "Motion");
+  body.add(chart_section(charts, ChartTopic::other, "signals", "Other signals"));
+  body.add(order_section(result, report.charts), "orders", "Orders");
+  body.add(story_section(result), "story", "Events and modes");
+  body.add(spectrum_section(result, report.charts), "spectrum", "Spectra");
+  body.add(Section::Place::history);
+  body.add(events_section(result), "events", "Events");
+  body.add(energy_section(result, charts), "energy", "Energy");
+  body.add(Section::Place::frequencies);
+  body.add(along_section(result, report.charts), "along", "Frequencies along");
+  body.add(compared_modes_section(result, report.charts), "compared-modes", "Modes compared");
+  body.add(modes_section(result, has_view, report.charts), "modes", "Modes");
+  body.add(numerics_section(result), "numerics", "Model and work");
 
   report.html = page_html(
       {result.scene, result.description,
-       overview(result) + note_box(all_warnings(result), "Warnings") + contents(body) + body,
+       overview(result) + note_box(all_warnings(result), "Warnings") + "<nav>" + body.links + "</nav>\n" + body.html,
        "Computed with gestell " + escape_xml(result.version) +
            ". All numbers stand in full precision in summary.json and the .csv files beside this page." +
            (result.run && !result.run->picture_states.empty() ? " The motion opens in ParaView: motion.pvd." : ""),
        "",
-       page_scripts(body.find("<figure class=\"live\"") != std::string::npos,
-                    body.find("<div class=\"machine\"") != std::string::npos)});
+       page_scripts(body.html.find("<figure class=\"live\"") != std::string::npos,
+                    body.html.find("<div class=\"machine\"") != std::string::npos)});
   return report;
 }
 

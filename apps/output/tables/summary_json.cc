@@ -12,16 +12,18 @@ std::string summary_json(const Result &result)
   return json_text(described_json(result));
 }
 
-std::vector<MemberLine> summary_members()
+std::vector<MemberLine> summary_members(const Result &all)
 {
-  return members_of<Result>();
+  std::vector<MemberLine> lines;
+  MemberList              members{lines};
+  describe(members, all);
+  return lines;
 }
 
-std::string summary_schema()
+std::string summary_schema(const Result &all)
 {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "summary.json of gestell"}};
-  const Json result = described_schema<Result>();
-  schema.update(result);
+  schema.update(object_schema(all));
   return json_text(schema);
 }
 

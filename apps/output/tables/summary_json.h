@@ -10,7 +10,8 @@ namespace gestell::apps
 std::string summary_json(const Result &result);
 
 /// Its members, for docs/results.md, and its JSON schema, docs/summary.schema.json.
-std::vector<MemberLine> summary_members();
-std::string             summary_schema();
+/// @param all  a result with an empty answer of every analysis
+std::vector<MemberLine> summary_members(const Result &all);
+std::string             summary_schema(const Result &all);
 
 } // namespace gestell::apps

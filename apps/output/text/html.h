@@ -26,7 +26,7 @@ std::string page_html(const Page &page);
 /// JSON as it may stand within a script element, whatever names it holds.
 std::string inside_script(std::string json);
 
-/// A table; its cells are escaped.
+/// A table to be read; its cells are escaped.
 class HtmlTable
 {
 public:
@@ -49,12 +49,14 @@ public:
 
   std::string html() const { return in_box("wide"); }            ///< scrolled sideways where it is too wide
   std::string scrolled_html() const { return in_box("scroll"); } ///< in a box that long tables are scrolled in
+  std::string terminal() const;                                  ///< the same in columns
 
 private:
   std::string in_box(const std::string &kind) const;
 
-  std::vector<bool> is_number_; ///< by column
-  std::string       head_, rows_;
+  std::vector<bool>              is_number_; ///< by column
+  std::vector<std::string>       heads_;
+  std::vector<std::vector<Cell>> rows_; ///< a single cell of several columns: a note
 };
 
 /// A cell that stands out where `condition` holds.

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "apps/output/values/answer.h"
 #include "apps/output/values/error_budget.h"
-#include "apps/output/values/frequency_response.h"
 #include "apps/output/values/mode_comparison.h"
 #include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
@@ -109,7 +109,6 @@ struct Result
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`
-  std::optional<FrequencyResponse>            frf;              ///< of `frf`
   std::optional<ErrorBudget>                  budget;           ///< of a run that was asked for it
   std::optional<SensitivityResult>            sensitivities;    ///< of a run that was asked for them
   std::optional<SizeResult>                   size;             ///< of `size`, whose chosen model ran
@@ -118,6 +117,7 @@ struct Result
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people
   std::vector<std::string>                    warnings;         ///< beyond those of the run
+  Answers                                     answers;          ///< of analyses, apps/analysis
   Scenery                                     scenery;
 };
 

@@ -268,7 +268,8 @@ void describe(Visitor &v, const Result &x)
           "extremes beside those of another scene, `run --compare`");
   part("modes_along", x.along, "`modes --along`");
   part("periodic", x.periodic, "`periodic`");
-  part("frf", x.frf, "`frf`");
+  for (const auto &answer : x.answers)
+    answer->describe(v);
   v.maybe(x.budget.has_value(), "budget", by_name(budget.entries, &BudgetEntry::output), "",
           "errors of each output, `run --budget`");
   v.maybe(x.budget.has_value(), "budget_cpu_s", budget.cpu_s(), "s", "what the run and each part of the budget took");

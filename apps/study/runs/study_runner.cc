@@ -1,6 +1,6 @@
 #include "apps/study/runs/study_runner.h"
 
-#include "apps/output/result_folder.h"
+#include "apps/analysis/result_folder.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/session/session.h"

@@ -1,8 +1,8 @@
 // Whose file is it: only what the list of a folder names is replaced or removed.
 
+#include "apps/analysis/result_folder.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/folder/writing.h"
-#include "apps/output/result_folder.h"
 #include "coupling/frame/atomic_file.h"
 #include "tests/support/output_example.h"
 #include "tests/support/program.h"

@@ -4,6 +4,7 @@
 #include "fem/values/two_pi.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
+#include "tests/support/scene_response.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/test.h"
 
@@ -20,7 +21,7 @@ using Complex = std::complex<double>;
 FrequencyResponse response_of(const std::string &path, const FrfOptions &options,
                               const std::vector<std::string> &overrides = {})
 {
-  return *Session(path, overrides).frequency_response(options).frf;
+  return scene_response(path, options, overrides).response;
 }
 
 /// Of the text of a scene.
@@ -153,9 +154,9 @@ TEST(FrequencyResponse, OfALightlyDampedMachinePeaksAtItsModes)
                            "damping = [[20, 0, 0], [0, 20, 0], [0, 0, 20]]\n" +
                            table("frame.interface.top", {{"rows", "{ uz = 3 }"}});
   const test::SceneFolder folder;
-  Session                 session(folder.write("scene.toml", text));
-  const apps::Result      result = session.frequency_response(options_of({"frame.top.uz"}, {"frame.top.uz"}, 1., 60.));
-  const auto             &peaks  = result.frf->pairs[0].peaks;
+  const auto [result, response] =
+      scene_response(folder.write("scene.toml", text), options_of({"frame.top.uz"}, {"frame.top.uz"}, 1., 60.));
+  const auto &peaks = response.pairs[0].peaks;
   ASSERT_EQ(peaks.size(), 3u);
   for (std::size_t j = 0; j < 3; ++j)
   {
@@ -229,7 +230,7 @@ TEST(FrequencyResponse, WarnsOfAContactThatJustTouches)
       const test::SceneFolder folder;
       std::string             all;
       for (const std::string &warning :
-           Session(folder.write("scene.toml", text), {}).frequency_response(options_of({"slide"}, {"slide"})).warnings)
+           scene_response(folder.write("scene.toml", text), options_of({"slide"}, {"slide"})).result.warnings)
         all += warning;
       return all;
     };
@@ -343,7 +344,7 @@ TEST(FrequencyResponse, IsTheSteadyVibrationOfTheTimeIntegration)
 std::vector<std::string> warnings_of_text(const std::string &text, const FrfOptions &options)
 {
   const test::SceneFolder folder;
-  return Session(folder.write("scene.toml", text), {}).frequency_response(options).warnings;
+  return scene_response(folder.write("scene.toml", text), options).result.warnings;
 }
 
 std::string spring_damper(const std::string &stiffness, const std::string &damping)

@@ -5,6 +5,7 @@
 #include "fem/values/two_pi.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
+#include "tests/support/scene_response.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/test.h"
 
@@ -152,7 +153,7 @@ TEST(Unbalance, UnderGravityIsAPendulum)
   options.from = options.to = {"rotor"};
   options.lowest            = "0.1 Hz";
   options.highest           = "2 Hz";
-  const auto response       = *apps::Session(folder.write("scene.toml", text)).frequency_response(options).frf;
+  const auto response       = scene_response(folder.write("scene.toml", text), options).response;
   for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
     EXPECT_NEAR((1. / response.pairs[0].values[i]).real(), U * g - J * std::pow(two_pi * response.frequencies_hz[i], 2),
                 1e-12 * J * 160.);
@@ -166,7 +167,7 @@ TEST(Unbalance, CouplesRotorAndCarrierInTheFrequencyResponse)
   apps::FrfOptions        options;
   options.from = options.to  = {"carrier", "rotor"};
   const std::string path     = folder.write("scene.toml", carrier() + rotor(J, {{"unbalance_phase", "90 deg"}}));
-  const auto        response = *apps::Session(path).frequency_response(options).frf;
+  const auto        response = scene_response(path, options).response;
   for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
   {
     const double  w = two_pi * response.frequencies_hz[i], w2 = w * w;
@@ -192,7 +193,7 @@ TEST(Unbalance, ActsAtItsPlaceOnACarrierThatTilts)
   const test::SceneFolder folder;
   apps::FrfOptions        options;
   options.from = options.to = {"frame.top.ux", "frame.top.ry", "rotor"};
-  const auto response       = *apps::Session(folder.write("scene.toml", text)).frequency_response(options).frf;
+  const auto response       = scene_response(folder.write("scene.toml", text), options).response;
   for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
   {
     const double    w = two_pi * response.frequencies_hz[i];
@@ -214,9 +215,9 @@ TEST(Unbalance, AtRestHasAForceWithoutAResponseInFirstOrder)
   options.from         = {"carrier"};
   options.to           = {"rotor unbalance.force"};
   const auto answer_of = [&](const std::string &start)
-  { return apps::Session(folder.write("scene.toml", carrier() + rotor(0.05) + start)).frequency_response(options); };
+  { return scene_response(folder.write("scene.toml", carrier() + rotor(0.05) + start), options).response; };
   expect_refusal([&] { answer_of(""); }, "has a kink at the operating point");
-  EXPECT_FALSE(answer_of(table("start", {{"v", "{ rotor = 60 }"}})).frf->pairs.empty());
+  EXPECT_FALSE(answer_of(table("start", {{"v", "{ rotor = 60 }"}})).pairs.empty());
 }
 
 TEST(Unbalance, WhatCannotBeIsToldWithItsRemedy)

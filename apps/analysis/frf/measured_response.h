@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/values/frequency_response.h"
+#include "apps/analysis/frf/frequency_response.h"
 
 #include <string>
 #include <vector>

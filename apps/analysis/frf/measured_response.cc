@@ -1,8 +1,8 @@
-#include "apps/session/measured_response.h"
+#include "apps/analysis/frf/measured_response.h"
 
+#include "apps/analysis/frf/universal_file.h"
 #include "apps/scene/file/csv_file.h"
 #include "apps/scene/language/parse_quantity.h"
-#include "apps/session/universal_file.h"
 #include "fem/values/named_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"

@@ -1,4 +1,4 @@
-#include "apps/session/exchange/state_space_answer.h"
+#include "apps/analysis/frf/state_space_answer.h"
 
 #include <stdexcept>
 

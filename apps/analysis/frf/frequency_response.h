@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/values/answer.h"
 #include "apps/output/values/coupling_descriptions.h"
 
 #include <complex>
@@ -79,5 +80,18 @@ void describe(Visitor &v, const FrequencyResponse &x)
   v("pairs", x.pairs, "", "pairs of places");
   v("measured", x.measured, "", "measured curves");
 }
+
+template <class Visitor>
+void describe_answer(Visitor &v, const FrequencyResponse &x)
+{
+  v.maybe(true, "frf", x, "", "`frf`");
+}
+
+/// What is read of it.
+std::vector<Section> response_sections(const FrequencyResponse &response);
+
+/// frf.csv: `frequency [Hz]`, then for each pair `NAME re [unit]`, `NAME im [unit]`, `NAME abs [unit]`, `NAME phase
+/// [deg]`.
+std::string frequency_response_csv(const FrequencyResponse &response);
 
 } // namespace gestell::apps

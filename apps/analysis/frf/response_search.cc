@@ -1,8 +1,8 @@
-#include "apps/session/frequency_response.h"
+#include "apps/analysis/frf/response_search.h"
 
-#include "apps/session/measured_response.h"
+#include "apps/analysis/frf/measured_response.h"
+#include "apps/analysis/frf/response_sweep.h"
 #include "apps/session/option_value.h"
-#include "apps/session/response_sweep.h"
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/modes/operating_point.h"

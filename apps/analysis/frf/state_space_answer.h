@@ -1,7 +1,7 @@
 #pragma once
 
+#include "apps/analysis/frf/response_search.h"
 #include "apps/output/values/state_space_model.h"
-#include "apps/session/frequency_response.h"
 
 namespace gestell::apps
 {

@@ -1,4 +1,4 @@
-#include "apps/session/response_sweep.h"
+#include "apps/analysis/frf/response_sweep.h"
 
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "apps/output/values/result.h"
-
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace gestell::apps
 {
+
+struct Result;
 
 /// Who writes a file of results.
 enum class WrittenBy
@@ -28,17 +28,5 @@ struct ResultFile
   std::vector<std::pair<std::string, std::string>> (*several)(const Result &result) = nullptr;
   WrittenBy by                                                                      = WrittenBy::write_results;
 };
-
-/// All of them, in the order of writing; what prepare_folder() removes, and the list of docs/results.md.
-const std::vector<ResultFile> &result_files();
-
-/// Names that write_results() may write, for OwnFolder::require_free(); of folders "motion/".
-std::vector<std::string> result_names();
-
-/// Whether a name, relative to the folder, is one of the list: of a result, or in a folder of results.
-bool is_result(const std::string &name);
-
-/// The rows of that list.
-std::string result_files_table();
 
 } // namespace gestell::apps

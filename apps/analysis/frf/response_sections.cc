@@ -1,8 +1,5 @@
-#include "apps/output/report/frequency_response_report.h"
-
-#include "apps/output/interactive/live_chart.h"
-#include "apps/output/tables/frequency_response_table.h"
-#include "apps/output/text/html.h"
+#include "apps/analysis/frf/frequency_response.h"
+#include "apps/output/report/section.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -72,6 +69,11 @@ Curve curve_of(const std::string &name, const std::vector<double> &f, const std:
 double amplitude_of(std::complex<double> value)
 {
   return std::abs(value);
+}
+
+double phase_degrees(std::complex<double> value)
+{
+  return std::arg(value) * 180. / M_PI;
 }
 
 /// Dots in the colour of the computed curve.
@@ -151,71 +153,74 @@ Chart phase_chart(const FrequencyResponse &response, const std::vector<std::size
   return chart;
 }
 
-std::string peaks_of_pairs(const FrequencyResponse &response)
+HtmlTable peaks_of_pairs(const FrequencyResponse &response)
 {
-  HtmlTable table({"answer / force", "#f [Hz]", "#amplitude", "unit", "#damping ratio by half-power width"});
+  HtmlTable table({"answer / force", "#peak at [Hz]", "#amplitude", "#damping ratio by half-power width"});
   for (const ResponsePair &pair : response.pairs)
+  {
+    const std::string name = pair.name() + " [" + pair.unit + "]";
+    if (pair.peaks.empty())
+      table.add({name, "none in this band", "", ""});
     for (const coupling::ResponsePeak &peak : pair.peaks)
-      table.add({pair.name(), short_text(peak.frequency_hz, 7),
-                 std::isfinite(peak.amplitude) ? short_text(peak.amplitude, 5) : "∞", pair.unit,
+      table.add({name, short_text(peak.frequency_hz, 7),
+                 std::isfinite(peak.amplitude) ? short_text(peak.amplitude, 5) : "infinite",
                  std::isfinite(peak.damping_ratio) ? short_text(peak.damping_ratio) : "–"});
-  return table.is_empty() ? "<p>No response has a peak in this band.</p>\n" : "<h3>Peaks</h3>" + table.scrolled_html();
+  }
+  return table;
 }
 
-std::string about(const FrequencyResponse &response)
+std::string operating_point_text(const FrequencyResponse &response)
 {
-  std::string text = "<p>The " + response.kind + " of the machine linearised at " +
-                     (response.at == "start"         ? "the start of the scene"
-                      : response.at == "equilibrium" ? "its static equilibrium"
-                                                     : "its undeformed position") +
-                     (response.moves ? ", in the motion of that instant" : ", at rest") + ". ";
+  std::string text = "The " + response.kind + " of the machine linearised " +
+                     (response.at == "start"         ? "at the start of the scene"
+                      : response.at == "equilibrium" ? "in equilibrium"
+                                                     : "in the position of its modes") +
+                     (response.moves ? ", in motion" : ", at rest");
   for (const auto &[state, names] : {std::pair("closed", &response.closed_contacts), {"open", &response.open_contacts}})
     if (!names->empty())
-      text +=
-          "There " + std::string(names->size() > 1 ? "are " : "is ") + state + ": " + escape_xml(listed(*names)) + ". ";
-  text += "</p>\n";
-  if (!response.not_condensed.empty())
-    text +=
-        "<p class=\"soft\">Every frequency took the whole equations: " + escape_xml(response.not_condensed) + ".</p>\n";
+      text += std::string("; ") + state + ": " + listed(*names);
   return text;
-}
-
-/// Amplitude and phase of each group of pairs, with the names of their files.
-std::vector<std::pair<std::string, Chart>> response_charts(const FrequencyResponse &response)
-{
-  std::vector<std::pair<std::string, Chart>> charts;
-  int                                        number = 0;
-  for (const std::vector<std::size_t> &group : chart_groups(response))
-  {
-    const std::string ending = ++number > 1 ? "-" + std::to_string(number) : "";
-    charts.emplace_back("frf-amplitude" + ending, amplitude_chart(response, group));
-    charts.emplace_back("frf-phase" + ending, phase_chart(response, group));
-  }
-  return charts;
 }
 
 } // namespace
 
-Pictures frequency_response_pictures(const FrequencyResponse &response)
+std::vector<Section> response_sections(const FrequencyResponse &response)
 {
-  Pictures pictures;
-  for (const auto &[name, chart] : response_charts(response))
-    pictures.emplace_back(name, chart_svg(chart));
-  return pictures;
+  Section section{"frf", "Frequency response", "Frequency response", Section::Place::frequencies};
+  section.parts.push_back(Section::Sentences{operating_point_text(response)});
+  if (!response.not_condensed.empty())
+    section.parts.push_back(
+        Section::Sentences{"Every frequency took the whole equations: " + response.not_condensed + ".", true, true});
+  int number = 0;
+  for (const std::vector<std::size_t> &group : chart_groups(response))
+  {
+    const std::string ending = ++number > 1 ? "-" + std::to_string(number) : "";
+    section.parts.push_back(Section::Drawing{"frf-amplitude" + ending, amplitude_chart(response, group)});
+    section.parts.push_back(Section::Drawing{"frf-phase" + ending, phase_chart(response, group)});
+  }
+  section.parts.push_back(Section::Sentences{"Rings: peaks.", true, true});
+  section.parts.push_back(peaks_of_pairs(response));
+  return {section};
 }
 
-std::string frequency_response_section(const Result &result, Pictures &pictures)
+std::string frequency_response_csv(const FrequencyResponse &response)
 {
-  if (!result.frf)
-    return "";
-  std::string html = about(*result.frf);
-  for (const auto &[name, chart] : response_charts(*result.frf))
+  std::string csv = "frequency [Hz]";
+  for (const ResponsePair &pair : response.pairs)
+    for (const std::string part : {"re", "im", "abs"})
+      csv += ',' + pair.name() + ' ' + part + " [" + pair.unit + ']' +
+             (part == "abs" ? "," + pair.name() + " phase [deg]" : "");
+  csv += '\n';
+  for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
   {
-    pictures.emplace_back(name, chart_svg(chart));
-    html += live_figure(chart, pictures.back().second);
+    append_exact(csv, response.frequencies_hz[i]);
+    for (const ResponsePair &pair : response.pairs)
+      for (const double value :
+           {pair.values[i].real(), pair.values[i].imag(), std::abs(pair.values[i]), phase_degrees(pair.values[i])})
+        append_exact(csv += ',', value);
+    csv += '\n';
   }
-  html += "<p class=\"soft\">Rings: peaks.</p>\n" + peaks_of_pairs(*result.frf);
-  return section("frf", "Frequency response", html);
+  return csv;
 }
 
 } // namespace gestell::apps

@@ -1,10 +1,10 @@
-#include "apps/output/result_files.h"
+#include "apps/analysis/result_files.h"
 
+#include "apps/analysis/analyses.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/energy_table.h"
-#include "apps/output/tables/frequency_response_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/order_table.h"
 #include "apps/output/tables/periodic_tables.h"
@@ -12,6 +12,7 @@
 #include "apps/output/tables/section_table.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
+#include "apps/output/values/result.h"
 
 #include <algorithm>
 
@@ -95,11 +96,6 @@ std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
   return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
 }
 
-std::string response(const Result &result)
-{
-  return result.frf ? frequency_response_csv(*result.frf) : "";
-}
-
 std::string orders(const Result &result)
 {
   return result.orders ? orders_csv(*result.orders) : "";
@@ -115,51 +111,53 @@ std::string models(const Result &result)
   return result.size ? size_csv(*result.size) : "";
 }
 
+/// Of what is no analysis.
+const std::vector<ResultFile> own_files = {
+    {"history.csv", "to plot: every signal over time", history},
+    {"modes.csv", "natural frequencies, damping, effective masses", modes},
+    {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", mode_energies},
+    {"compared_modes.csv", "modes beside those of another scene, with `--compare`", compared_modes},
+    {"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run},
+    {"compared_history.csv", "the other run over time", compared_history},
+    {"mac.csv", "how alike their shapes are, each with each", mac},
+    {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
+    {"modes_along_shapes.csv", "the shapes to them", along_shapes},
+    {"solutions.csv", "periodic motions with their stability and signals, of `periodic`", solutions},
+    {"multipliers.csv", "their Floquet multipliers", multipliers},
+    {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
+    {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
+    {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
+    {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
+    {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
+    {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
+     sensitivities},
+    {"size.csv", "models that `size` tried, with their cost and errors", models},
+    {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
+    {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,
+     WrittenBy::its_command},
+    {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
+    {"coupled_modes.pvd", "mode shapes of frame and mechanism together in ParaView", nullptr, "coupled_modes", ".vtp"},
+    {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},
+    {"forces.pvd", "what elements, joints, springs and loads exert on each body, as vectors where they act", nullptr,
+     "forces", ".vtp"},
+    {"view.py", "opens motion.pvd and forces.pvd in ParaView, deformed, coloured, at the main peak"},
+    {"stress.pvd", "stresses at the frame's skin in ParaView, with `[output.stress]`", nullptr, "stress", ".vtp"},
+    {"report.html",
+     "to read: one page, opens without a network, light or dark, printable; its pictures, each for itself", nullptr,
+     "charts", ".svg"},
+    {"summary.json", "to compare and to process: peaks, events, frequencies, work, energy, warnings"}};
+
 } // namespace
 
 const std::vector<ResultFile> &result_files()
 {
-  static const std::vector<ResultFile> files = {
-      {"history.csv", "to plot: every signal over time", history},
-      {"modes.csv", "natural frequencies, damping, effective masses", modes},
-      {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", mode_energies},
-      {"compared_modes.csv", "modes beside those of another scene, with `--compare`", compared_modes},
-      {"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run},
-      {"compared_history.csv", "the other run over time", compared_history},
-      {"mac.csv", "how alike their shapes are, each with each", mac},
-      {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
-      {"modes_along_shapes.csv", "the shapes to them", along_shapes},
-      {"solutions.csv", "periodic motions with their stability and signals, of `periodic`", solutions},
-      {"multipliers.csv", "their Floquet multipliers", multipliers},
-      {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
-      {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
-      {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
-      {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
-      {"frf.csv", "frequency responses of the linearised machine, by `frf`", response},
-      {"state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`", nullptr, "", "",
-       nullptr, WrittenBy::its_command},
-      {"state_space_*.mtx", "the same, with `frf --export matrix-market`", nullptr, "", "", nullptr,
-       WrittenBy::its_command},
-      {"state_space.csv", "names of its states, inputs and outputs", nullptr, "", "", nullptr, WrittenBy::its_command},
-      {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
-      {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
-       sensitivities},
-      {"size.csv", "models that `size` tried, with their cost and errors", models},
-      {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
-      {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,
-       WrittenBy::its_command},
-      {"frame_modes.pvd", "mode shapes of the frame in ParaView", nullptr, "frame_modes", ".vtp"},
-      {"coupled_modes.pvd", "mode shapes of frame and mechanism together in ParaView", nullptr, "coupled_modes",
-       ".vtp"},
-      {"motion.pvd", "frame and mechanism in motion in ParaView", nullptr, "motion", ".vtp"},
-      {"forces.pvd", "what elements, joints, springs and loads exert on each body, as vectors where they act", nullptr,
-       "forces", ".vtp"},
-      {"view.py", "opens motion.pvd and forces.pvd in ParaView, deformed, coloured, at the main peak"},
-      {"stress.pvd", "stresses at the frame's skin in ParaView, with `[output.stress]`", nullptr, "stress", ".vtp"},
-      {"report.html",
-       "to read: one page, opens without a network, light or dark, printable; its pictures, each for itself", nullptr,
-       "charts", ".svg"},
-      {"summary.json", "to compare and to process: peaks, events, frequencies, work, energy, warnings"}};
+  static const std::vector<ResultFile> files = []
+  {
+    std::vector<ResultFile> all = own_files;
+    for (const AnalysisEntry &entry : analyses())
+      all.insert(all.end(), entry.files.begin(), entry.files.end());
+    return all;
+  }();
   return files;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/output/values/frequency_response.h"
+#include "apps/analysis/frf/frequency_response.h"
 #include "coupling/modes/modes.h"
 #include "coupling/periodic/response/linear_response.h"
 

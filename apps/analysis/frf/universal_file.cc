@@ -1,4 +1,4 @@
-#include "apps/session/universal_file.h"
+#include "apps/analysis/frf/universal_file.h"
 
 #include "coupling/frame/number_in_file.h"
 #include "fem/values/trimmed.h"

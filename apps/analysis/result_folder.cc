@@ -1,12 +1,12 @@
-#include "apps/output/result_folder.h"
+#include "apps/analysis/result_folder.h"
 
+#include "apps/analysis/result_files.h"
 #include "apps/output/folder/writing.h"
 #include "apps/output/paraview/paraview.h"
 #include "apps/output/report/comparison_report.h"
-#include "apps/output/report/frequency_response_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
-#include "apps/output/result_files.h"
+#include "apps/output/report/section.h"
 #include "apps/output/tables/summary_json.h"
 
 #include <algorithm>
@@ -172,14 +172,13 @@ void write_modes(const fs::path &folder, const Result &result)
   };
   if (result.along)
     write_pictures(along_pictures(*result.along));
+  Pictures pictures;
   if (result.compared_shapes)
-  {
-    Pictures pictures;
     compared_modes_section(result, pictures);
-    write_pictures(pictures);
-  }
-  if (result.frf)
-    write_pictures(frequency_response_pictures(*result.frf));
+  for (const auto &answer : result.answers)
+    for (const Section &section : answer->sections(result))
+      section_html(section, pictures);
+  write_pictures(pictures);
 }
 
 } // namespace gestell::apps

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "apps/analysis/command_option.h"
+#include "apps/output/folder/own_folder.h"
+#include "apps/output/values/result_file.h"
+#include "apps/session/session.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// One computation of an analysis: its options, and what it makes of them.
+class Analysis
+{
+public:
+  virtual ~Analysis() = default;
+
+  /// Bound to its members, which hold the defaults; they are options of the command line and keywords of Python.
+  virtual std::vector<CommandOption> options() { return {}; }
+  /// What can be known of the options without a machine.
+  /// @throws std::invalid_argument: which, the value, and what is needed
+  virtual void                     check() const {}
+  virtual std::vector<std::string> reads() const { return {}; }  ///< files, which no result may replace
+  virtual std::vector<std::string> writes() const { return {}; } ///< files that write() makes
+
+  /// Adds its answer, and warnings, to a result that has the model and its modes.
+  virtual void compute(Session &session, Result &result) const = 0;
+  /// Files that only the command makes; returns a line that says so.
+  virtual std::string write(Session &, OwnFolder &) const { return ""; }
+};
+
+/// An analysis as it is registered, in analyses.cc.
+struct AnalysisEntry
+{
+  std::string              name; ///< of its command, `gestell NAME`
+  std::string              does;
+  std::vector<std::string> examples;
+  std::vector<ResultFile>  files;
+
+  std::function<std::unique_ptr<Analysis>()> begin;
+  std::function<std::shared_ptr<const Answer>()>
+      nothing; ///< an answer without values, whose members the reference lists
+};
+
+/// @tparam Own     Analysis
+/// @tparam Answer  of a default value
+template <class Own, class OwnAnswer, class Value>
+AnalysisEntry analysis_entry(const std::string &name, const std::string &does, const std::vector<std::string> &examples,
+                             const std::vector<ResultFile> &files)
+{
+  return {name,
+          does,
+          examples,
+          files,
+          [] { return std::make_unique<Own>(); },
+          [] { return std::make_shared<const OwnAnswer>(Value()); }};
+}
+
+} // namespace gestell::apps

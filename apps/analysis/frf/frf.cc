@@ -1,0 +1,111 @@
+#include "apps/analysis/analysis.h"
+#include "apps/analysis/frf/response_search.h"
+#include "apps/analysis/frf/state_space_answer.h"
+#include "apps/output/describe/described_answer.h"
+#include "apps/output/exchange/state_space_files.h"
+#include "apps/output/report/section.h"
+#include "apps/output/values/result.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+class FrfAnswer : public DescribedAnswer<FrequencyResponse>
+{
+public:
+  using DescribedAnswer::DescribedAnswer;
+
+  std::string             subject() const override { return "Frequency responses"; }
+  std::vector<Section>    sections(const Result &) const override { return response_sections(value); }
+  std::vector<NamedArray> arrays() const override
+  {
+    std::vector<NamedArray> arrays{
+        {{"frequencies_hz"}, {value.frequencies_hz.begin(), value.frequencies_hz.end()}, true}};
+    for (const ResponsePair &pair : value.pairs)
+      arrays.push_back({{pair.from, pair.to}, pair.values});
+    return arrays;
+  }
+};
+
+class Frf : public Analysis
+{
+public:
+  std::vector<CommandOption> options() override
+  {
+    return {
+        {"--from", &own_.from, "where unit forces act: displacements or angles, such as frame.crown.uz, slide, tip.ux"},
+        {"--to", &own_.to, "what answers: signals of the scene or paths, such as frame.table.uz, rod.force"},
+        CommandOption{"--kind", &own_.kind, "of displacements: receptance (default), mobility or accelerance"}.one_of(
+            {"receptance", "mobility", "accelerance"}),
+        CommandOption{"--at", &own_.at,
+                      "operating point: start (default) of the scene, equilibrium or undeformed at [modes]"}
+            .one_of({"start", "equilibrium", "undeformed"}),
+        {"--lowest", &own_.lowest, "frequency, such as \"1 Hz\" (default: a quarter of the lowest mode)"},
+        {"--highest", &own_.highest, "frequency (default: 1.5 times the highest mode that is listed)"},
+        CommandOption{"--points", &own_.points, "frequencies, beside those that peaks ask for (default 400)"}
+            .above_zero()
+            .at_most(1e6),
+        CommandOption{"--spacing", &own_.spacing, "of the frequencies: log (default) or linear"}.one_of(
+            {"log", "linear"}),
+        {"--measured", &own_.measured, "measured curves: FILE.csv, FILE.uff, or PAIR=FILE"},
+        CommandOption{"--export", &format_,
+                      "the linear machine itself, x' = A x + B u, y = C x + D u, for other programs"}
+            .one_of(exchange_formats())
+            .of_files()};
+  }
+  void                     check() const override { check_frf_options(own_); }
+  std::vector<std::string> reads() const override
+  {
+    std::vector<std::string> files;
+    for (const std::string &text : own_.measured)
+      files.insert(files.end(), {text, text.substr(text.find('=') + 1)});
+    return files;
+  }
+  std::vector<std::string> writes() const override
+  {
+    return format_.empty() ? std::vector<std::string>() : state_space_files(format_);
+  }
+  void compute(Session &session, Result &result) const override
+  {
+    result.answers.push_back(std::make_shared<FrfAnswer>(
+        frequency_response_of(session.scene(), session.machine(), own_, session.progress(), result.warnings)));
+  }
+  std::string write(Session &session, OwnFolder &folder) const override
+  {
+    if (format_.empty())
+      return "";
+    const auto model = state_space_of(session.scene(), session.machine(), own_);
+    const auto files = write_state_space(folder, model, format_);
+    return "state space: " + std::to_string(model.states.size()) + " states, " + std::to_string(model.inputs.size()) +
+           " inputs, " + std::to_string(model.outputs.size()) +
+           " outputs: " + (folder.path() / files.front()).string() + (files.size() > 1 ? " ..." : "");
+  }
+
+private:
+  FrfOptions  own_;
+  std::string format_; ///< of the linear machine; empty: it is not written
+};
+
+std::string table_of_responses(const Result &result)
+{
+  const auto *response = answer_in<FrequencyResponse>(result.answers);
+  return response ? frequency_response_csv(*response) : "";
+}
+
+} // namespace
+
+AnalysisEntry frf_analysis()
+{
+  const auto exported = [](const std::string &name, const std::string &holds)
+  { return ResultFile{name, holds, nullptr, "", "", nullptr, WrittenBy::its_command}; };
+  return analysis_entry<Frf, FrfAnswer, FrequencyResponse>(
+      "frf", "frequency responses of the machine linearised at an operating point",
+      {"gestell frf apps/scenes/press_minimal.toml --from frame.crown.uz --to frame.crown.uz,F_P"},
+      {{"frf.csv", "frequency responses of the linearised machine, by `frf`", table_of_responses},
+       exported("state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"),
+       exported("state_space_*.mtx", "the same, with `frf --export matrix-market`"),
+       exported("state_space.csv", "names of its states, inputs and outputs")});
+}
+
+} // namespace gestell::apps

@@ -1,0 +1,49 @@
+#include "apps/output/report/section.h"
+
+namespace gestell::apps
+{
+namespace
+{
+
+struct PartHtml
+{
+  Pictures &pictures;
+
+  std::string operator()(const Section::Sentences &part) const
+  {
+    return (part.soft ? "<p class=\"soft\">" : "<p>") + escape_xml(part.text) + "</p>\n";
+  }
+  std::string operator()(const HtmlTable &table) const { return table.is_empty() ? "" : table.scrolled_html(); }
+  std::string operator()(const Section::Drawing &part) const
+  {
+    pictures.emplace_back(part.name, chart_svg(part.chart));
+    return part.live ? live_figure(part.chart, pictures.back().second, part.link) : figure(pictures.back().second);
+  }
+};
+
+struct PartText
+{
+  std::string operator()(const Section::Sentences &part) const { return part.page ? "" : part.text + '\n'; }
+  std::string operator()(const HtmlTable &table) const { return table.is_empty() ? "" : table.terminal(); }
+  std::string operator()(const Section::Drawing &) const { return ""; }
+};
+
+} // namespace
+
+std::string section_html(const Section &of, Pictures &pictures)
+{
+  std::string html;
+  for (const Section::Part &part : of.parts)
+    html += std::visit(PartHtml{pictures}, part);
+  return section(of.id, escape_xml(of.title), html);
+}
+
+std::string section_text(const Section &of)
+{
+  std::string text;
+  for (const Section::Part &part : of.parts)
+    text += std::visit(PartText{}, part);
+  return text.empty() ? "" : of.title + '\n' + text;
+}
+
+} // namespace gestell::apps

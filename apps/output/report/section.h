@@ -1,0 +1,50 @@
+#pragma once
+
+#include "apps/output/interactive/live_chart.h"
+#include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// What is read of an answer: sentences, tables and charts in their order.  A terminal has no charts.
+struct Section
+{
+  enum class Place ///< among those of the report
+  {
+    first,
+    results,    ///< behind the peaks
+    history,    ///< behind the charts over time
+    frequencies ///< before the modes
+  };
+  struct Sentences
+  {
+    std::string text;         ///< not escaped
+    bool        page = false; ///< of its charts: for the page alone
+    bool        soft = false;
+  };
+  struct Drawing
+  {
+    std::string name; ///< of its file, without ending
+    Chart       chart;
+    ChartLink   link = ChartLink::none;
+    bool        live = true; ///< to zoom and read; else a picture
+  };
+  using Part = std::variant<Sentences, HtmlTable, Drawing>;
+
+  std::string       id, title, link; ///< link: its name in the contents of the page
+  Place             place = Place::results;
+  std::vector<Part> parts{};
+};
+
+/// As a piece of a page, with its pictures; "" without parts.
+std::string section_html(const Section &section, Pictures &pictures);
+
+/// For a terminal: its title, sentences and tables.
+std::string section_text(const Section &section);
+
+} // namespace gestell::apps
