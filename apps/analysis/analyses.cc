@@ -6,7 +6,12 @@ namespace gestell::apps
 {
 
 /// Each analysis, by the function NAME_analysis() of its folder.
-#define GESTELL_ANALYSES(X) X(frf)
+#define GESTELL_ANALYSES(X)                                                                                            \
+  X(compare_run)                                                                                                       \
+  X(budget)                                                                                                            \
+  X(spectra)                                                                                                           \
+  X(frf)                                                                                                               \
+  X(compare_modes)
 
 #define GESTELL_DECLARED(name) AnalysisEntry name##_analysis();
 GESTELL_ANALYSES(GESTELL_DECLARED)
@@ -27,10 +32,51 @@ const AnalysisEntry &analysis_named(const std::string &name)
   throw std::invalid_argument("there is no analysis '" + name + "'" + suggestion(name, names));
 }
 
-Result computed(const AnalysisEntry &entry, const Analysis &analysis, Session &session)
+Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session)
 {
-  analysis.check();
+  analysis.check(session);
   return session.answered(entry.name, [&](Result &result) { analysis.compute(session, result); });
+}
+
+Analyses analyses_of(const std::string &command)
+{
+  Analyses own;
+  for (const AnalysisEntry &entry : analyses())
+    if (entry.of == command)
+      own.push_back(entry.begin());
+  return own;
+}
+
+void add_options(const Analyses &analyses, std::vector<CommandOption> &options)
+{
+  for (const auto &analysis : analyses)
+    for (const CommandOption &option : analysis->options())
+      options.push_back(option);
+}
+
+std::vector<std::string> files_read_by(const Analyses &analyses)
+{
+  std::vector<std::string> files;
+  for (const auto &analysis : analyses)
+    for (const std::string &file : analysis->reads())
+      files.push_back(file);
+  return files;
+}
+
+void check_all(const Analyses &analyses, Session &session)
+{
+  for (const auto &analysis : analyses)
+    if (analysis->requested())
+      analysis->check(session);
+}
+
+bool add_answers(const Analyses &analyses, Session &session, Result &result)
+{
+  bool all = true;
+  for (const auto &analysis : analyses)
+    if (analysis->requested() && !analysis->compute(session, result))
+      all = false;
+  return all;
 }
 
 Result result_of_all_kinds()

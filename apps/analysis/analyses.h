@@ -12,7 +12,17 @@ const std::vector<AnalysisEntry> &analyses();
 const AnalysisEntry &analysis_named(const std::string &name);
 
 /// What it finds of the session's scene.
-Result computed(const AnalysisEntry &entry, const Analysis &analysis, Session &session);
+Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session);
+
+/// Those that add to the result of a command.
+using Analyses = std::vector<std::shared_ptr<Analysis>>;
+Analyses                 analyses_of(const std::string &command);
+void                     add_options(const Analyses &analyses, std::vector<CommandOption> &options);
+std::vector<std::string> files_read_by(const Analyses &analyses);
+void                     check_all(const Analyses &analyses, Session &session); ///< of those requested
+
+/// Of those requested; @return whether all have an answer
+bool add_answers(const Analyses &analyses, Session &session, Result &result);
 
 /// A result with an answer of each, for the lists of what summary.json may hold.
 Result result_of_all_kinds();

@@ -21,14 +21,17 @@ public:
 
   /// Bound to its members, which hold the defaults; they are options of the command line and keywords of Python.
   virtual std::vector<CommandOption> options() { return {}; }
-  /// What can be known of the options without a machine.
-  /// @throws std::invalid_argument: which, the value, and what is needed
-  virtual void                     check() const {}
+  /// Of an option of another command: whether it was given.
+  virtual bool requested() const { return true; }
+  /// What can be known before anything is computed.
+  /// @throws std::invalid_argument: which option, the value, and what is needed
+  virtual void                     check(Session &) {}
   virtual std::vector<std::string> reads() const { return {}; }  ///< files, which no result may replace
   virtual std::vector<std::string> writes() const { return {}; } ///< files that write() makes
 
-  /// Adds its answer, and warnings, to a result that has the model and its modes.
-  virtual void compute(Session &session, Result &result) const = 0;
+  /// Adds its answer, and warnings, to a result that has the model and its modes, or the run.
+  /// @return false: it has none, as a warning says
+  virtual bool compute(Session &session, Result &result) const = 0;
   /// Files that only the command makes; returns a line that says so.
   virtual std::string write(Session &, OwnFolder &) const { return ""; }
 };
@@ -36,7 +39,7 @@ public:
 /// An analysis as it is registered, in analyses.cc.
 struct AnalysisEntry
 {
-  std::string              name; ///< of its command, `gestell NAME`
+  std::string              name; ///< of its command, `gestell NAME`, unless it belongs to another one
   std::string              does;
   std::vector<std::string> examples;
   std::vector<ResultFile>  files;
@@ -50,14 +53,15 @@ struct AnalysisEntry
 /// @tparam Answer  of a default value
 template <class Own, class OwnAnswer, class Value>
 AnalysisEntry analysis_entry(const std::string &name, const std::string &does, const std::vector<std::string> &examples,
-                             const std::vector<ResultFile> &files)
+                             const std::vector<ResultFile> &files, const std::string &of = "")
 {
   return {name,
           does,
           examples,
           files,
           [] { return std::make_unique<Own>(); },
-          [] { return std::make_shared<const OwnAnswer>(Value()); }};
+          [] { return std::make_shared<const OwnAnswer>(Value()); },
+          of};
 }
 
 } // namespace gestell::apps

@@ -3,10 +3,8 @@
 #include "apps/analysis/analyses.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/tables/basins_table.h"
-#include "apps/output/tables/comparison_table.h"
 #include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
-#include "apps/output/tables/order_table.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/section_table.h"
@@ -34,26 +32,6 @@ std::string modes(const Result &result)
 std::string mode_energies(const Result &result)
 {
   return result.energy_shares ? mode_energies_csv(result) : "";
-}
-
-std::string compared_modes(const Result &result)
-{
-  return result.compared_shapes ? compared_modes_csv(*result.compared_shapes) : "";
-}
-
-std::string compared_run(const Result &result)
-{
-  return result.run && result.compared_run ? compared_run_csv(*result.run, *result.compared_run) : "";
-}
-
-std::string compared_history(const Result &result)
-{
-  return result.compared_run && !result.compared_run->run.columns.empty() ? history_csv(result.compared_run->run) : "";
-}
-
-std::string mac(const Result &result)
-{
-  return result.compared_shapes ? mac_csv(*result.compared_shapes) : "";
 }
 
 std::string along(const Result &result)
@@ -96,11 +74,6 @@ std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
   return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
 }
 
-std::string orders(const Result &result)
-{
-  return result.orders ? orders_csv(*result.orders) : "";
-}
-
 std::string sensitivities(const Result &result)
 {
   return result.sensitivities && result.sensitivities->failure.empty() ? sensitivities_csv(*result.sensitivities) : "";
@@ -116,10 +89,6 @@ const std::vector<ResultFile> own_files = {
     {"history.csv", "to plot: every signal over time", history},
     {"modes.csv", "natural frequencies, damping, effective masses", modes},
     {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", mode_energies},
-    {"compared_modes.csv", "modes beside those of another scene, with `--compare`", compared_modes},
-    {"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run},
-    {"compared_history.csv", "the other run over time", compared_history},
-    {"mac.csv", "how alike their shapes are, each with each", mac},
     {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
     {"modes_along_shapes.csv", "the shapes to them", along_shapes},
     {"solutions.csv", "periodic motions with their stability and signals, of `periodic`", solutions},
@@ -128,7 +97,6 @@ const std::vector<ResultFile> own_files = {
     {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
     {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
     {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
-    {"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders},
     {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
      sensitivities},
     {"size.csv", "models that `size` tried, with their cost and errors", models},

@@ -3,7 +3,6 @@
 #include "apps/analysis/result_files.h"
 #include "apps/output/folder/writing.h"
 #include "apps/output/paraview/paraview.h"
-#include "apps/output/report/comparison_report.h"
 #include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
 #include "apps/output/report/section.h"
@@ -173,8 +172,6 @@ void write_modes(const fs::path &folder, const Result &result)
   if (result.along)
     write_pictures(along_pictures(*result.along));
   Pictures pictures;
-  if (result.compared_shapes)
-    compared_modes_section(result, pictures);
   for (const auto &answer : result.answers)
     for (const Section &section : answer->sections(result))
       section_html(section, pictures);

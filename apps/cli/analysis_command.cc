@@ -36,12 +36,11 @@ std::string write_answer_of(const AnalysisEntry &entry, const Result &result, co
          "tables of modes, their charts and frame_modes.pvd were written";
 }
 
-int compute_analysis(const AnalysisEntry &entry, const Analysis &analysis, const CommonOptions &options)
+int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const CommonOptions &options)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
-  analysis.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, analysis.reads());

@@ -17,7 +17,8 @@ std::vector<Command> commands()
                               export_command(), size_command(),   study_command(),     show_command(),
                               new_command(),    verify_command(), help_command()};
   for (const AnalysisEntry &entry : analyses())
-    all.push_back(analysis_command(entry));
+    if (entry.of.empty())
+      all.push_back(analysis_command(entry));
   return all;
 }
 

@@ -1,3 +1,4 @@
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/json_answer.h"
@@ -6,12 +7,11 @@
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/frame_text.h"
-#include "apps/output/tables/comparison_table.h"
+#include "apps/output/report/section.h"
 #include "apps/output/tables/energy_table.h"
 #include "apps/output/tables/modes_along_table.h"
 #include "apps/output/tables/summary_json.h"
 #include "apps/output/values/line_extremes.h"
-#include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/modes_along.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
@@ -139,8 +139,9 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
   print_poles(result.poles);
   if (result.along)
     print_along(*result.along);
-  if (result.compared_shapes)
-    std::cout << compared_modes_text(*result.compared_shapes);
+  for (const auto &answer : result.answers)
+    for (const Section &section : answer->sections(result))
+      std::cout << section_text(section);
 }
 
 /// Of the command line.
@@ -148,25 +149,18 @@ struct ModesCommand
 {
   ModesOptions    modes;
   ConvergeOptions mesh;
-  std::string     compare; ///< file of another scene; empty: none
 };
 
-void compare_with(const std::string &file, const CommonOptions &options, Session &session, Result &result)
-{
-  Session      other(file, {}, options.scripts, {session.progress()});
-  const Result of_other = other.modes();
-  add_compared_modes(session, result, other, of_other);
-}
-
-int find_modes(const CommonOptions &options, const ModesCommand &requested)
+int find_modes(const CommonOptions &options, const ModesCommand &requested, const Analyses &more)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
-  const auto                  inputs = inputs_of(options, {requested.compare});
+  const auto                  inputs = inputs_of(options, files_read_by(more));
   require_room(folder, {requested.mesh.converge > 0. ? "mesh_convergence.csv" : ""}, inputs);
+  check_all(more, session);
 
   std::optional<coupling::MeshConvergence> convergence;
   if (requested.mesh.converge > 0.)
@@ -175,8 +169,7 @@ int find_modes(const CommonOptions &options, const ModesCommand &requested)
     session.use_frame(convergence->frame);
   }
   Result result = session.modes(requested.modes);
-  if (!requested.compare.empty())
-    compare_with(requested.compare, options, session, result);
+  add_answers(more, session, result);
   if (convergence)
     for (const std::string &warning : convergence_warnings(*convergence, requested.mesh.converge))
       result.warnings.push_back(warning);
@@ -211,57 +204,57 @@ int find_modes(const CommonOptions &options, const ModesCommand &requested)
 
 Command modes_command()
 {
-  const auto own = std::make_shared<ModesCommand>();
-  return {
+  const auto own  = std::make_shared<ModesCommand>();
+  const auto more = analyses_of("modes");
+  Command    command{
       "modes",
       "natural frequencies and shapes of the frame and of the coupled machine",
       {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank",
-       "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
+          "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
       CommandInput::scene,
       {{"--along", &own->modes.along, "follow them along a coordinate: a body, a measure or a driven joint"},
-       CommandOption{"--from", &own->modes.from,
+          CommandOption{"--from", &own->modes.from,
                      "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
-           .with("--along"),
-       CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
-       CommandOption{"--positions", &own->modes.positions,
+              .with("--along"),
+          CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
+          CommandOption{"--positions", &own->modes.positions,
                      "how many, both ends included (default 73: every 5 deg of a turn)"}
-           .at_most(1e5)
-           .with("--along"),
-       CommandOption{"--configuration", &own->modes.configuration,
+              .at_most(1e5)
+              .with("--along"),
+          CommandOption{"--configuration", &own->modes.configuration,
                      "equilibrium (default): standing still under weights and springs; or undeformed"}
-           .one_of({"equilibrium", "undeformed"})
-           .with("--along"),
-       CommandOption{"--hold", &own->modes.hold, "coordinates that do not vibrate, such as a held drive"}.with(
-           "--along"),
-       CommandOption{"--speed", &own->modes.speed,
+              .one_of({"equilibrium", "undeformed"})
+              .with("--along"),
+          CommandOption{"--hold", &own->modes.hold, "coordinates that do not vibrate, such as a held drive"}.with(
+              "--along"),
+          CommandOption{"--speed", &own->modes.speed,
                      "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
-           .with("--along"),
-       CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with(
-           "--along"),
-       CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
-           "--along"),
-       CommandOption{"--converge", &own->mesh.converge,
+              .with("--along"),
+          CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with(
+              "--along"),
+          CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
+              "--along"),
+          CommandOption{"--converge", &own->mesh.converge,
                      "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
-                     "tell error and uncertainty"}
-           .above_zero(),
-       CommandOption{"--frequencies", &own->mesh.frequencies,
+                        "tell error and uncertainty"}
+              .above_zero(),
+          CommandOption{"--frequencies", &own->mesh.frequencies,
                      "lowest elastic ones of the frame to converge (default 4)"}
-           .above_zero()
-           .with("--converge"),
-       CommandOption{"--watch", &own->mesh.watch,
+              .above_zero()
+              .with("--converge"),
+          CommandOption{"--watch", &own->mesh.watch,
                      "what is to converge: all, or frequencies without compliances (default all)"}
-           .one_of({"all", "frequencies"})
-           .with("--converge"),
-       CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
-           .above_zero()
-           .with("--converge"),
-       CommandOption{"--compare", &own->compare,
-                     "another scene, whose modes are matched with these by what both call by the same name"}
-           .existing_file(),
-       CommandOption{"--geometric", &own->modes.geometric,
+              .one_of({"all", "frequencies"})
+              .with("--converge"),
+          CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
+              .above_zero()
+              .with("--converge"),
+          CommandOption{"--geometric", &own->modes.geometric,
                      "on (default) or off: geometric stiffness of forces that turn"}
-           .one_of({"on", "off"})},
-      [own](const CommonOptions &options) { return find_modes(options, *own); }};
+              .one_of({"on", "off"})},
+      [own, more](const CommonOptions &options) { return find_modes(options, *own, more); }};
+  add_options(more, command.options);
+  return command;
 }
 
 } // namespace gestell::apps

@@ -1,3 +1,4 @@
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
@@ -5,17 +6,14 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
 #include "apps/output/folder/own_folder.h"
-#include "apps/output/tables/budget_table.h"
-#include "apps/output/tables/comparison_table.h"
+#include "apps/output/report/section.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/tables/summary_json.h"
-#include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
 #include "apps/session/story/run_facts.h"
-#include "apps/sizing/error_budget.h"
 #include "coupling/frame/atomic_file.h"
 #include "fem/values/shell_word.h"
 
@@ -58,24 +56,8 @@ struct RunCommand
 {
   bool        resume     = false;
   double      checkpoint = 30.; ///< [s] of wall time
-  bool        budget     = false;
-  std::string outputs;
   std::string sensitivities;
-  std::string compare; ///< file of another scene; empty: none
 };
-
-/// What stops a budget leaves the run that it is of.
-void add_budget(const Scene &scene, const std::vector<OutputName> &outputs, Result &result)
-{
-  try
-  {
-    result.budget = error_budget(scene, outputs, answer_of(result, outputs), &interruption());
-  }
-  catch (const std::runtime_error &failure)
-  {
-    result.warnings.push_back("there is no error budget: " + std::string(failure.what()));
-  }
-}
 
 /// A checkpoint that the run goes on from is ours wherever it came from: it was read as that of this run.
 void claim_checkpoint(const std::filesystem::path &folder, bool resumed)
@@ -136,7 +118,7 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
   }
 }
 
-int run_scene(const CommonOptions &options, const RunCommand &requested)
+int run_scene(const CommonOptions &options, const RunCommand &requested, const Analyses &more)
 {
   ProgressLine progress(options.quiet);
   if (!(requested.checkpoint >= 0.) || !std::isfinite(requested.checkpoint))
@@ -145,25 +127,16 @@ int run_scene(const CommonOptions &options, const RunCommand &requested)
   const auto on_progress = nothing_to_save_before("integration", progress.callback());
   Session    session(options.input, options.overrides, options.scripts, {on_progress, &interruption()});
   session.check_run();
-  std::vector<OutputName> outputs;
-  if (requested.budget)
-    outputs = budget_outputs(session.scene(), requested.outputs);
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
-  const auto                  inputs = inputs_of(options, {requested.compare});
+  const auto                  inputs = inputs_of(options, files_read_by(more));
   require_room(folder, {requested.resume ? "" : checkpoint_name}, inputs);
-  std::optional<Session> other;
-  if (!requested.compare.empty())
-    require_comparable_runs(session, other.emplace(requested.compare, std::vector<std::string>(), options.scripts,
-                                                   Watch{progress.callback(), &interruption()}));
+  check_all(more, session);
   session.keep_swings();
   keep_checkpoints(requested, folder, session);
   Result result = requested.sensitivities.empty() ? session.run() : session.run(requested.sensitivities);
   add_story(session, result);
-  if (other && !result.run->interrupted)
-    add_compared_run(session, result, *other);
-  if (requested.budget && result.run->failure.empty() && !result.run->interrupted)
-    add_budget(session.scene(), outputs, result);
+  const bool complete = add_answers(more, session, result);
   prepare_folder(folder, inputs);
   progress.done();
   write_answer(folder, result, requested.sensitivities.empty() ? resuming(options, folder) : "");
@@ -177,12 +150,9 @@ int run_scene(const CommonOptions &options, const RunCommand &requested)
     std::cout << stages_text(*result.stages);
   if (result.story)
     std::cout << story_text(*result.story);
-  if (result.compared_run)
-    std::cout << compared_run_text(*result.run, *result.compared_run);
-  if (result.compared_shapes)
-    std::cout << compared_modes_text(*result.compared_shapes);
-  if (result.budget)
-    std::cout << budget_text(*result.budget);
+  for (const auto &answer : result.answers)
+    for (const Section &section : answer->sections(result))
+      std::cout << section_text(section);
   if (result.sensitivities && result.sensitivities->failure.empty())
     std::cout << sensitivities_text(*result.sensitivities);
   if (!result.model.damping.empty())
@@ -204,7 +174,7 @@ int run_scene(const CommonOptions &options, const RunCommand &requested)
               << "\n  the run itself is in " << folder.string() << '\n';
     return exit_failed;
   }
-  if (requested.budget && !result.budget && result.run->failure.empty())
+  if (!complete)
     return interruption() ? exit_interrupted : exit_failed;
   if (result.run->interrupted && requested.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
     std::cerr << "gestell: interrupted; " << resuming(options, folder) << " goes on from there\n";
@@ -217,33 +187,24 @@ int run_scene(const CommonOptions &options, const RunCommand &requested)
 Command run_command()
 {
   const auto requested = std::make_shared<RunCommand>();
-  return {
+  const auto more      = analyses_of("run");
+  Command    command{
       "run",
       "simulate a scene in time",
       {"gestell run apps/scenes/press.toml -o results/press",
-       "gestell run apps/scenes/press_minimal.toml --compare apps/scenes/press_minimal_light.toml"},
+          "gestell run apps/scenes/press_minimal.toml --compare apps/scenes/press_minimal_light.toml"},
       CommandInput::scene,
-      {CommandOption{"--compare", &requested->compare,
-                     "another scene, which runs as it stands in its file: its signals in the same charts, extremes "
-                     "and modes beside each other"}
-           .existing_file(),
-       {"--resume", &requested->resume,
-        "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
-       {"--checkpoint", &requested->checkpoint,
-        "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
-        "time), 0: when interrupted alone"},
-       {"--budget", &requested->budget,
-        "tell the errors that mesh, reduction and integration leave in the outputs, by a second model for each"},
-       {"--outputs",
-        &requested->outputs,
-        "of the budget, such as F.max,F.min,x.t_max,modes.2 (default: largest and smallest value of every signal)",
-        {},
-        {},
-        "--budget"},
-       {"--sensitivities", &requested->sensitivities,
-        "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
-        "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}},
-      [requested](const CommonOptions &options) { return run_scene(options, *requested); }};
+      {{"--resume", &requested->resume,
+           "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
+          {"--checkpoint", &requested->checkpoint,
+           "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
+              "time), 0: when interrupted alone"},
+          {"--sensitivities", &requested->sensitivities,
+           "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
+              "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}},
+      [requested, more](const CommonOptions &options) { return run_scene(options, *requested, more); }};
+  add_options(more, command.options);
+  return command;
 }
 
 } // namespace gestell::apps

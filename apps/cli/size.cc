@@ -1,3 +1,5 @@
+#include "apps/analysis/analyses.h"
+#include "apps/analysis/budget/budget.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/cli/command.h"
 #include "apps/cli/interruption.h"
@@ -77,7 +79,8 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
   ErrorBudget     budget;
   budget.entries   = rung.entries;
   budget.run_cpu_s = rung.cpu_s;
-  result.budget    = budget;
+  add_answers(analyses_of("run"), sized, result);
+  result.answers.push_back(budget_answer(std::move(budget)));
   if (!model.result.met)
     result.warnings.push_back("no model keeps all outputs within the tolerance: " + model.result.stopped);
   if (requested.exhaustive && model.result.all.empty())

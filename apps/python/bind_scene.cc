@@ -79,6 +79,8 @@ void bind_scene(py::module_ &module)
   py::dict analyses;
   for (const apps::AnalysisEntry &entry : apps::analyses())
   {
+    if (!entry.of.empty())
+      continue;
     py::list options;
     for (const apps::CommandOption &option : entry.begin()->options())
       if (!option.writes)

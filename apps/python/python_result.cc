@@ -1,5 +1,6 @@
 #include "apps/python/python_result.h"
 
+#include "apps/analysis/analyses.h"
 #include "apps/output/charts/signal_charts.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/nearest_name.h"
@@ -81,8 +82,8 @@ const coupling::RunResult &PythonResult::run() const
 const apps::Result &PythonResult::whole_result()
 {
   const bool has_rows = result_.run && result_.run->rows.size() > result_.run->columns.size();
-  if (result_.command == "run" && has_rows && !result_.spectra && !result_.orders)
-    session_->add_spectra(result_);
+  if (result_.command == "run" && has_rows && result_.answers.empty())
+    apps::add_answers(apps::analyses_of("run"), *session_, result_);
   return result_;
 }
 

@@ -308,7 +308,7 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
         keep(scene, choice);
         auto       session = self.session(std::move(scene), watch);
         const auto keys    = choice.sensitivities.empty() ? std::nullopt : std::optional(choice.sensitivities);
-        auto       run     = session->run(keys, apps::SpectraChoice::skipped);
+        auto       run     = session->run(keys);
         return std::make_shared<PythonResult>(std::move(session), std::move(run));
       },
       choice.progress);

@@ -17,8 +17,6 @@
 #include "apps/session/phase_planes.h"
 #include "apps/session/run_magnitudes.h"
 #include "apps/session/sensitivity/sensitivity_answer.h"
-#include "apps/session/spectra/order_tracking.h"
-#include "apps/session/spectra/spectra.h"
 #include "apps/session/stages/main_peak.h"
 #include "apps/session/stages/stage_answer.h"
 #include "apps/session/story/dense_pictures.h"
@@ -244,13 +242,7 @@ SceneNode Session::entries() const
   return entries_ ? *entries_ : read_scene_file(path_, overrides_);
 }
 
-void Session::add_spectra(Result &result) const
-{
-  result.orders  = order_tracking(scene_, *result.run);
-  result.spectra = spectra(*result.run, scene_.run.last_period ? scene_.run.options.begin : result.run->from);
-}
-
-Result Session::run(const std::optional<std::string> &sensitivities, SpectraChoice spectra)
+Result Session::run(const std::optional<std::string> &sensitivities)
 {
   check_run();
   const bool               differentiated = sensitivities.has_value();
@@ -290,8 +282,6 @@ Result Session::run(const std::optional<std::string> &sensitivities, SpectraChoi
     result.sensitivities->cpu_s     = double(at_run - at_twins + std::clock() - behind_run) / CLOCKS_PER_SEC;
   }
   progress()("results", -1.);
-  if (spectra == SpectraChoice::computed)
-    add_spectra(result);
   result.stages = stage_answer(scene_, prepared, result.run->end_state, *result.run);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));

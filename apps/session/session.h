@@ -33,13 +33,6 @@ struct FrameAnswer
   ModelFacts             facts;
 };
 
-/// Spectra and orders of a run's history: a tenth of the cost of a short run.
-enum class SpectraChoice
-{
-  computed,
-  skipped ///< until Session::add_spectra()
-};
-
 /**
  * A scene that has been read, and what can be computed with it, as values: no terminal, no files of results.
  *
@@ -62,7 +55,13 @@ public:
   /// are varied.
   void take_entries(SceneNode entries) { entries_ = std::move(entries); }
 
-  const Scene &scene() const { return scene_; }
+  const Scene             &scene() const { return scene_; }
+  const std::atomic<bool> *interruption() const { return watch_.interruption; }
+  /// Another scene, as it stands in its file, watched as this one.
+  std::unique_ptr<Session> beside(const std::string &file) const
+  {
+    return std::make_unique<Session>(file, std::vector<std::string>(), scripts_, watch_);
+  }
 
   void check();     ///< what can be known without computing
   void check_run(); ///< that it says how to run, too
@@ -89,9 +88,7 @@ public:
   /// The scene simulated in time, with modes, stresses and warnings.
   /// @throws std::invalid_argument as read_checkpoint()
   /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
-  Result run(const std::optional<std::string> &sensitivities = {}, SpectraChoice spectra = SpectraChoice::computed);
-  /// Of a run that left them out.
-  void add_spectra(Result &result) const;
+  Result run(const std::optional<std::string> &sensitivities = {});
 
   /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
   Result periodic(const PeriodicRequest &request = {});

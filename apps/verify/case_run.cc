@@ -282,7 +282,7 @@ CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more,
     if (computation.name == one.compute)
       result_ = computation.compute(session, requested);
   for (const AnalysisEntry &entry : analyses())
-    if (entry.name == one.compute)
+    if (entry.of.empty() && entry.name == one.compute)
       result_ = analysed(entry, session, requested);
 }
 

@@ -54,7 +54,7 @@ public:
             .one_of(exchange_formats())
             .of_files()};
   }
-  void                     check() const override { check_frf_options(own_); }
+  void                     check(Session &) override { check_frf_options(own_); }
   std::vector<std::string> reads() const override
   {
     std::vector<std::string> files;
@@ -66,10 +66,11 @@ public:
   {
     return format_.empty() ? std::vector<std::string>() : state_space_files(format_);
   }
-  void compute(Session &session, Result &result) const override
+  bool compute(Session &session, Result &result) const override
   {
     result.answers.push_back(std::make_shared<FrfAnswer>(
         frequency_response_of(session.scene(), session.machine(), own_, session.progress(), result.warnings)));
+    return true;
   }
   std::string write(Session &session, OwnFolder &folder) const override
   {

@@ -6,17 +6,13 @@
 #include "apps/output/interactive/live_chart.h"
 #include "apps/output/interactive/machine_view.h"
 #include "apps/output/interactive/page_scripts.h"
-#include "apps/output/report/budget_report.h"
-#include "apps/output/report/comparison_report.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/machine_report.h"
 #include "apps/output/report/modes_along_report.h"
-#include "apps/output/report/order_report.h"
 #include "apps/output/report/overview_report.h"
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/section.h"
 #include "apps/output/report/sensitivity_report.h"
-#include "apps/output/report/spectrum_report.h"
 #include "apps/output/report/stage_report.h"
 #include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
@@ -373,24 +369,19 @@ Report make_report(const Result &result)
   body.add(Section::Place::first);
   body.add(answer_section(result, has_view), "peaks", "Answer");
   body.add(section("view", "The machine to turn", view), "view", "Machine");
-  body.add(compared_run_section(result, report.charts), "compared-run", "Runs compared");
   body.add(stage_section(result));
-  body.add(budget_section(result, report.charts), "budget", "Error budget");
   body.add(sensitivity_section(result, report.charts), "sensitivities", "Sensitivities");
   body.add(Section::Place::results);
   body.add(stress_section(result, has_view), "stress", "Stress");
   body.add(chart_section(charts, ChartTopic::force, "forces", "Forces"), "forces", "Forces");
   body.add(chart_section(charts, ChartTopic::motion, "motion", "Motion"), "motion", "Motion");
   body.add(chart_section(charts, ChartTopic::other, "signals", "Other signals"));
-  body.add(order_section(result, report.charts), "orders", "Orders");
   body.add(story_section(result), "story", "Events and modes");
-  body.add(spectrum_section(result, report.charts), "spectrum", "Spectra");
   body.add(Section::Place::history);
   body.add(events_section(result), "events", "Events");
   body.add(energy_section(result, charts), "energy", "Energy");
-  body.add(Section::Place::frequencies);
   body.add(along_section(result, report.charts), "along", "Frequencies along");
-  body.add(compared_modes_section(result, report.charts), "compared-modes", "Modes compared");
+  body.add(Section::Place::frequencies);
   body.add(modes_section(result, has_view, report.charts), "modes", "Modes");
   body.add(numerics_section(result), "numerics", "Model and work");
 

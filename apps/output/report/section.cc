@@ -17,7 +17,16 @@ struct PartHtml
   std::string operator()(const Section::Drawing &part) const
   {
     pictures.emplace_back(part.name, chart_svg(part.chart));
-    return part.live ? live_figure(part.chart, pictures.back().second, part.link) : figure(pictures.back().second);
+    const std::string &svg = pictures.back().second;
+    return part.shown == Section::Drawing::Shown::live    ? live_figure(part.chart, svg, part.link)
+           : part.shown == Section::Drawing::Shown::named ? live_figure_of_file(part.chart, svg, part.name, part.link)
+                                                          : figure(svg);
+  }
+  std::string operator()(const Section::PageTable &part) const { return (*this)(part.table); }
+  std::string operator()(const Section::Picture &part) const
+  {
+    pictures.emplace_back(part.name, part.svg);
+    return figure(part.svg);
   }
 };
 
@@ -25,7 +34,11 @@ struct PartText
 {
   std::string operator()(const Section::Sentences &part) const { return part.page ? "" : part.text + '\n'; }
   std::string operator()(const HtmlTable &table) const { return table.is_empty() ? "" : table.terminal(); }
-  std::string operator()(const Section::Drawing &) const { return ""; }
+  template <class Drawn>
+  std::string operator()(const Drawn &) const
+  {
+    return "";
+  }
 };
 
 } // namespace
@@ -42,7 +55,7 @@ std::string section_text(const Section &of)
 {
   std::string text;
   for (const Section::Part &part : of.parts)
-    text += std::visit(PartText{}, part);
+    text += of.page ? "" : std::visit(PartText{}, part);
   return text.empty() ? "" : of.title + '\n' + text;
 }
 

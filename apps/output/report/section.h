@@ -32,12 +32,26 @@ struct Section
     std::string name; ///< of its file, without ending
     Chart       chart;
     ChartLink   link = ChartLink::none;
-    bool        live = true; ///< to zoom and read; else a picture
+    enum class Shown
+    {
+      live, ///< to zoom and read
+      picture,
+      named ///< live, without a copy for paper, where a line names its file
+    } shown = Shown::live;
   };
-  using Part = std::variant<Sentences, HtmlTable, Drawing>;
+  struct Picture
+  {
+    std::string name, svg;
+  };
+  struct PageTable ///< not for a terminal
+  {
+    HtmlTable table;
+  };
+  using Part = std::variant<Sentences, HtmlTable, PageTable, Drawing, Picture>;
 
   std::string       id, title, link; ///< link: its name in the contents of the page
   Place             place = Place::results;
+  bool              page  = false; ///< for the page alone
   std::vector<Part> parts{};
 };
 

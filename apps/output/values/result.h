@@ -1,16 +1,11 @@
 #pragma once
 
 #include "apps/output/values/answer.h"
-#include "apps/output/values/error_budget.h"
-#include "apps/output/values/mode_comparison.h"
-#include "apps/output/values/order_tracking.h"
 #include "apps/output/values/periodic_result.h"
-#include "apps/output/values/run_comparison.h"
 #include "apps/output/values/run_story.h"
 #include "apps/output/values/scenery.h"
 #include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
-#include "apps/output/values/spectrum.h"
 #include "apps/output/values/stage_result.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/energy_shares.h"
@@ -102,18 +97,13 @@ struct Result
   Eigen::VectorXd                             modes_at;         ///< q of the machine that they are linearised at
   std::optional<PeakState>                    peak;             ///< of a run: see main_peak()
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
-  std::optional<ComparedShapes>               compared_shapes;  ///< with those of another scene
-  std::optional<ComparedRun>                  compared_run;     ///< of another scene
   std::optional<RunStory>                     story;            ///< of a run with events
   std::optional<StageResult>                  stages;           ///< of a run with stages or wheels that lift off
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
   std::optional<AlongResult>                  along;            ///< of `modes --along`
-  std::optional<ErrorBudget>                  budget;           ///< of a run that was asked for it
   std::optional<SensitivityResult>            sensitivities;    ///< of a run that was asked for them
   std::optional<SizeResult>                   size;             ///< of `size`, whose chosen model ran
-  std::optional<OrderTracking>                orders;           ///< of a run with a rotor that turns
-  std::optional<Spectra>                      spectra;          ///< of a run of some length
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people
   std::vector<std::string>                    warnings;         ///< beyond those of the run

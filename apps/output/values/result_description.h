@@ -12,37 +12,6 @@
 namespace gestell::apps
 {
 
-/// An extreme of a signal in both runs.
-struct ComparedExtreme
-{
-  double value, t, other, other_t;
-
-  double ratio() const { return value != 0. ? other / value : std::numeric_limits<double>::quiet_NaN(); }
-};
-
-template <class Visitor>
-void describe(Visitor &v, const ComparedExtreme &x)
-{
-  v("value", x.value, "", "in this run");
-  v("t", x.t, "s", "its instant");
-  v("other", x.other, "", "in the other run");
-  v("other_t", x.other_t, "s", "its instant");
-  v("ratio", x.ratio(), "1", "other value over this one");
-}
-
-/// A signal in both runs.
-struct ComparedSignal
-{
-  ComparedExtreme max, min;
-};
-
-template <class Visitor>
-void describe(Visitor &v, const ComparedSignal &x)
-{
-  v("max", x.max, "", "largest value");
-  v("min", x.min, "", "smallest value");
-}
-
 inline std::vector<Eigen::Vector3d> rows_of(const Eigen::Matrix3d &matrix)
 {
   return {matrix.row(0), matrix.row(1), matrix.row(2)};
@@ -132,34 +101,6 @@ void describe(Visitor &v, const AlongResult &x)
   v("order_meetings", x.meetings, "", "where a frequency lies near a multiple of the speed");
 }
 
-/// The run of another scene beside that of this one.
-struct ComparedRuns
-{
-  const coupling::RunResult *run   = nullptr;
-  const ComparedRun         *other = nullptr;
-};
-
-inline std::vector<std::pair<std::string, ComparedSignal>> compared_signals(const coupling::RunResult &run,
-                                                                            const ComparedRun         &other)
-{
-  std::vector<std::pair<std::string, ComparedSignal>> signals;
-  for (const SharedSignal shared : shared_signals(run, other.run))
-  {
-    const coupling::SignalSummary &a = run.signals[shared.a], &b = other.run.signals[shared.b];
-    signals.push_back({a.name, {{a.max, a.t_max, b.max, b.t_max}, {a.min, a.t_min, b.min, b.t_min}}});
-  }
-  return signals;
-}
-
-template <class Visitor>
-void describe(Visitor &v, const ComparedRuns &x)
-{
-  const bool both = x.run && x.other;
-  v("other", both ? x.other->scene : "", "", "name of the other scene");
-  v("signals", both ? compared_signals(*x.run, *x.other) : std::vector<std::pair<std::string, ComparedSignal>>(), "",
-    "signals that both have");
-}
-
 template <class Visitor>
 void describe(Visitor &v, const PeakState &x)
 {
@@ -238,7 +179,6 @@ void describe(Visitor &v, const Result &x)
   };
   const auto part = [&v](const char *name, const auto &value, const char *meaning)
   { v.maybe(value.has_value(), name, value, "", meaning); };
-  const ErrorBudget budget       = x.budget.value_or(ErrorBudget());
   const StageResult stages       = x.stages.value_or(StageResult());
   const bool        keeps_energy = std::count(run.columns.begin(), run.columns.end(), "energy input") > 0 ||
                             run.energy.exchanged > 0. || run.energy.residual > 0.;
@@ -262,17 +202,10 @@ void describe(Visitor &v, const Result &x)
   v.maybe(x.energy_shares.has_value(), "mode_energies",
           mode_energies(x.energy_shares.value_or(coupling::EnergyShares())), "",
           "shares of the energies of each coupled mode");
-  part("compared_modes", x.compared_shapes, "modes beside those of another scene, `--compare`");
-  v.maybe(x.compared_run.has_value(), "compared_run",
-          ComparedRuns{x.run ? &*x.run : nullptr, x.compared_run ? &*x.compared_run : nullptr}, "",
-          "extremes beside those of another scene, `run --compare`");
   part("modes_along", x.along, "`modes --along`");
   part("periodic", x.periodic, "`periodic`");
   for (const auto &answer : x.answers)
     answer->describe(v);
-  v.maybe(x.budget.has_value(), "budget", by_name(budget.entries, &BudgetEntry::output), "",
-          "errors of each output, `run --budget`");
-  v.maybe(x.budget.has_value(), "budget_cpu_s", budget.cpu_s(), "s", "what the run and each part of the budget took");
   part("sensitivities", x.sensitivities, "`run --sensitivities`");
   part("size", x.size, "`size`");
   v.maybe(x.stages.has_value(), "stages", stages.stages, "", "parts of the run between events");

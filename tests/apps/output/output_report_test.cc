@@ -1,3 +1,5 @@
+#include "apps/analysis/comparison/run_comparison.h"
+#include "apps/analysis/comparison/scene_comparison.h"
 #include "apps/output/faces/faces_page.h"
 #include "apps/output/interactive/page_scripts.h"
 #include "apps/output/report/report.h"
@@ -161,7 +163,7 @@ TEST(Report, NamesTheFilesOfComparedSignalsBeyondTheFirst)
   result.run->signals.clear();
   for (std::size_t j = 1; j < result.run->columns.size(); ++j)
     result.run->signals.push_back({result.run->columns[j], result.run->units[j], -1., 0., 1., 0., 0.});
-  result.compared_run       = ComparedRun{"other", *result.run};
+  result.answers.push_back(compared_run_answer(compared_run(*result.run, "other", *result.run)));
   const Report      report  = make_report(result);
   const std::size_t begin   = report.html.find("<section id=\"compared-run\"");
   const std::string section = report.html.substr(begin, report.html.find("</section>", begin) - begin);

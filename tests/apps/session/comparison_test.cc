@@ -1,6 +1,8 @@
 // Where energies of modes lie, and scenes beside each other: against the reference of the press.
 
-#include "apps/session/comparison/scene_comparison.h"
+#include "apps/analysis/comparison/mode_comparison.h"
+#include "apps/analysis/comparison/run_comparison.h"
+#include "apps/analysis/comparison/scene_comparison.h"
 #include "apps/session/session.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_run.h"
@@ -59,11 +61,21 @@ TEST(EnergyShares, SumUpToOne)
   EXPECT_EQ(std::count(press.springs.begin(), press.springs.end(), "turning forces"), 0);
 }
 
+const apps::ComparedShapes *shapes_of(const apps::Result &result)
+{
+  return apps::answer_in<apps::ComparedShapes>(result.answers);
+}
+
+const apps::ComparedRun *run_of(const apps::Result &result)
+{
+  return apps::answer_in<apps::ComparedRun>(result.answers);
+}
+
 apps::Result compared(const std::string &a, const std::string &b, const std::vector<std::string> &overrides = {})
 {
   Session      session(a, overrides), other(b);
   apps::Result result = session.modes();
-  add_compared_modes(session, result, other, other.modes());
+  add_compared_modes(session, result, other);
   return result;
 }
 
@@ -71,9 +83,10 @@ TEST(ComparedModes, OfASceneWithItselfAreTheIdentity)
 {
   const std::string  press  = shipped("press_minimal.toml");
   const apps::Result result = compared(press, press);
-  ASSERT_TRUE(result.compared_shapes);
-  EXPECT_EQ(result.compared_shapes->measures.size(), 5u); // its five coordinates
-  EXPECT_LT((result.compared_shapes->match.mac - Eigen::MatrixXd::Identity(5, 5)).cwiseAbs().maxCoeff(), 1e-9);
+  const auto        *shapes = shapes_of(result);
+  ASSERT_TRUE(shapes);
+  EXPECT_EQ(shapes->measures.size(), 5u); // its five coordinates
+  EXPECT_LT((shapes->match.mac - Eigen::MatrixXd::Identity(5, 5)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 // With rigid columns crown and table move as one: f5 is gone to high frequencies, the others stay what they are.
@@ -81,7 +94,7 @@ TEST(ComparedModes, OfARigidFrameFindTheirPartners)
 {
   const apps::Result result =
       compared(shipped("press_minimal.toml"), shipped("press_minimal.toml"), {"parameters.c_G=\"3.2e6 kN/mm\""});
-  const auto &shapes = *result.compared_shapes;
+  const auto &shapes = *shapes_of(result);
   ASSERT_GE(shapes.match.pairs.size(), 4u);
   for (int j = 0; j < 4; ++j)
   {
@@ -98,11 +111,11 @@ TEST(ComparedRun, OfTheLightVariantTellsItsGain)
   require_comparable_runs(session, other);
   apps::Result result = session.run();
   add_compared_run(session, result, other);
-  ASSERT_TRUE(result.compared_run && result.compared_shapes);
-  const auto shared = apps::shared_signals(*result.run, result.compared_run->run);
+  const auto *compared = run_of(result);
+  ASSERT_TRUE(compared && shapes_of(result));
+  const auto shared = apps::shared_signals(*result.run, compared->run);
   EXPECT_EQ(shared.size(), result.run->signals.size());
-  EXPECT_NEAR(result.compared_run->run.signals[shared[0].b].min / result.run->signals[shared[0].a].min,
-              501.089 / 601.647, 1e-4);
+  EXPECT_NEAR(compared->run.signals[shared[0].b].min / result.run->signals[shared[0].a].min, 501.089 / 601.647, 1e-4);
 }
 
 /// A slider of that name on a spring.
@@ -124,10 +137,9 @@ TEST(ComparedRun, OfMachinesWithoutACommonMotionHasNoModes)
   require_comparable_runs(session, other);
   apps::Result result = session.run();
   add_compared_run(session, result, other);
-  EXPECT_TRUE(result.compared_run);
-  EXPECT_FALSE(result.compared_shapes);
-  EXPECT_THAT(refusal([&] { add_compared_modes(session, result, other, other.modes()); }),
-              ::testing::HasSubstr("share no motion"));
+  EXPECT_TRUE(run_of(result));
+  EXPECT_FALSE(shapes_of(result));
+  EXPECT_THAT(refusal([&] { add_compared_modes(session, result, other); }), ::testing::HasSubstr("share no motion"));
 }
 
 } // namespace

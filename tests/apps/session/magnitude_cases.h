@@ -57,7 +57,7 @@ inline std::vector<std::string> sentences_of(const std::string &scene, const std
   try
   {
     apps::Session session(scene[0] == '/' ? scene : shipped(scene), entries);
-    return run ? all_warnings(session.run({}, apps::SpectraChoice::skipped)) : apps::check_scene(session.scene());
+    return run ? all_warnings(session.run()) : apps::check_scene(session.scene());
   }
   catch (const std::exception &error)
   {

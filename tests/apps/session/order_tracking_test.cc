@@ -1,7 +1,7 @@
 // Orders of a rotor that runs up, of signals whose orders are known.
 
-#include "apps/session/spectra/order_tracking.h"
-#include "apps/session/spectra/waterfall.h"
+#include "apps/analysis/spectra/order_tracking.h"
+#include "apps/analysis/spectra/waterfall.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/test.h"
 

@@ -1,8 +1,10 @@
 // [output] from: extremes, spectra and derivatives of a window of the run, the history as it was.
 
+#include "apps/analysis/comparison/scene_comparison.h"
+#include "apps/analysis/spectra/spectrum_values.h"
 #include "apps/output/tables/result_tables.h"
-#include "apps/session/comparison/scene_comparison.h"
 #include "apps/session/session.h"
+#include "tests/support/complete_run.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
@@ -85,12 +87,17 @@ TEST_F(Window, ThatBeginsWithTheRunChangesNothing)
   }
 }
 
-TEST_F(Window, SpectraChoiceOfItsRows)
+TEST_F(Window, SpectraOfItsRows)
 {
-  const Result part = run({"output.from=0.5 s"});
-  ASSERT_TRUE(part.spectra.has_value());
-  EXPECT_NEAR(part.spectra->begin, 0.5, 1e-9);
-  EXPECT_NEAR(run().spectra->begin, 0., 1e-12);
+  const auto begin = [&](const std::vector<std::string> &overrides)
+  {
+    Session      session(folder_.write("scene.toml", test::quoted(fading)), overrides);
+    const Result result = complete_run(session);
+    const auto  *found  = apps::answer_in<apps::RunSpectra>(result.answers);
+    return found && found->spectra ? found->spectra->begin : -1.;
+  };
+  EXPECT_NEAR(begin({"output.from=0.5 s"}), 0.5, 1e-9);
+  EXPECT_NEAR(begin({}), 0., 1e-12);
 }
 
 // Derivatives against differences of runs: of a maximum inside and of a value at the beginning, which moves with t_1.

@@ -201,7 +201,7 @@ std::vector<VariedKey> drawn_keys(const std::string &path, const ComparedScene &
 
 Values varied_run(const std::string &path, const std::vector<std::string> &overrides)
 {
-  const apps::Result result = Session(path, overrides).run({}, apps::SpectraChoice::skipped);
+  const apps::Result result = Session(path, overrides).run();
   return result.run->failure.empty() ? Told(result).values : Values();
 }
 

@@ -1,4 +1,4 @@
-#include "apps/session/spectra/spectra.h"
+#include "apps/analysis/spectra/spectra.h"
 #include "tests/support/test.h"
 
 using namespace gestell;

@@ -1,0 +1,117 @@
+#include "apps/analysis/comparison/comparison_sections.h"
+
+#include "apps/analysis/comparison/comparison_table.h"
+#include "apps/analysis/comparison/overlay_charts.h"
+#include "apps/analysis/comparison/shape_pairs.h"
+#include "apps/output/charts/mode_charts.h"
+#include "apps/output/tables/noise.h"
+#include "apps/output/text/change_text.h"
+#include "apps/output/values/result.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+std::string deviation(double ratio)
+{
+  return std::isnan(ratio) ? "" : short_text(100. * (ratio - 1.), 2) + " %";
+}
+
+HtmlTable pairs_table(const ComparedShapes &shapes)
+{
+  HtmlTable table(
+      {"#mode", "#f [Hz]", "#other mode", "#f [Hz]", "#other higher by", "#MAC", "#seen", "#seen of the other"});
+  for (const coupling::ModePair &pair : shapes.match.pairs)
+    table.add({std::to_string(pair.a + 1), short_text(shapes.a.modes[std::size_t(pair.a)].frequency_hz, 6),
+               std::to_string(pair.b + 1), short_text(shapes.b.modes[std::size_t(pair.b)].frequency_hz, 6),
+               deviation(frequency_ratio(shapes, pair)), short_text(pair.assurance, 4),
+               gestell::percent(shapes.match.seen_a[pair.a]), gestell::percent(shapes.match.seen_b[pair.b])});
+  return table;
+}
+
+HtmlTable mac_table(const ComparedShapes &shapes)
+{
+  std::vector<std::string> heads{"#MAC"};
+  for (const coupling::Mode &mode : shapes.b.modes)
+    heads.push_back("#" + short_text(mode.frequency_hz) + " Hz");
+  HtmlTable table(heads);
+  for (std::size_t i = 0; i < shapes.a.modes.size(); ++i)
+  {
+    std::vector<HtmlTable::Cell> row{short_text(shapes.a.modes[i].frequency_hz) + " Hz"};
+    for (Eigen::Index j = 0; j < shapes.match.mac.cols(); ++j)
+    {
+      const double mac = shapes.match.mac(Eigen::Index(i), j);
+      const bool   matched =
+          std::any_of(shapes.match.pairs.begin(), shapes.match.pairs.end(),
+                      [&](const coupling::ModePair &pair) { return pair.a == int(i) && pair.b == int(j); });
+      row.push_back(peak(short_text(std::round(100. * mac) / 100., 2), matched));
+    }
+    table.add(row);
+  }
+  return table;
+}
+
+HtmlTable extremes_table(const coupling::RunResult &run, const ComparedRun &other)
+{
+  HtmlTable table(
+      {"signal", "unit", "#largest", "#there", "#change of magnitude", "#smallest", "#there", "#change of magnitude"});
+  const Noise noise = noise_of(run.signals);
+  for (const SharedSignal shared : shared_signals(run, other.run))
+  {
+    const coupling::SignalSummary &a = run.signals[shared.a], &b = other.run.signals[shared.b];
+    const double      size   = std::max({std::abs(a.min), std::abs(a.max), std::abs(b.min), std::abs(b.max)});
+    const DisplayUnit unit   = display_unit(a.unit, size);
+    const auto        text   = [&](double x) { return short_text(noise.without(a.unit, x) * unit.factor, 5); };
+    const auto        clean  = [&](double x) { return noise.without(a.unit, x); };
+    const auto        change = [&](double x, double y) { return change_text(clean(x), clean(y)); };
+    table.add({a.name, unit.unit, text(a.max), text(b.max), peak(change(a.max, b.max)), text(a.min), text(b.min),
+               peak(change(a.min, b.min))});
+  }
+  return table;
+}
+
+} // namespace
+
+Section compared_run_section(const Result &result, const ComparedRun &other)
+{
+  Section section{"compared-run", "The run beside that of " + other.scene, "Runs compared", Section::Place::results};
+  section.parts.push_back(
+      Section::Sentences{"Largest and smallest values beside " + other.scene + ", and signals over the time."});
+  section.parts.push_back(extremes_table(*result.run, other));
+  for (Section::Drawing &chart : overlay_charts(result.scene, *result.run, other))
+    section.parts.push_back(std::move(chart));
+  return section;
+}
+
+Section compared_modes_section(const Result &result, const ComparedShapes &shapes)
+{
+  Section                         section{"compared-modes", "Modes beside those of " + shapes.b.scene, "Modes compared",
+                  Section::Place::frequencies};
+  const coupling::ModeComparison &match = shapes.match;
+  section.parts.push_back(Section::Sentences{
+      "Modes of " + shapes.a.scene + " and, as other, of " + shapes.b.scene + ", matched by " +
+      count_text(shapes.measures.size(), "shared measure") +
+      ", each weighed with its apparent mass. Seen is the part of a mode's kinetic energy that these tell; a mode that "
+      "hardly shows in them has no partner." +
+      (std::max(match.seen_a.maxCoeff(), match.seen_b.maxCoeff()) > 1.0005
+           ? " Modes are fewer than what moves: seen is a weight then, which may exceed 100 %, and no part of the "
+             "kinetic energy."
+           : "")});
+  section.parts.push_back(pairs_table(shapes));
+  const std::size_t pairs = match.pairs.size();
+  section.parts.push_back(Section::Sentences{"without a partner: " + std::to_string(shapes.a.modes.size() - pairs) +
+                                             " of the first, " + std::to_string(shapes.b.modes.size() - pairs) +
+                                             " of the other"});
+  if (const std::string svg = shape_pairs_svg(shapes, angle_arm(result)); !svg.empty())
+    section.parts.push_back(Section::Picture{"modes-compared", svg});
+  section.parts.push_back(Section::PageTable{mac_table(shapes)});
+  return section;
+}
+
+} // namespace gestell::apps

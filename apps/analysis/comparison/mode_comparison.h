@@ -1,0 +1,90 @@
+#pragma once
+
+#include "coupling/modes/mode_comparison.h"
+#include "coupling/modes/modes.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// A measure that both machines have.
+struct SharedMeasure
+{
+  std::string path, unit; ///< "crank.angle", "rad"
+};
+
+/// One of two machines whose modes are compared.
+struct ComparedModes
+{
+  std::string                 scene; ///< its name
+  std::vector<coupling::Mode> modes;
+  Eigen::MatrixXd             shapes; ///< [measures x modes] mass normalised
+};
+
+/// Modes of the scene and of another one, matched by their shapes.
+struct ComparedShapes
+{
+  std::vector<SharedMeasure> measures;
+  ComparedModes              a, b;
+  coupling::ModeComparison   match;
+};
+
+/// A shared measure with its apparent mass.
+struct ComparedMeasure
+{
+  SharedMeasure measure{};
+  double        mass = 0.;
+};
+
+template <class Visitor>
+void describe(Visitor &v, const ComparedMeasure &x)
+{
+  v("name", x.measure.path, "", "path of the measure");
+  v("unit", x.measure.unit, "", "of the measure");
+  v("apparent_mass", x.mass, "kg, kg m^2", "of both machines along it");
+}
+
+/// Modes of like shape.
+struct ComparedPair
+{
+  int    a = 0, b = 0; ///< numbers, from 1 on
+  double a_hz = 0., b_hz = 0., assurance = 0., a_seen = 0., b_seen = 0.;
+};
+
+template <class Visitor>
+void describe(Visitor &v, const ComparedPair &x)
+{
+  v("mode", x.a, "", "number of the mode");
+  v("frequency_hz", x.a_hz, "Hz", "its frequency");
+  v("other_mode", x.b, "", "number of the other scene's mode");
+  v("other_frequency_hz", x.b_hz, "Hz", "its frequency");
+  v("mac", x.assurance, "1", "modal assurance criterion");
+  v("seen", x.a_seen, "1", "share of the mode that the measures see");
+  v("other_seen", x.b_seen, "1", "share of the other mode that they see");
+}
+
+template <class Visitor>
+void describe(Visitor &v, const ComparedShapes &x)
+{
+  std::vector<ComparedMeasure> measures;
+  for (std::size_t k = 0; k < x.measures.size(); ++k)
+    measures.push_back({x.measures[k], x.match.mass[Eigen::Index(k)]});
+  std::vector<ComparedPair> pairs;
+  for (const coupling::ModePair &pair : x.match.pairs)
+    pairs.push_back({pair.a + 1, pair.b + 1, x.a.modes[std::size_t(pair.a)].frequency_hz,
+                     x.b.modes[std::size_t(pair.b)].frequency_hz, pair.assurance, x.match.seen_a[pair.a],
+                     x.match.seen_b[pair.b]});
+  v("other", x.b.scene, "", "name of the other scene");
+  v("measures", measures, "", "measures that both machines have");
+  v("pairs", pairs, "", "modes of like shape");
+}
+
+template <class Visitor>
+void describe_answer(Visitor &v, const ComparedShapes &x)
+{
+  v.maybe(true, "compared_modes", x, "", "modes beside those of another scene, `--compare`");
+}
+
+} // namespace gestell::apps

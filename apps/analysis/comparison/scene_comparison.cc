@@ -1,0 +1,211 @@
+#include "apps/analysis/comparison/scene_comparison.h"
+
+#include "apps/analysis/comparison/comparison_sections.h"
+#include "apps/analysis/comparison/comparison_table.h"
+#include "apps/analysis/comparison/shared_measures.h"
+#include "apps/output/describe/described_answer.h"
+#include "apps/output/tables/result_tables.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+MachineAt at_modes(Session &session)
+{
+  coupling::Machine &machine = session.machine().small();
+  return {&machine, modes_configuration(session.scene(), machine)};
+}
+
+std::string names_of(const std::vector<coupling::Signal> &signals)
+{
+  std::string names;
+  for (const coupling::Signal &signal : signals)
+    names += (names.empty() ? "" : ", ") + signal.name + " [" + signal.unit + "]";
+  return names.empty() ? "none" : names;
+}
+
+void require_shared_signal(Session &session, Session &other)
+{
+  const auto a    = scene_signals(session.scene(), session.machine().machine);
+  const auto b    = scene_signals(other.scene(), other.machine().machine);
+  const auto in_b = [&](const coupling::Signal &own)
+  {
+    return std::any_of(b.begin(), b.end(),
+                       [&](const auto &his) { return his.name == own.name && his.unit == own.unit; });
+  };
+  if (std::none_of(a.begin(), a.end(), in_b))
+    throw std::invalid_argument("--compare: \"" + session.scene().name + "\" and \"" + other.scene().name +
+                                "\" have no signal of one name and unit; the first has " + names_of(a) +
+                                ", the second " + names_of(b) + ": name them alike in [output.signals]");
+}
+
+std::string window_text(const coupling::RunResult &run)
+{
+  return std::isfinite(run.from) ? short_text(run.from, 6) + " s" : "the start of the run";
+}
+
+class ComparedRunAnswer : public DescribedAnswer<ComparedRun>
+{
+public:
+  using DescribedAnswer::DescribedAnswer;
+
+  std::vector<Section> sections(const Result &result) const override { return {compared_run_section(result, value)}; }
+};
+
+class ComparedModesAnswer : public DescribedAnswer<ComparedShapes>
+{
+public:
+  using DescribedAnswer::DescribedAnswer;
+
+  std::vector<Section> sections(const Result &result) const override { return {compared_modes_section(result, value)}; }
+};
+
+/// Of a command that computes another scene beside its own.
+class Compare : public Analysis
+{
+public:
+  Compare(const char *does, void (*check)(Session &, Session &), void (*add)(Session &, Result &, Session &))
+      : does_(does), check_(check), add_(add)
+  {
+  }
+
+  std::vector<CommandOption> options() override { return {CommandOption{"--compare", &file_, does_}.existing_file()}; }
+  bool                       requested() const override { return !file_.empty(); }
+  std::vector<std::string>   reads() const override { return {file_}; }
+  void                       check(Session &session) override
+  {
+    other_ = session.beside(file_);
+    check_(session, *other_);
+  }
+  bool compute(Session &session, Result &result) const override
+  {
+    if (!result.run || !result.run->interrupted)
+      add_(session, result, *other_);
+    return true;
+  }
+
+private:
+  const char *does_;
+  void (*check_)(Session &, Session &);
+  void (*add_)(Session &, Result &, Session &);
+  std::string              file_; ///< of the other scene; empty: none
+  std::shared_ptr<Session> other_;
+};
+
+class CompareRun : public Compare
+{
+public:
+  CompareRun()
+      : Compare(
+            "another scene, which runs as it stands in its file: its signals in the same charts, extremes and modes "
+            "beside each other",
+            require_comparable_runs, add_compared_run)
+  {
+  }
+};
+
+class CompareModes : public Compare
+{
+public:
+  CompareModes()
+      : Compare(
+            "another scene, whose modes are matched with these by what both call by the same name",
+            [](Session &, Session &) {}, add_compared_modes)
+  {
+  }
+};
+
+template <class Value>
+using CsvOf = std::string (*)(const Value &);
+
+template <class Value, CsvOf<Value> csv>
+std::string compared_file(const Result &result)
+{
+  const auto *found = answer_in<Value>(result.answers);
+  return found ? csv(*found) : "";
+}
+
+std::string compared_run_file(const Result &result)
+{
+  const auto *found = answer_in<ComparedRun>(result.answers);
+  return found ? compared_run_csv(*result.run, *found) : "";
+}
+
+std::string compared_history_csv(const ComparedRun &other)
+{
+  return other.run.columns.empty() ? "" : history_csv(other.run);
+}
+
+void add_warnings(const Result &of_other, Result &result)
+{
+  for (const auto &warnings : {of_other.warnings, coupling::texts_of(of_other.run->findings)})
+    for (const std::string &warning : warnings)
+      if (warning != of_other.run->failure)
+        result.warnings.push_back(of_other.scene + ": " + warning);
+  if (!of_other.run->failure.empty())
+    result.warnings.push_back(of_other.scene + " stopped early: " + of_other.run->failure);
+}
+
+} // namespace
+
+void require_comparable_runs(Session &session, Session &other)
+{
+  other.check_run();
+  require_shared_signal(session, other);
+}
+
+void add_compared_run(Session &session, Result &result, Session &other)
+{
+  Result of_other = other.run();
+  add_warnings(of_other, result);
+  if (result.run && result.run->from != of_other.run->from)
+    result.warnings.push_back("the extremes compared are of different windows: output.from of " + result.scene +
+                              " is " + window_text(*result.run) + ", that of " + of_other.scene + " " +
+                              window_text(*of_other.run));
+  auto shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
+  result.answers.push_back(compared_run_answer(compared_run(*result.run, of_other.scene, std::move(*of_other.run))));
+  if (shapes)
+    result.answers.push_back(std::make_shared<ComparedModesAnswer>(std::move(*shapes)));
+}
+
+void add_compared_modes(Session &session, Result &result, Session &other)
+{
+  const Result    of_other = other.modes();
+  const MachineAt own = at_modes(session), his = at_modes(other);
+  auto            shapes = compared_shapes(result, own, of_other, his);
+  if (!shapes)
+    throw std::invalid_argument(nothing_shared(result, own, of_other, his));
+  result.answers.push_back(std::make_shared<ComparedModesAnswer>(std::move(*shapes)));
+}
+
+std::shared_ptr<const Answer> compared_run_answer(ComparedRun compared)
+{
+  return std::make_shared<ComparedRunAnswer>(std::move(compared));
+}
+
+AnalysisEntry compare_run_analysis()
+{
+  return analysis_entry<CompareRun, ComparedRunAnswer, ComparedRun>(
+      "compare", "", {},
+      {{"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run_file},
+       {"compared_history.csv", "the other run over time", compared_file<ComparedRun, compared_history_csv>}},
+      "run");
+}
+
+AnalysisEntry compare_modes_analysis()
+{
+  return analysis_entry<CompareModes, ComparedModesAnswer, ComparedShapes>(
+      "compare", "", {},
+      {{"compared_modes.csv", "modes beside those of another scene, with `--compare`",
+        compared_file<ComparedShapes, compared_modes_csv>},
+       {"mac.csv", "how alike their shapes are, each with each", compared_file<ComparedShapes, mac_csv>}},
+      "modes");
+}
+
+} // namespace gestell::apps

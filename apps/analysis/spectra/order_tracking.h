@@ -1,0 +1,28 @@
+#pragma once
+
+#include "apps/analysis/spectra/spectrum_values.h"
+#include "apps/scene/values/requests.h"
+#include "coupling/simulation/run_result.h"
+
+#include <optional>
+
+namespace gestell::apps
+{
+
+/**
+ * Orders of the first rotor whose angle or speed is a signal of the scene: every signal sampled anew at equal angles
+ * phi, and fitted over windows of four turns, one turn apart or more,
+ *
+ *     y = a + b phi + c phi^2 + sum_k (C_k cos k phi + S_k sin k phi),     A_k = hypot(C_k, S_k),
+ *
+ * by least squares weighted after Hann.
+ *
+ * So many orders as the rows of the history resolve by three samples of each period, at most eight.  Nothing where no
+ * rotor is told, or it does not turn in one direction for sixteen turns at least.
+ *
+ * Source: K. R. Fyfe, E. D. S. Munck, Analysis of computed order tracking, Mechanical Systems and Signal Processing 11
+ * (1997), 187-205.
+ */
+std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::RunResult &run);
+
+} // namespace gestell::apps

@@ -1,0 +1,139 @@
+#include "apps/analysis/spectra/spectrum_values.h"
+#include "apps/output/report/section.h"
+#include "apps/output/values/result.h"
+#include "fem/values/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+constexpr double least_shown = 1e-4; ///< of the largest amplitude, where the axis begins
+constexpr double shown_share = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
+constexpr int    most_orders = 8;
+constexpr double steady      = 1.02; ///< ratio of largest and smallest speed of a drive whose orders are lines
+
+double most_of(const SignalSpectrum &spectrum)
+{
+  return *std::max_element(spectrum.amplitudes.begin(), spectrum.amplitudes.end());
+}
+
+/// [Hz] to where there is something to see of one of them, with some room.
+double highest_shown(const Spectra &spectra, const std::vector<const SignalSpectrum *> &shown)
+{
+  std::size_t last = 8;
+  for (const SignalSpectrum *spectrum : shown)
+    for (std::size_t k = last; k < spectrum->amplitudes.size(); ++k)
+      if (spectrum->amplitudes[k] > shown_share * most_of(*spectrum))
+        last = k;
+  const std::size_t lines = shown.front()->amplitudes.size() - 1;
+  return std::min(1.25 * static_cast<double>(last), static_cast<double>(lines)) * spectra.resolution_hz;
+}
+
+/// [Hz] of a drive that turns evenly; 0: there is none.
+double drive_hz(const std::optional<OrderTracking> &orders)
+{
+  if (!orders || orders->speed_rpm.empty())
+    return 0.;
+  const auto [low, high] = std::minmax_element(orders->speed_rpm.begin(), orders->speed_rpm.end());
+  return *low > 0. && *high <= steady * *low ? 0.5 * (*low + *high) / 60. : 0.;
+}
+
+void add_marks(const Result &result, const std::optional<OrderTracking> &orders, Chart &chart)
+{
+  int number = 0;
+  for (const coupling::Mode &mode : result.coupled_modes)
+    if (++number; mode.frequency_hz > 0. && mode.frequency_hz < chart.x.end)
+      chart.marks.push_back(
+          {mode.frequency_hz, "mode " + std::to_string(number) + ": " + short_text(mode.frequency_hz) + " Hz", number});
+  const double drive = drive_hz(orders);
+  for (int order = 1; order <= most_orders && drive > 0. && order * drive < chart.x.end; ++order)
+    chart.marks.push_back(
+        {order * drive,
+         "order " + std::to_string(order) + " of " + orders->rotor + ": " + short_text(order * drive) + " Hz", 0, 1});
+}
+
+Chart spectrum_chart(const Result &result, const RunSpectra &found, const std::vector<const SignalSpectrum *> &shown)
+{
+  const Spectra &spectra = *found.spectra;
+  double         most    = 0.;
+  for (const SignalSpectrum *spectrum : shown)
+    most = std::max(most, most_of(*spectrum));
+  const DisplayUnit unit = display_unit(shown.front()->unit, most);
+  Chart             chart;
+  chart.width  = 880.;
+  chart.height = 280.;
+  chart.title  = "Spectrum";
+  for (const SignalSpectrum *spectrum : shown)
+    chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
+  chart.x       = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
+  chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};
+  chart.y.scale = Scale::logarithmic;
+  for (const SignalSpectrum *spectrum : shown)
+  {
+    Curve curve{spectrum->name};
+    for (std::size_t k = 1; k < spectrum->amplitudes.size(); ++k)
+      curve.add(static_cast<double>(k) * spectra.resolution_hz, spectrum->amplitudes[k] * unit.factor);
+    chart.panels[0].add(std::move(curve));
+  }
+  add_marks(result, found.orders, chart);
+  return chart;
+}
+
+/// Signals of one unit share a chart.
+std::vector<std::vector<const SignalSpectrum *>> by_unit(const Spectra &spectra)
+{
+  std::vector<std::vector<const SignalSpectrum *>> groups;
+  for (const SignalSpectrum &spectrum : spectra.signals)
+  {
+    if (!(most_of(spectrum) > 0.))
+      continue;
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const auto &group) { return group[0]->unit == spectrum.unit; });
+    if (same == groups.end())
+      groups.push_back({&spectrum});
+    else
+      same->push_back(&spectrum);
+  }
+  return groups;
+}
+
+/// Up to which frequency the rows of the history carry the signals, and up to which one lines are drawn.
+std::string rows_text(const Spectra &spectra)
+{
+  const double listed_hz = static_cast<double>(spectra.signals.front().amplitudes.size() - 1) * spectra.resolution_hz;
+  return "Rows of the history stand " + short_text(spectra.row_step, 3) + " s apart and carry motion up to " +
+         short_text(spectra.carried_hz, 3) + " Hz" +
+         (listed_hz < 0.999 * spectra.carried_hz
+              ? ", of which the lines up to " + short_text(listed_hz, 3) + " Hz are listed"
+              : "") +
+         ". They are instants, not means: faster motion folds into lines below " +
+         short_text(0.5 / spectra.row_step, 3) + " Hz, and a smaller output.step shows it.";
+}
+
+} // namespace
+
+Section spectrum_section(const Result &result, const RunSpectra &found)
+{
+  const Spectra &spectra = *found.spectra;
+  Section        section{"spectrum", "Spectra", "Spectra", Section::Place::history, true};
+  section.parts.push_back(Section::Sentences{
+      "Amplitudes over the run, " + short_text(spectra.begin) + " to " + short_text(spectra.end) +
+      " s, in one window after Hann with " + std::to_string(spectra.samples) + " samples: lines stand " +
+      short_text(spectra.resolution_hz, 3) +
+      " Hz apart, and two frequencies are told apart from twice that on. Numbers: modes of the coupled machine" +
+      (drive_hz(found.orders) > 0. ? "; ticks: orders of " + found.orders->rotor : "") + ". " + rows_text(spectra)});
+  int number = 0;
+  for (const auto &group : by_unit(spectra))
+    section.parts.push_back(Section::Drawing{"spectrum" + (++number == 1 ? "" : "-" + std::to_string(number)),
+                                             spectrum_chart(result, found, group)});
+  if (number == 0)
+    section.parts.clear();
+  return section;
+}
+
+} // namespace gestell::apps
