@@ -49,19 +49,4 @@ struct AnalysisEntry
       nothing; ///< an answer without values, whose members the reference lists
 };
 
-/// @tparam Own     Analysis
-/// @tparam Answer  of a default value
-template <class Own, class OwnAnswer, class Value>
-AnalysisEntry analysis_entry(const std::string &name, const std::string &does, const std::vector<std::string> &examples,
-                             const std::vector<ResultFile> &files, const std::string &of = "")
-{
-  return {name,
-          does,
-          examples,
-          files,
-          [] { return std::make_unique<Own>(); },
-          [] { return std::make_shared<const OwnAnswer>(Value()); },
-          of};
-}
-
 } // namespace gestell::apps

@@ -1,8 +1,6 @@
 #include "apps/analysis/budget/budget.h"
 
-#include "apps/output/describe/described_answer.h"
-#include "apps/output/report/section.h"
-#include "apps/output/values/result.h"
+#include "apps/analysis/analysis_entry.h"
 #include "apps/sizing/error_budget.h"
 #include "fem/values/number_text.h"
 
@@ -13,17 +11,17 @@
 namespace gestell::apps
 {
 
-namespace
-{
-
-constexpr double bar = 0.6; ///< width, of the place it has
-
 template <class Visitor>
 void describe_answer(Visitor &v, const ErrorBudget &x)
 {
   v.maybe(true, "budget", by_name(x.entries, &BudgetEntry::output), "", "errors of each output, `run --budget`");
   v.maybe(true, "budget_cpu_s", x.cpu_s(), "s", "what the run and each part of the budget took");
 }
+
+namespace
+{
+
+constexpr double bar = 0.6; ///< width, of the place it has
 
 struct Cause
 {
@@ -107,7 +105,9 @@ std::string cell(const std::optional<double> &error)
   return error ? short_text(*error, 2) : "not known";
 }
 
-Section budget_section(const ErrorBudget &budget)
+} // namespace
+
+std::vector<Section> sections_of(const Result &, const ErrorBudget &budget)
 {
   Section section{"budget", "Error budget", "Error budget", Section::Place::results};
   section.parts.push_back(Section::Sentences{"How far the outputs may be off, by a second model for each cause: "
@@ -130,16 +130,11 @@ Section budget_section(const ErrorBudget &budget)
                                       : ""));
   }
   section.parts.push_back(table);
-  return section;
+  return {section};
 }
 
-class BudgetAnswer : public DescribedAnswer<ErrorBudget>
+namespace
 {
-public:
-  using DescribedAnswer::DescribedAnswer;
-
-  std::vector<Section> sections(const Result &) const override { return {budget_section(value)}; }
-};
 
 class Budget : public Analysis
 {
@@ -183,12 +178,12 @@ private:
 
 std::shared_ptr<const Answer> budget_answer(ErrorBudget budget)
 {
-  return std::make_shared<BudgetAnswer>(std::move(budget));
+  return as_answer(std::move(budget));
 }
 
 AnalysisEntry budget_analysis()
 {
-  return analysis_entry<Budget, BudgetAnswer, ErrorBudget>("budget", "", {}, {}, "run");
+  return analysis_entry<Budget, ErrorBudget>("budget", "", {}, {}, "run");
 }
 
 } // namespace gestell::apps

@@ -78,7 +78,7 @@ HtmlTable extremes_table(const coupling::RunResult &run, const ComparedRun &othe
 
 } // namespace
 
-Section compared_run_section(const Result &result, const ComparedRun &other)
+std::vector<Section> sections_of(const Result &result, const ComparedRun &other)
 {
   Section section{"compared-run", "The run beside that of " + other.scene, "Runs compared", Section::Place::results};
   section.parts.push_back(
@@ -86,10 +86,10 @@ Section compared_run_section(const Result &result, const ComparedRun &other)
   section.parts.push_back(extremes_table(*result.run, other));
   for (Section::Drawing &chart : overlay_charts(result.scene, *result.run, other))
     section.parts.push_back(std::move(chart));
-  return section;
+  return {section};
 }
 
-Section compared_modes_section(const Result &result, const ComparedShapes &shapes)
+std::vector<Section> sections_of(const Result &result, const ComparedShapes &shapes)
 {
   Section                         section{"compared-modes", "Modes beside those of " + shapes.b.scene, "Modes compared",
                   Section::Place::frequencies};
@@ -111,7 +111,7 @@ Section compared_modes_section(const Result &result, const ComparedShapes &shape
   if (const std::string svg = shape_pairs_svg(shapes, angle_arm(result)); !svg.empty())
     section.parts.push_back(Section::Picture{"modes-compared", svg});
   section.parts.push_back(Section::PageTable{mac_table(shapes)});
-  return section;
+  return {section};
 }
 
 } // namespace gestell::apps

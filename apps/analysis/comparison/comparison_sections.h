@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-Section compared_run_section(const Result &result, const ComparedRun &other);
-Section compared_modes_section(const Result &result, const ComparedShapes &shapes);
+std::vector<Section> sections_of(const Result &result, const ComparedRun &other);
+std::vector<Section> sections_of(const Result &result, const ComparedShapes &shapes);
 
 } // namespace gestell::apps

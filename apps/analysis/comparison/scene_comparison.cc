@@ -1,9 +1,9 @@
 #include "apps/analysis/comparison/scene_comparison.h"
 
+#include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/comparison/comparison_sections.h"
 #include "apps/analysis/comparison/comparison_table.h"
 #include "apps/analysis/comparison/shared_measures.h"
-#include "apps/output/describe/described_answer.h"
 #include "apps/output/tables/result_tables.h"
 #include "fem/values/number_text.h"
 
@@ -49,22 +49,6 @@ std::string window_text(const coupling::RunResult &run)
 {
   return std::isfinite(run.from) ? short_text(run.from, 6) + " s" : "the start of the run";
 }
-
-class ComparedRunAnswer : public DescribedAnswer<ComparedRun>
-{
-public:
-  using DescribedAnswer::DescribedAnswer;
-
-  std::vector<Section> sections(const Result &result) const override { return {compared_run_section(result, value)}; }
-};
-
-class ComparedModesAnswer : public DescribedAnswer<ComparedShapes>
-{
-public:
-  using DescribedAnswer::DescribedAnswer;
-
-  std::vector<Section> sections(const Result &result) const override { return {compared_modes_section(result, value)}; }
-};
 
 /// Of a command that computes another scene beside its own.
 class Compare : public Analysis
@@ -121,16 +105,6 @@ public:
   }
 };
 
-template <class Value>
-using CsvOf = std::string (*)(const Value &);
-
-template <class Value, CsvOf<Value> csv>
-std::string compared_file(const Result &result)
-{
-  const auto *found = answer_in<Value>(result.answers);
-  return found ? csv(*found) : "";
-}
-
 std::string compared_run_file(const Result &result)
 {
   const auto *found = answer_in<ComparedRun>(result.answers);
@@ -171,7 +145,7 @@ void add_compared_run(Session &session, Result &result, Session &other)
   auto shapes = compared_shapes(result, at_modes(session), of_other, at_modes(other));
   result.answers.push_back(compared_run_answer(compared_run(*result.run, of_other.scene, std::move(*of_other.run))));
   if (shapes)
-    result.answers.push_back(std::make_shared<ComparedModesAnswer>(std::move(*shapes)));
+    result.answers.push_back(as_answer(std::move(*shapes)));
 }
 
 void add_compared_modes(Session &session, Result &result, Session &other)
@@ -181,30 +155,30 @@ void add_compared_modes(Session &session, Result &result, Session &other)
   auto            shapes = compared_shapes(result, own, of_other, his);
   if (!shapes)
     throw std::invalid_argument(nothing_shared(result, own, of_other, his));
-  result.answers.push_back(std::make_shared<ComparedModesAnswer>(std::move(*shapes)));
+  result.answers.push_back(as_answer(std::move(*shapes)));
 }
 
 std::shared_ptr<const Answer> compared_run_answer(ComparedRun compared)
 {
-  return std::make_shared<ComparedRunAnswer>(std::move(compared));
+  return as_answer(std::move(compared));
 }
 
 AnalysisEntry compare_run_analysis()
 {
-  return analysis_entry<CompareRun, ComparedRunAnswer, ComparedRun>(
+  return analysis_entry<CompareRun, ComparedRun>(
       "compare", "", {},
       {{"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run_file},
-       {"compared_history.csv", "the other run over time", compared_file<ComparedRun, compared_history_csv>}},
+       {"compared_history.csv", "the other run over time", content_of<ComparedRun, compared_history_csv>}},
       "run");
 }
 
 AnalysisEntry compare_modes_analysis()
 {
-  return analysis_entry<CompareModes, ComparedModesAnswer, ComparedShapes>(
+  return analysis_entry<CompareModes, ComparedShapes>(
       "compare", "", {},
       {{"compared_modes.csv", "modes beside those of another scene, with `--compare`",
-        compared_file<ComparedShapes, compared_modes_csv>},
-       {"mac.csv", "how alike their shapes are, each with each", compared_file<ComparedShapes, mac_csv>}},
+        content_of<ComparedShapes, compared_modes_csv>},
+       {"mac.csv", "how alike their shapes are, each with each", content_of<ComparedShapes, mac_csv>}},
       "modes");
 }
 

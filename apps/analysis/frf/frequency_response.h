@@ -88,7 +88,7 @@ void describe_answer(Visitor &v, const FrequencyResponse &x)
 }
 
 /// What is read of it.
-std::vector<Section> response_sections(const FrequencyResponse &response);
+std::vector<Section> sections_of(const Result &result, const FrequencyResponse &response);
 
 /// frf.csv: `frequency [Hz]`, then for each pair `NAME re [unit]`, `NAME im [unit]`, `NAME abs [unit]`, `NAME phase
 /// [deg]`.

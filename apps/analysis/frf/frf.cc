@@ -1,32 +1,27 @@
-#include "apps/analysis/analysis.h"
+#include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/frf/response_search.h"
 #include "apps/analysis/frf/state_space_answer.h"
-#include "apps/output/describe/described_answer.h"
 #include "apps/output/exchange/state_space_files.h"
-#include "apps/output/report/section.h"
-#include "apps/output/values/result.h"
 
 namespace gestell::apps
 {
+
+std::string subject_of(const FrequencyResponse &)
+{
+  return "Frequency responses";
+}
+
+std::vector<NamedArray> arrays_of(const FrequencyResponse &found)
+{
+  std::vector<NamedArray> arrays{
+      {{"frequencies_hz"}, {found.frequencies_hz.begin(), found.frequencies_hz.end()}, true}};
+  for (const ResponsePair &pair : found.pairs)
+    arrays.push_back({{pair.from, pair.to}, pair.values});
+  return arrays;
+}
+
 namespace
 {
-
-class FrfAnswer : public DescribedAnswer<FrequencyResponse>
-{
-public:
-  using DescribedAnswer::DescribedAnswer;
-
-  std::string             subject() const override { return "Frequency responses"; }
-  std::vector<Section>    sections(const Result &) const override { return response_sections(value); }
-  std::vector<NamedArray> arrays() const override
-  {
-    std::vector<NamedArray> arrays{
-        {{"frequencies_hz"}, {value.frequencies_hz.begin(), value.frequencies_hz.end()}, true}};
-    for (const ResponsePair &pair : value.pairs)
-      arrays.push_back({{pair.from, pair.to}, pair.values});
-    return arrays;
-  }
-};
 
 class Frf : public Analysis
 {
@@ -68,7 +63,7 @@ public:
   }
   bool compute(Session &session, Result &result) const override
   {
-    result.answers.push_back(std::make_shared<FrfAnswer>(
+    result.answers.push_back(as_answer(
         frequency_response_of(session.scene(), session.machine(), own_, session.progress(), result.warnings)));
     return true;
   }
@@ -88,22 +83,17 @@ private:
   std::string format_; ///< of the linear machine; empty: it is not written
 };
 
-std::string table_of_responses(const Result &result)
-{
-  const auto *response = answer_in<FrequencyResponse>(result.answers);
-  return response ? frequency_response_csv(*response) : "";
-}
-
 } // namespace
 
 AnalysisEntry frf_analysis()
 {
   const auto exported = [](const std::string &name, const std::string &holds)
   { return ResultFile{name, holds, nullptr, "", "", nullptr, WrittenBy::its_command}; };
-  return analysis_entry<Frf, FrfAnswer, FrequencyResponse>(
+  return analysis_entry<Frf, FrequencyResponse>(
       "frf", "frequency responses of the machine linearised at an operating point",
       {"gestell frf apps/scenes/press_minimal.toml --from frame.crown.uz --to frame.crown.uz,F_P"},
-      {{"frf.csv", "frequency responses of the linearised machine, by `frf`", table_of_responses},
+      {{"frf.csv", "frequency responses of the linearised machine, by `frf`",
+        content_of<FrequencyResponse, frequency_response_csv>},
        exported("state_space.mat", "that machine as x' = A x + B u, y = C x + D u, with `frf --export mat`"),
        exported("state_space_*.mtx", "the same, with `frf --export matrix-market`"),
        exported("state_space.csv", "names of its states, inputs and outputs")});

@@ -184,7 +184,7 @@ std::string operating_point_text(const FrequencyResponse &response)
 
 } // namespace
 
-std::vector<Section> response_sections(const FrequencyResponse &response)
+std::vector<Section> sections_of(const Result &, const FrequencyResponse &response)
 {
   Section section{"frf", "Frequency response", "Frequency response", Section::Place::frequencies};
   section.parts.push_back(Section::Sentences{operating_point_text(response)});

@@ -1,32 +1,24 @@
-#include "apps/analysis/analysis.h"
+#include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/spectra/order_tracking.h"
 #include "apps/analysis/spectra/spectra.h"
-#include "apps/output/describe/described_answer.h"
-#include "apps/output/report/section.h"
 #include "apps/output/text/csv.h"
-#include "apps/output/values/result.h"
 #include "fem/values/number_text.h"
 
 namespace gestell::apps
 {
+
+std::vector<Section> sections_of(const Result &result, const RunSpectra &found)
+{
+  std::vector<Section> sections;
+  if (found.orders)
+    sections.push_back(order_section(result, *found.orders));
+  if (found.spectra)
+    sections.push_back(spectrum_section(result, found));
+  return sections;
+}
+
 namespace
 {
-
-class SpectraAnswer : public DescribedAnswer<RunSpectra>
-{
-public:
-  using DescribedAnswer::DescribedAnswer;
-
-  std::vector<Section> sections(const Result &result) const override
-  {
-    std::vector<Section> sections;
-    if (value.orders)
-      sections.push_back(order_section(result, *value.orders));
-    if (value.spectra)
-      sections.push_back(spectrum_section(result, value));
-    return sections;
-  }
-};
 
 /// Of every run: a tenth of the cost of a short one.
 class SpectraOfRun : public Analysis
@@ -35,20 +27,19 @@ public:
   bool compute(Session &session, Result &result) const override
   {
     const RunRequest &run = session.scene().run;
-    RunSpectra found{spectra(*result.run, run.last_period ? run.options.begin : result.run->from),
+    RunSpectra        found{spectra(*result.run, run.last_period ? run.options.begin : result.run->from),
                      order_tracking(session.scene(), *result.run)};
     if (found.spectra || found.orders)
-      result.answers.push_back(std::make_shared<SpectraAnswer>(std::move(found)));
+      result.answers.push_back(as_answer(std::move(found)));
     return true;
   }
 };
 
-std::string orders_csv(const Result &result)
+std::string orders_csv(const RunSpectra &found)
 {
-  const auto *found = answer_in<RunSpectra>(result.answers);
-  if (!found || !found->orders)
+  if (!found.orders)
     return "";
-  const OrderTracking &tracking = *found->orders;
+  const OrderTracking &tracking = *found.orders;
   std::string          csv      = "t [s],speed [1/min]";
   for (const OrderedSignal &signal : tracking.signals)
     for (const int order : tracking.orders)
@@ -70,9 +61,10 @@ std::string orders_csv(const Result &result)
 
 AnalysisEntry spectra_analysis()
 {
-  return analysis_entry<SpectraOfRun, SpectraAnswer, RunSpectra>(
+  return analysis_entry<SpectraOfRun, RunSpectra>(
       "spectra", "", {},
-      {{"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed", orders_csv}},
+      {{"orders.csv", "signals at multiples of a rotor's speed, of a run that tells its angle or speed",
+        content_of<RunSpectra, orders_csv>}},
       "run");
 }
 

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "apps/analysis/analysis.h"
+#include "apps/output/describe/described_json.h"
+#include "apps/output/describe/described_schema.h"
+#include "apps/output/describe/member_list.h"
+#include "apps/output/report/section.h"
+#include "apps/output/values/result.h"
+
+namespace gestell::apps
+{
+
+/// Of a value that has no function of its own.
+template <class Value>
+std::string subject_of(const Value &)
+{
+  return "";
+}
+template <class Value>
+std::vector<NamedArray> arrays_of(const Value &)
+{
+  return {};
+}
+
+/**
+ * An answer by functions beside its value: describe_answer(visitor, value), sections_of(result, value), and where there
+ * is something to tell subject_of(value), arrays_of(value), see Answer.  For sources alone, as Json is.
+ */
+template <class Value>
+class DescribedAnswer final : public AnswerWith<Value>
+{
+public:
+  using AnswerWith<Value>::AnswerWith;
+
+  void                    describe(JsonMembers &v) const override { describe_answer(v, this->value); }
+  void                    describe(SchemaMembers &v) const override { describe_answer(v, this->value); }
+  void                    describe(MemberList &v) const override { describe_answer(v, this->value); }
+  std::vector<Section>    sections(const Result &result) const override { return sections_of(result, this->value); }
+  std::string             subject() const override { return subject_of(this->value); }
+  std::vector<NamedArray> arrays() const override { return arrays_of(this->value); }
+};
+
+template <class Value>
+std::shared_ptr<const Answer> as_answer(Value found)
+{
+  return std::make_shared<DescribedAnswer<Value>>(std::move(found));
+}
+
+/// The content of a file that an answer makes; "" without one.
+template <class Value, std::string (*content)(const Value &)>
+std::string content_of(const Result &result)
+{
+  const Value *found = answer_in<Value>(result.answers);
+  return found ? content(*found) : "";
+}
+
+/// @tparam Own    an Analysis
+/// @tparam Value  of its answer
+template <class Own, class Value>
+AnalysisEntry analysis_entry(const std::string &name, const std::string &does, const std::vector<std::string> &examples,
+                             const std::vector<ResultFile> &files, const std::string &of = "")
+{
+  return {name, does, examples, files, [] { return std::make_unique<Own>(); }, [] { return as_answer(Value()); }, of};
+}
+
+} // namespace gestell::apps
