@@ -44,9 +44,9 @@ struct AnalysisEntry
   std::vector<std::string> examples;
   std::vector<ResultFile>  files;
 
-  std::function<std::unique_ptr<Analysis>()> begin;
-  std::function<std::shared_ptr<const Answer>()>
-      nothing; ///< an answer without values, whose members the reference lists
+  std::function<std::unique_ptr<Analysis>()>     begin;
+  std::function<std::shared_ptr<const Answer>()> nothing; ///< without values: its members are listed by the reference
+  std::string                                    of{};    ///< command whose result it adds to, with options there
 };
 
 } // namespace gestell::apps

@@ -52,9 +52,7 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const Commo
   const std::string more = analysis.write(session, own);
   if (answers_in_json())
     answer_with(summary_json(result));
-  for (const auto &answer : result.answers)
-    for (const Section &section : answer->sections(result))
-      std::cout << section_text(section);
+  std::cout << answers_text(result);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << (more.empty() ? "" : more + '\n') << where << '\n';

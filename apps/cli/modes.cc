@@ -139,9 +139,7 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
   print_poles(result.poles);
   if (result.along)
     print_along(*result.along);
-  for (const auto &answer : result.answers)
-    for (const Section &section : answer->sections(result))
-      std::cout << section_text(section);
+  std::cout << answers_text(result);
 }
 
 /// Of the command line.
@@ -204,57 +202,56 @@ int find_modes(const CommonOptions &options, const ModesCommand &requested, cons
 
 Command modes_command()
 {
-  const auto own  = std::make_shared<ModesCommand>();
-  const auto more = analyses_of("modes");
-  Command    command{
-      "modes",
-      "natural frequencies and shapes of the frame and of the coupled machine",
-      {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank",
-          "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
-      CommandInput::scene,
-      {{"--along", &own->modes.along, "follow them along a coordinate: a body, a measure or a driven joint"},
-          CommandOption{"--from", &own->modes.from,
-                     "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
-              .with("--along"),
-          CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
-          CommandOption{"--positions", &own->modes.positions,
-                     "how many, both ends included (default 73: every 5 deg of a turn)"}
-              .at_most(1e5)
-              .with("--along"),
-          CommandOption{"--configuration", &own->modes.configuration,
-                     "equilibrium (default): standing still under weights and springs; or undeformed"}
-              .one_of({"equilibrium", "undeformed"})
-              .with("--along"),
-          CommandOption{"--hold", &own->modes.hold, "coordinates that do not vibrate, such as a held drive"}.with(
-              "--along"),
-          CommandOption{"--speed", &own->modes.speed,
-                     "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
-              .with("--along"),
-          CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with(
-              "--along"),
-          CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
-              "--along"),
-          CommandOption{"--converge", &own->mesh.converge,
-                     "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
-                        "tell error and uncertainty"}
-              .above_zero(),
-          CommandOption{"--frequencies", &own->mesh.frequencies,
-                     "lowest elastic ones of the frame to converge (default 4)"}
-              .above_zero()
-              .with("--converge"),
-          CommandOption{"--watch", &own->mesh.watch,
-                     "what is to converge: all, or frequencies without compliances (default all)"}
-              .one_of({"all", "frequencies"})
-              .with("--converge"),
-          CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
-              .above_zero()
-              .with("--converge"),
-          CommandOption{"--geometric", &own->modes.geometric,
-                     "on (default) or off: geometric stiffness of forces that turn"}
-              .one_of({"on", "off"})},
-      [own, more](const CommonOptions &options) { return find_modes(options, *own, more); }};
-  add_options(more, command.options);
-  return command;
+  const auto                 own     = std::make_shared<ModesCommand>();
+  const auto                 more    = analyses_of("modes");
+  std::vector<CommandOption> options = {
+      {"--along", &own->modes.along, "follow them along a coordinate: a body, a measure or a driven joint"},
+      CommandOption{"--from", &own->modes.from,
+                    "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
+          .with("--along"),
+      CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
+      CommandOption{"--positions", &own->modes.positions,
+                    "how many, both ends included (default 73: every 5 deg of a turn)"}
+          .at_most(1e5)
+          .with("--along"),
+      CommandOption{"--configuration", &own->modes.configuration,
+                    "equilibrium (default): standing still under weights and springs; or undeformed"}
+          .one_of({"equilibrium", "undeformed"})
+          .with("--along"),
+      CommandOption{"--hold", &own->modes.hold, "coordinates that do not vibrate, such as a held drive"}.with(
+          "--along"),
+      CommandOption{"--speed", &own->modes.speed,
+                    "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
+          .with("--along"),
+      CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with(
+          "--along"),
+      CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
+          "--along"),
+      CommandOption{"--converge", &own->mesh.converge,
+                    "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
+                    "tell error and uncertainty"}
+          .above_zero(),
+      CommandOption{"--frequencies", &own->mesh.frequencies, "lowest elastic ones of the frame to converge (default 4)"}
+          .above_zero()
+          .with("--converge"),
+      CommandOption{"--watch", &own->mesh.watch,
+                    "what is to converge: all, or frequencies without compliances (default all)"}
+          .one_of({"all", "frequencies"})
+          .with("--converge"),
+      CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
+          .above_zero()
+          .with("--converge"),
+      CommandOption{"--geometric", &own->modes.geometric,
+                    "on (default) or off: geometric stiffness of forces that turn"}
+          .one_of({"on", "off"})};
+  add_options(more, options);
+  return {"modes",
+          "natural frequencies and shapes of the frame and of the coupled machine",
+          {"gestell modes apps/scenes/press_minimal.toml", "gestell modes apps/scenes/press_minimal.toml --along crank",
+           "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
+          CommandInput::scene,
+          options,
+          [own, more](const CommonOptions &common) { return find_modes(common, *own, more); }};
 }
 
 } // namespace gestell::apps

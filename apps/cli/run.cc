@@ -150,9 +150,7 @@ int run_scene(const CommonOptions &options, const RunCommand &requested, const A
     std::cout << stages_text(*result.stages);
   if (result.story)
     std::cout << story_text(*result.story);
-  for (const auto &answer : result.answers)
-    for (const Section &section : answer->sections(result))
-      std::cout << section_text(section);
+  std::cout << answers_text(result);
   if (result.sensitivities && result.sensitivities->failure.empty())
     std::cout << sensitivities_text(*result.sensitivities);
   if (!result.model.damping.empty())
@@ -186,25 +184,25 @@ int run_scene(const CommonOptions &options, const RunCommand &requested, const A
 
 Command run_command()
 {
-  const auto requested = std::make_shared<RunCommand>();
-  const auto more      = analyses_of("run");
-  Command    command{
-      "run",
-      "simulate a scene in time",
-      {"gestell run apps/scenes/press.toml -o results/press",
-          "gestell run apps/scenes/press_minimal.toml --compare apps/scenes/press_minimal_light.toml"},
-      CommandInput::scene,
-      {{"--resume", &requested->resume,
-           "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
-          {"--checkpoint", &requested->checkpoint,
-           "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
-              "time), 0: when interrupted alone"},
-          {"--sensitivities", &requested->sensitivities,
-           "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
-              "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}},
-      [requested, more](const CommonOptions &options) { return run_scene(options, *requested, more); }};
-  add_options(more, command.options);
-  return command;
+  const auto                 requested = std::make_shared<RunCommand>();
+  const auto                 more      = analyses_of("run");
+  std::vector<CommandOption> options   = {
+        {"--resume", &requested->resume,
+         "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
+        {"--checkpoint", &requested->checkpoint,
+         "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
+           "time), 0: when interrupted alone"},
+        {"--sensitivities", &requested->sensitivities,
+         "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
+           "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}};
+  add_options(more, options);
+  return {"run",
+          "simulate a scene in time",
+          {"gestell run apps/scenes/press.toml -o results/press",
+           "gestell run apps/scenes/press_minimal.toml --compare apps/scenes/press_minimal_light.toml"},
+          CommandInput::scene,
+          options,
+          [requested, more](const CommonOptions &common) { return run_scene(common, *requested, more); }};
 }
 
 } // namespace gestell::apps

@@ -82,12 +82,31 @@ TEST(Includes, OfScenesGoDownFromTheMachineToTheLanguage)
 
 TEST(Includes, OfOutputGoDownFromTheFolderToTheText)
 {
-  const std::vector<std::string> folders = {"text/",   "folder/",      "values/", "tables/",   "pictures/",
-                                            "charts/", "interactive/", "report/", "paraview/", "result_folder"};
+  const std::vector<std::string> folders = {"text/",   "folder/",      "values/", "tables/",  "pictures/",
+                                            "charts/", "interactive/", "report/", "paraview/"};
   for (std::size_t i = 0; i < folders.size(); ++i)
     for (std::size_t j = i + 1; j < folders.size(); ++j)
       EXPECT_TRUE(none(includes_matching(tree(), {"apps/output/" + folders[i]}, {}, "apps/output/" + folders[j])));
   EXPECT_TRUE(none(includes_matching(tree(), {"apps/output/"}, {}, "apps/(?!output/)")));
+}
+
+TEST(Includes, OfAnAnalysisStayBelowTheCommandsAndInItsFolder)
+{
+  EXPECT_TRUE(none(includes_matching(tree(), {"apps/analysis/"}, {},
+                                     "apps/(?!analysis/|sizing/|session/|scene/|output/)|pybind11/|iostream")));
+  std::set<std::string> folders;
+  for (const SourceFile &file : tree())
+    if (std::smatch found; std::regex_match(file.path, found, std::regex("apps/analysis/(\\w+)/.*")))
+      folders.insert(found[1]);
+  EXPECT_GT(folders.size(), 3u);
+  // What is given out of an analysis: the linear machine to Python, the budget of the model that `size` has chosen.
+  const std::vector<std::string> given_out = {"apps/python/python_scene", "apps/cli/size.cc"};
+  for (const std::string &folder : folders)
+  {
+    std::vector<std::string> without = given_out;
+    without.push_back("apps/analysis/" + folder + "/");
+    EXPECT_TRUE(none(includes_matching(tree(), {"apps/"}, without, "apps/analysis/" + folder + "/"))) << folder;
+  }
 }
 
 TEST(Includes, OfFemStayWithinFem)

@@ -39,9 +39,10 @@ const std::vector<std::vector<std::string>> directions = {
      "coupling/equilibrium", "coupling/modes", "coupling/simulation", "coupling/sensitivity"},
     {"apps/scene/language", "apps/scene/file", "apps/scene/read", "apps/scene/bodies", "apps/scene/elements",
      "apps/scene/joints", "apps/scene/build"},
-    {"apps/scene", "apps/session", "apps/cli"},
+    {"apps/scene", "apps/session", "apps/sizing", "apps/analysis", "apps/cli"},
     {"apps/study/values", "apps/study/designs", "apps/study/surface", "apps/study/optimum", "apps/study/report"},
-    {"apps/output/text", "apps/output/pictures", "apps/output/charts", "apps/output/interactive", "apps/output/report"},
+    {"apps/output/text", "apps/output/describe", "apps/output/pictures", "apps/output/charts",
+     "apps/output/interactive", "apps/output/report"},
 };
 
 } // namespace

@@ -12,10 +12,10 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double least_shown = 1e-4; ///< of the largest amplitude, where the axis begins
-constexpr double shown_share = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
-constexpr int    most_orders = 8;
-constexpr double steady      = 1.02; ///< ratio of largest and smallest speed of a drive whose orders are lines
+constexpr double least_shown   = 1e-4; ///< of the largest amplitude, where the axis begins
+constexpr double shown_share   = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
+constexpr int    marked_orders = 8;
+constexpr double steady        = 1.02; ///< ratio of largest and smallest speed of a drive whose orders are lines
 
 double most_of(const SignalSpectrum &spectrum)
 {
@@ -51,7 +51,7 @@ void add_marks(const Result &result, const std::optional<OrderTracking> &orders,
       chart.marks.push_back(
           {mode.frequency_hz, "mode " + std::to_string(number) + ": " + short_text(mode.frequency_hz) + " Hz", number});
   const double drive = drive_hz(orders);
-  for (int order = 1; order <= most_orders && drive > 0. && order * drive < chart.x.end; ++order)
+  for (int order = 1; order <= marked_orders && drive > 0. && order * drive < chart.x.end; ++order)
     chart.marks.push_back(
         {order * drive,
          "order " + std::to_string(order) + " of " + orders->rotor + ": " + short_text(order * drive) + " Hz", 0, 1});

@@ -20,6 +20,7 @@
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
+#include "apps/output/values/coupling_descriptions.h"
 #include "fem/values/number_text.h"
 #include "fem/values/two_pi.h"
 

@@ -1,5 +1,7 @@
 #include "apps/output/report/section.h"
 
+#include "apps/output/values/result.h"
+
 namespace gestell::apps
 {
 namespace
@@ -41,6 +43,14 @@ struct PartText
   }
 };
 
+std::string section_text(const Section &of)
+{
+  std::string text;
+  for (const Section::Part &part : of.parts)
+    text += of.page ? "" : std::visit(PartText{}, part);
+  return text.empty() ? "" : of.title + '\n' + text;
+}
+
 } // namespace
 
 std::string section_html(const Section &of, Pictures &pictures)
@@ -51,12 +61,13 @@ std::string section_html(const Section &of, Pictures &pictures)
   return section(of.id, escape_xml(of.title), html);
 }
 
-std::string section_text(const Section &of)
+std::string answers_text(const Result &result)
 {
   std::string text;
-  for (const Section::Part &part : of.parts)
-    text += of.page ? "" : std::visit(PartText{}, part);
-  return text.empty() ? "" : of.title + '\n' + text;
+  for (const auto &answer : result.answers)
+    for (const Section &section : answer->sections(result))
+      text += section_text(section);
+  return text;
 }
 
 } // namespace gestell::apps

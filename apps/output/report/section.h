@@ -11,6 +11,8 @@
 namespace gestell::apps
 {
 
+struct Result;
+
 /// What is read of an answer: sentences, tables and charts in their order.  A terminal has no charts.
 struct Section
 {
@@ -58,7 +60,7 @@ struct Section
 /// As a piece of a page, with its pictures; "" without parts.
 std::string section_html(const Section &section, Pictures &pictures);
 
-/// For a terminal: its title, sentences and tables.
-std::string section_text(const Section &section);
+/// For a terminal, of all answers: titles, sentences and tables.
+std::string answers_text(const Result &result);
 
 } // namespace gestell::apps

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "apps/output/report/budget_report.h"
+#include "apps/output/text/svg.h"
+#include "apps/output/values/result.h"
 
 namespace gestell::apps
 {

@@ -1,6 +1,5 @@
 #include "apps/output/tables/size_table.h"
 
-#include "apps/output/tables/budget_table.h"
 #include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/describe/described.h"
+#include "apps/output/values/coupling_descriptions.h"
 #include "apps/output/values/line_extremes.h"
 #include "apps/output/values/periodic_description.h"
 #include "apps/output/values/result.h"
