@@ -2,10 +2,14 @@
 
 #include "apps/output/values/result.h"
 
+#include <algorithm>
+
 namespace gestell::apps
 {
 namespace
 {
+
+constexpr int rows_of_a_screen = 30; ///< of a table that is not scrolled: 900 pixels, the height of a screen
 
 struct PartHtml
 {
@@ -15,7 +19,12 @@ struct PartHtml
   {
     return (part.soft ? "<p class=\"soft\">" : "<p>") + escape_xml(part.text) + "</p>\n";
   }
-  std::string operator()(const HtmlTable &table) const { return table.is_empty() ? "" : table.scrolled_html(); }
+  std::string operator()(const HtmlTable &table) const
+  {
+    const std::string html = table.is_empty() ? "" : table.html();
+    return std::count(html.begin(), html.end(), '\n') > rows_of_a_screen ? table.scrolled_html()
+                                                                         : html; // a row is a line
+  }
   std::string operator()(const Section::Drawing &part) const
   {
     pictures.emplace_back(part.name, chart_svg(part.chart));
