@@ -4,6 +4,7 @@
 #include "apps/output/folder_lock.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/values/state_space_model.h"
 #include "apps/python/answer_values.h"
 #include "apps/python/bind_scene.h"
 #include "apps/python/errors.h"
@@ -85,7 +86,7 @@ py::dict arrays_of(const PythonResult &result)
       const py::object name =
           array.name.size() == 1 ? py::object(py::str(array.name[0])) : py::tuple(py::cast(array.name));
       const py::array values = py::array_t<std::complex<double>>(py::ssize_t(array.values.size()), array.values.data());
-      all[name]              = array.real ? py::object(values.attr("real").attr("copy")()) : values;
+      all[name]              = array.real ? py::object(values.attr("real").attr("copy")()) : py::object(values);
     }
   return all;
 }
