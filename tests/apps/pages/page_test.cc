@@ -1,3 +1,5 @@
+#include "apps/analysis/comparison/run_comparison.h"
+#include "apps/analysis/comparison/scene_comparison.h"
 #include "apps/output/faces/faces_page.h"
 #include "apps/output/report/report.h"
 #include "tests/apps/pages/page_measures.h"
@@ -125,7 +127,7 @@ TEST(Page, DrawsComparedSignalsWithoutAPictureOfTheirOwn)
   result.run->signals.clear();
   for (std::size_t j = 1; j < result.run->columns.size(); ++j)
     result.run->signals.push_back({result.run->columns[j], result.run->units[j], -1., 0., 1., 0., 0.});
-  result.compared_run = ComparedRun{"other", *result.run};
+  result.answers.push_back(compared_run_answer(compared_run(*result.run, "other", *result.run)));
   Browser page(written(folder, make_report(result)));
   tests::seconds_to_the_machine(page);
   EXPECT_TRUE(page.errors().empty()) << tests::texts(page.errors());

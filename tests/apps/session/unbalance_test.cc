@@ -1,8 +1,9 @@
 // Rotors with an unbalance: against closed solutions, energy, and the Sommerfeld effect.
 // The scene run_up.toml: a motor with an unbalance runs up through the resonances of its foundation.
 
-#include "apps/session/session.h"
+#include "apps/analysis/spectra/spectrum_values.h"
 #include "fem/values/two_pi.h"
+#include "tests/support/complete_run.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_response.h"
@@ -273,12 +274,15 @@ TEST(UnbalanceAtTheStart, PushesByTheAccelerationThatTheMotorGives)
 
 TEST(RunUpScene, EndsInTheVibrationOfConstantSpeed)
 {
-  const apps::Result result = apps::Session(shipped("run_up.toml")).run();
+  apps::Session      session(shipped("run_up.toml"));
+  const apps::Result result = complete_run(session);
   ASSERT_TRUE(result.run->failure.empty());
   EXPECT_LT(result.run->energy.residual, 1e-6 * result.run->energy.exchanged);
-  ASSERT_TRUE(result.orders);
-  const double omega = result.orders->speed_rpm.back() * M_PI / 30., U = 0.06, m = 300., b = 1.2e3;
-  for (const apps::OrderedSignal &signal : result.orders->signals)
+  const auto *found = apps::answer_in<apps::RunSpectra>(result.answers);
+  ASSERT_TRUE(found && found->orders);
+  const apps::OrderTracking &orders = *found->orders;
+  const double               omega = orders.speed_rpm.back() * M_PI / 30., U = 0.06, m = 300., b = 1.2e3;
+  for (const apps::OrderedSignal &signal : orders.signals)
     if (signal.name == "x" || signal.name == "z")
     {
       const double k = signal.name == "x" ? 1.2e6 : 2.6e6;
@@ -289,8 +293,8 @@ TEST(RunUpScene, EndsInTheVibrationOfConstantSpeed)
       const auto  top   = std::size_t(std::max_element(order.begin(), order.end()) - order.begin());
       // The shaking is largest where the speed has just gone through the resonance.
       const double own = std::sqrt(k / m) * 30. / M_PI;
-      EXPECT_GT(result.orders->speed_rpm[top], own) << signal.name;
-      EXPECT_LT(result.orders->speed_rpm[top], 1.35 * own) << signal.name;
+      EXPECT_GT(orders.speed_rpm[top], own) << signal.name;
+      EXPECT_LT(orders.speed_rpm[top], 1.35 * own) << signal.name;
     }
 }
 
