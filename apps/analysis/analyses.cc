@@ -5,21 +5,12 @@
 namespace gestell::apps
 {
 
-/// Each analysis, by the function NAME_analysis() of its folder.
-#define GESTELL_ANALYSES(X)                                                                                            \
-  X(compare_run)                                                                                                       \
-  X(budget)                                                                                                            \
-  X(spectra)                                                                                                           \
-  X(frf)                                                                                                               \
-  X(compare_modes)
-
-#define GESTELL_DECLARED(name) AnalysisEntry name##_analysis();
-GESTELL_ANALYSES(GESTELL_DECLARED)
+AnalysisEntry compare_run_analysis(), budget_analysis(), spectra_analysis(), frf_analysis(), compare_modes_analysis();
 
 const std::vector<AnalysisEntry> &analyses()
 {
-#define GESTELL_LISTED(name) name##_analysis(),
-  static const std::vector<AnalysisEntry> all = {GESTELL_ANALYSES(GESTELL_LISTED)};
+  static const std::vector<AnalysisEntry> all = {compare_run_analysis(), budget_analysis(), spectra_analysis(),
+                                                 frf_analysis(), compare_modes_analysis()};
   return all;
 }
 
@@ -27,8 +18,9 @@ const AnalysisEntry &analysis_named(const std::string &name)
 {
   std::vector<std::string> names;
   for (const AnalysisEntry &entry : analyses())
-    if (names.push_back(entry.name); entry.name == name)
-      return entry;
+    if (entry.of.empty())
+      if (names.push_back(entry.name); entry.name == name)
+        return entry;
   throw std::invalid_argument("there is no analysis '" + name + "'" + suggestion(name, names));
 }
 
@@ -77,6 +69,13 @@ bool add_answers(const Analyses &analyses, Session &session, Result &result)
     if (analysis->requested() && !analysis->compute(session, result))
       all = false;
   return all;
+}
+
+Result complete_run(Session &session, const std::optional<std::string> &sensitivities)
+{
+  Result result = session.run(sensitivities);
+  add_answers(analyses_of("run"), session, result);
+  return result;
 }
 
 Result result_of_all_kinds()

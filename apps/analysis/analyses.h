@@ -2,6 +2,8 @@
 
 #include "apps/analysis/analysis.h"
 
+#include <optional>
+
 namespace gestell::apps
 {
 
@@ -23,6 +25,9 @@ void                     check_all(const Analyses &analyses, Session &session); 
 
 /// Of those requested; @return whether all have an answer
 bool add_answers(const Analyses &analyses, Session &session, Result &result);
+
+/// A run with the answers that every run has, such as its spectra.
+Result complete_run(Session &session, const std::optional<std::string> &sensitivities = {});
 
 /// A result with an answer of each, for the lists of what summary.json may hold.
 Result result_of_all_kinds();

@@ -2,8 +2,11 @@
 
 #include "coupling/frame/number_in_file.h"
 #include "fem/values/nearest_name.h"
+#include "fem/values/number_text.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -13,18 +16,31 @@ namespace
 {
 
 template <class T>
-T value_of_text(const std::string &option, const std::string &text)
+T value_of_text(const CommandOption &option, const std::string &text)
 {
   if constexpr (std::is_same_v<T, std::string>)
     return text;
   else if constexpr (std::is_same_v<T, bool>)
-    return !text.empty() && text != "False";
+  {
+    if (text == "true" || text == "True" || text == "1")
+      return true;
+    if (text.empty() || text == "false" || text == "False" || text == "0")
+      return false;
+    throw std::invalid_argument(option.name + ": needs true or false, got '" + text + "'");
+  }
   else
   {
-    double value = 0.;
-    if (text.empty() || *coupling::read_number(text.c_str(), value) != '\0' || value != double(T(value)))
-      throw std::invalid_argument(option + ": needs a " + (std::is_integral_v<T> ? "whole number" : "number") +
-                                  ", got '" + text + "'");
+    double     value = 0.;
+    const bool above = option.range == CommandOption::Range::above_zero;
+    const bool reads = !text.empty() && *coupling::read_number(text.c_str(), value) == '\0';
+    const bool fits  = std::isfinite(value) && (!above || value > 0.) && (option.most == 0. || value <= option.most);
+    const bool whole = !std::is_integral_v<T> ||
+                       (value == std::floor(value) && std::abs(value) <= double(std::numeric_limits<int>::max()));
+    if (!reads || !fits || !whole)
+      throw std::invalid_argument(option.name + ": needs a " + (std::is_integral_v<T> ? "whole number" : "number") +
+                                  (above ? " above zero" : "") +
+                                  (option.most > 0. ? ", at most " + short_text(option.most, 12) : "") + ", got '" +
+                                  text + "'");
     return T(value);
   }
 }
@@ -80,6 +96,14 @@ CommandOption CommandOption::of_files() const
   return option;
 }
 
+std::string CommandOption::key() const
+{
+  std::string key = name.substr(0, name.find(','));
+  key.erase(0, key.find_first_not_of('-'));
+  std::replace(key.begin(), key.end(), '-', '_');
+  return key;
+}
+
 void CommandOption::set(const std::vector<std::string> &texts) const
 {
   if (!choices.empty())
@@ -94,10 +118,15 @@ void CommandOption::set(const std::vector<std::string> &texts) const
         {
           target->clear();
           for (const std::string &text : texts)
-            target->push_back(value_of_text<typename Target::value_type>(name, text));
+            target->push_back(value_of_text<typename Target::value_type>(*this, text));
         }
         else
-          *target = value_of_text<Target>(name, texts.empty() ? "" : texts.front());
+        {
+          std::string one;
+          for (const std::string &text : texts)
+            one += (one.empty() ? "" : ",") + text;
+          *target = value_of_text<Target>(*this, one);
+        }
       },
       value);
 }

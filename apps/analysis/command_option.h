@@ -37,8 +37,11 @@ struct CommandOption
   CommandOption with(const std::string &option) const; ///< needs it
   CommandOption of_files() const;
 
-  /// From texts as they are typed, several of a list; a flag by any text but "" and "False".
-  /// @throws std::invalid_argument if they are no number, or none of the choices
+  /// Its name in Python and in verification cases: "--lead-in" is lead_in.
+  std::string key() const;
+
+  /// From texts as they are typed, several of a list; a flag by true, false, True, False, 1, 0 and "".
+  /// @throws std::invalid_argument if they are no number in the range, or none of the choices
   void set(const std::vector<std::string> &texts) const;
 };
 

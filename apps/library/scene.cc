@@ -1,5 +1,6 @@
 #include "apps/library/scene.h"
 
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
 #include "apps/scene/file/scene_file.h"
@@ -127,7 +128,7 @@ Run Scene::run() const
 {
   auto session = parts_->session();
   session->check_run();
-  auto        parts = std::make_shared<Run::Parts>(Run::Parts{session, session->run()});
+  auto        parts = std::make_shared<Run::Parts>(Run::Parts{session, apps::complete_run(*session)});
   const auto &run   = *parts->result.run;
   for (const coupling::SignalSummary &s : run.signals)
     parts->peaks[s.name] = {s.unit, s.min, s.t_min, s.max, s.t_max, s.final};

@@ -152,6 +152,14 @@ Session::Session(Scene scene, const std::vector<std::string> &overrides, const W
 {
 }
 
+std::unique_ptr<Session> Session::beside(const std::string &file) const
+{
+  // Not a copy: the callback may have a state, as one that knows whether there is something to save.
+  const Watch same{[this](const std::string &phase, double share) { tell(watch_.progress, phase, share); },
+                   watch_.interruption};
+  return std::make_unique<Session>(file, std::vector<std::string>(), scripts_, same);
+}
+
 void Session::check()
 {
   if (!checked_)

@@ -57,11 +57,8 @@ public:
 
   const Scene             &scene() const { return scene_; }
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
-  /// Another scene, as it stands in its file, watched as this one.
-  std::unique_ptr<Session> beside(const std::string &file) const
-  {
-    return std::make_unique<Session>(file, std::vector<std::string>(), scripts_, watch_);
-  }
+  /// Another scene, as in its file, with the progress and the interruption of this one, which must outlive it.
+  std::unique_ptr<Session> beside(const std::string &file) const;
 
   void check();     ///< what can be known without computing
   void check_run(); ///< that it says how to run, too

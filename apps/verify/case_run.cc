@@ -196,7 +196,7 @@ Result analysed(const AnalysisEntry &entry, Session &session, CaseRequest &reque
 {
   const auto analysis = entry.begin();
   for (const CommandOption &option : analysis->options())
-    if (const auto texts = requested.texts(option.name.substr(2)); !texts.empty())
+    if (const auto texts = requested.texts(option.key()); !option.writes && !texts.empty())
       option.set(texts);
   requested.finish();
   return computed(entry, *analysis, session);
@@ -226,7 +226,7 @@ Result periodic(Session &session, CaseRequest &requested)
 Result run(Session &session, CaseRequest &requested)
 {
   requested.finish();
-  Result result = session.run();
+  Result result = complete_run(session);
   if (!result.run->failure.empty())
     throw std::runtime_error(result.run->failure);
   if (result.run->interrupted)

@@ -37,7 +37,7 @@ HtmlTable pairs_table(const ComparedShapes &shapes)
 
 HtmlTable mac_table(const ComparedShapes &shapes)
 {
-  std::vector<std::string> heads{"#MAC"};
+  std::vector<std::string> heads{"#MAC: " + shapes.a.scene + " by " + shapes.b.scene};
   for (const coupling::Mode &mode : shapes.b.modes)
     heads.push_back("#" + short_text(mode.frequency_hz) + " Hz");
   HtmlTable table(heads);

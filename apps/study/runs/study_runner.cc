@@ -1,5 +1,6 @@
 #include "apps/study/runs/study_runner.h"
 
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/result_folder.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/prepared_machine.h"
@@ -135,7 +136,8 @@ Result StudyRunner::single_result(const Eigen::VectorXd &levels, const std::atom
   Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
   if (frame)
     session.use_frame(*frame);
-  return sensitivities.empty() ? session.run() : session.run(sensitivities);
+  const std::optional<std::string> keys = sensitivities.empty() ? std::nullopt : std::optional(sensitivities);
+  return kept_.empty() ? session.run(keys) : complete_run(session, keys);
 }
 
 void StudyRunner::keep(int number, const Result &result) const

@@ -1,10 +1,10 @@
 // [output] from: extremes, spectra and derivatives of a window of the run, the history as it was.
 
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/comparison/scene_comparison.h"
 #include "apps/analysis/spectra/spectrum_values.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/session/session.h"
-#include "tests/support/complete_run.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
@@ -92,7 +92,7 @@ TEST_F(Window, SpectraOfItsRows)
   const auto begin = [&](const std::vector<std::string> &overrides)
   {
     Session      session(folder_.write("scene.toml", test::quoted(fading)), overrides);
-    const Result result = complete_run(session);
+    const Result result = apps::complete_run(session);
     const auto  *found  = apps::answer_in<apps::RunSpectra>(result.answers);
     return found && found->spectra ? found->spectra->begin : -1.;
   };

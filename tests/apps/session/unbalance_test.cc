@@ -1,9 +1,9 @@
 // Rotors with an unbalance: against closed solutions, energy, and the Sommerfeld effect.
 // The scene run_up.toml: a motor with an unbalance runs up through the resonances of its foundation.
 
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/spectra/spectrum_values.h"
 #include "fem/values/two_pi.h"
-#include "tests/support/complete_run.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/scene_response.h"
@@ -275,7 +275,7 @@ TEST(UnbalanceAtTheStart, PushesByTheAccelerationThatTheMotorGives)
 TEST(RunUpScene, EndsInTheVibrationOfConstantSpeed)
 {
   apps::Session      session(shipped("run_up.toml"));
-  const apps::Result result = complete_run(session);
+  const apps::Result result = apps::complete_run(session);
   ASSERT_TRUE(result.run->failure.empty());
   EXPECT_LT(result.run->energy.residual, 1e-6 * result.run->energy.exchanged);
   const auto *found = apps::answer_in<apps::RunSpectra>(result.answers);
