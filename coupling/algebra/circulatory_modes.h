@@ -5,7 +5,7 @@
 namespace gestell::coupling
 {
 
-/// `cancelled` of dense_modes() for matrices that are known to rounding.
+/// `cancelled` of dense_modes() for matrices accurate to rounding.
 constexpr double cancelled_by_rounding = 1e-12;
 
 /// Modes exp(s t) of a C that is not symmetric.
@@ -18,8 +18,7 @@ struct CirculatoryModes
 };
 
 /**
- * The same as dense_modes() of a C that is not symmetric, as forces that follow the motion make it (circulatory
- * forces):
+ * The same as dense_modes() of a C that is not symmetric, as by follower (circulatory) forces:
  *
  *     (C - lambda M) v = 0,     s^2 = -lambda,
  *

@@ -21,13 +21,13 @@ struct FrontSelection
 };
 
 /**
- * An elimination divided among ranks.  Each has whole subtrees of the fronts, in which it needs nothing of others; what
- * they pass on goes to the fronts above, the top, which rank 0 eliminates when all have done their part.
+ * An elimination divided among ranks. Each has whole, independent subtrees of the fronts; their contributions go to the
+ * fronts above, the top, which rank 0 eliminates last.
  */
 class FrontDivision
 {
 public:
-  /// So that the slowest rank and the top together take the least time, as far as halving the largest subtrees goes.
+  /// Minimises the time of the slowest rank plus the top by halving the largest subtrees.
   FrontDivision(const Fronts &fronts, int n_ranks);
 
   /// The fronts of a rank: their columns, then all of the top.

@@ -11,7 +11,7 @@ constexpr int tile_rows = 8; ///< rows of L that lie together
 /**
  * L in tiles: the rows of a front's panel (its own columns' rows first, ascending) are cut into tiles of eight, the
  * last one filled up with zeros.  Tile t holds, column by column, the eight entries of the columns 0 .. min(w, 8 t + 8)
- * - 1 of the front; what lies above the diagonal is zero.  A sweep through L reads these numbers from end to end.
+ * - 1 of the front; entries above the diagonal are zero. A sweep through L reads these numbers sequentially.
  */
 struct TiledFactor
 {
@@ -24,8 +24,8 @@ struct TiledFactor
   const double         *L     = nullptr;
 };
 
-/// One way through L for a number of right-hand sides at once: X is [columns x (n + 1)], a row of the right-hand sides
-/// together, in the order of elimination; what lies in the last row is of no meaning.
+/// A solver for a number of right-hand sides at once: X is [columns x (n + 1)], a row of the right-hand sides
+/// together, in the order of elimination; the last row is unused.
 struct TriangularSolve
 {
   int columns;

@@ -5,8 +5,8 @@
 namespace gestell::coupling
 {
 
-/// Numbers without values, on large pages where the system has them: memory is taken as it is reached, and what is read
-/// from end to end does not wait for the translation of addresses.  Large, or none at all.
+/// Numbers without values, on large pages where the system has them: memory is allocated on first access, and
+/// sequential reads do not wait for address translation. Large, or empty.
 class LargeArray
 {
 public:

@@ -20,7 +20,7 @@ struct Fronts
   const int *order = nullptr;  // [n] coordinate of the matrix at place k
 };
 
-/// A = C - sigma M with the coordinates `held` cut off: their rows and columns are zero but for the diagonal.
+/// A = C - sigma M with the coordinates `held` fixed: their rows and columns are zero except for the diagonal.
 struct HeldMatrix
 {
   const Eigen::SparseMatrix<double> &C;               // both triangles stored
@@ -30,11 +30,11 @@ struct HeldMatrix
   double                             held_diagonal = 1.;
 };
 
-/// Where an elimination of some fronts meets that of others.  A contribution is [k x k] for the k rows below a front's
+/// Interface between eliminations of different fronts.  A contribution is [k x k] for the k rows below a front's
 /// own columns; its lower triangle counts.
 struct Border
 {
-  /// Fills in the contribution of a front without columns, which was made elsewhere.
+  /// Provides the contribution of a front without columns, computed elsewhere.
   std::function<void(int front, double *contribution)> given;
   /// Gets the contribution of a front with rows below, none of which is a column of these fronts.
   std::function<void(int front, const double *contribution)> left;
@@ -52,23 +52,21 @@ struct Border
 int multifrontal_cholesky(const Fronts &fronts, const HeldMatrix &A,
                           const std::function<void(int front, const double *panel)> &take, const Border &border = {});
 
-/// Numbers that either elimination needs beside L at most.
+/// Upper bound of numbers that either elimination needs in addition to L.
 std::ptrdiff_t multifrontal_workspace(const Fronts &fronts);
 
 /// Signs of D in A = L D L^T, D diagonal.
 struct Inertia
 {
   int negative = 0; ///< eigenvalues of A below zero (Sylvester)
-  /// Largest diagonal entry of L |D| L^T over that of C: what rounding is magnified by, as pivots are taken as they
-  /// come.
+  /// Largest diagonal entry of L |D| L^T over that of C: amplification of rounding, since there is no pivoting.
   double growth = 1.;
 };
 
 /**
- * Inertia of an indefinite A by the same way with pivots of any sign; nothing of L is kept.
- *
- * What is counted is the inertia of A + E, |E| ~ growth * eps * diag(C).  Where growth is far beyond 1 / sqrt(eps) a
- * pivot came close to zero, and another sigma should be taken.
+ * Inertia of an indefinite A by the same method with pivots of any sign, without storing L. The result is the inertia
+ * of A + E, |E| ~ growth * eps * diag(C).  Where growth is far beyond 1 / sqrt(eps) a pivot was close to zero; use
+ * another sigma.
  */
 Inertia multifrontal_inertia(const Fronts &fronts, const HeldMatrix &A, const Border &border = {});
 

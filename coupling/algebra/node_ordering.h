@@ -23,7 +23,7 @@ cholmod_sparse view_of(SparsePattern &lower);
 SparsePattern lower_triangle(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held);
 
 /**
- * Order of elimination that leaves few numbers in L: nested dissection by METIS, through CHOLMOD, of the graph whose
+ * Fill-reducing order of elimination: nested dissection by METIS, through CHOLMOD, of the graph whose
  * vertices are groups of coordinates with the same partners, as the three displacements of a node are.  The graph has a
  * ninth of the edges, and METIS needs as much less time.
  *

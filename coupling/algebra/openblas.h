@@ -4,17 +4,15 @@ namespace gestell::coupling
 {
 
 /**
- * Lets OpenBLAS use what the processor can.
- *
- * A library older than the processor takes it for the oldest there is ("Prescott") and computes four times slower than
- * with the kernels for AVX-512, 2.5 times slower than with those for AVX2.  Then these are chosen, unless the
- * environment variable OPENBLAS_CORETYPE names others.  Does its work at the first call; no BLAS routine may run
- * meanwhile.
+ * Selects the best OpenBLAS kernels. A library older than the processor uses the kernels of the oldest one
+ * ("Prescott"), four times slower than those for AVX-512, 2.5 times slower than those for AVX2. Then the better ones
+ * are selected, unless the environment variable OPENBLAS_CORETYPE names others. Acts at the first call; no BLAS routine
+ * may run meanwhile.
  */
 void use_fitting_blas_kernels();
 
-/// The same, and sets OpenBLAS to one thread (its waiting threads spin) unless the environment OPENBLAS_NUM_THREADS
-/// asks for more.
+/// The same, and sets OpenBLAS to one thread (its waiting threads spin) unless the environment variable
+/// OPENBLAS_NUM_THREADS requests more.
 /// @throws std::invalid_argument if the BLAS in this process is another library: others are slower by an order.
 void use_one_blas_thread();
 

@@ -26,7 +26,7 @@ public:
   int row;
 };
 
-/// The factor would not fit into the memory there is.
+/// The factor does not fit into the available memory.
 class NotEnoughMemory : public std::runtime_error
 {
 public:
@@ -38,8 +38,8 @@ public:
  * (coordinates with the same partners), analysed by CHOLMOD, factored by multifrontal_cholesky(), solved in the tiles
  * of TiledFactor.
  *
- * Right-hand sides solved together share the way through L, which is what a solution costs: 16 at once take about a
- * tenth per vector of one alone.  OpenBLAS, which does the arithmetic, is set to one thread: its waiting threads spin.
+ * Right-hand sides solved together share the pass through L, the main cost: 16 at once take about a tenth per vector of
+ * a single one.  OpenBLAS, which does the arithmetic, is set to one thread: its waiting threads spin.
  *
  * Not for use by several threads at a time.
  */
@@ -52,7 +52,7 @@ public:
   /// The same of a compressed matrix with both triangles, coordinates held: their rows and columns count as zero but
   /// for a positive number on the diagonal.
   /// @param held       ascending.
-  /// @param available  bytes that L and the work on it may take.
+  /// @param available  bytes for L and its work space.
   /// @throws NotEnoughMemory before the work begins.
   SparseCholesky(const Eigen::SparseMatrix<double> &A, const std::vector<int> &held, double available = INFINITY);
   /// Analysed only, as if released at once: A may be singular.
@@ -83,7 +83,7 @@ public:
   /// Numbers stored in L.
   double entries() const;
 
-  /// Gives the memory of L back; what is left serves inertia() alone.
+  /// Frees the memory of L; afterwards only inertia() is available.
   void release();
   bool released() const;
 

@@ -1,4 +1,4 @@
-// Included by sources that are compiled for different processors: everything here is theirs alone.
+// Included by sources compiled for different processors: everything here is local to each.
 #pragma once
 
 #include "coupling/algebra/kernel_types.h"
@@ -266,7 +266,7 @@ private:
   }
 };
 
-/// What BlockAlgebra tells, for blocks of B::columns columns.
+/// BlockAlgebra for blocks of B::columns columns.
 template <typename B>
 class Algebra
 {

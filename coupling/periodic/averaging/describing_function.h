@@ -47,7 +47,7 @@ DescribingFunction coulomb_atan(double F, double eps, double A, double omega);
 DescribingFunction coulomb_root(double F, double eps, double A, double omega);
 /// c x' |x'|:  c_eq = 8/(3 pi) c A omega.
 DescribingFunction quadratic_damping(double c, double A, double omega);
-/// Spring k in series with a slider that gives way at F (Jenkins), in its steady loop:  theta = acos(1 - 2 F/(k A)),
+/// Spring k in series with a slider of limit F (Jenkins), in its steady loop:  theta = acos(1 - 2 F/(k A)),
 /// k_eq = (k/pi) (theta - sin(2 theta)/2),  omega c_eq = (4 F/(pi A)) (1 - F/(k A));  k alone for A <= F/k.
 DescribingFunction jenkins(double k, double F, double A, double omega);
 
@@ -56,8 +56,8 @@ DescribingFunction jenkins(double k, double F, double A, double omega);
 /**
  * The same of the elements of a system, by quadrature of their own laws: measures move as u = u_0 + d A cos(omega t),
  * and f = -d^T p is the force against that motion.  Intervals are halved, about kinks to rounding, until 15 points of
- * Gauss and Kronrod agree with 7 to 1e-13 of the largest force.  Laws follow the branch of the motion itself, from
- * histories that are those of the system at the call.
+ * Gauss and Kronrod agree with 7 to 1e-13 of the largest force.  Laws follow the branch of the motion itself, from the
+ * histories of the system at the call.
  */
 class DescribedForces
 {

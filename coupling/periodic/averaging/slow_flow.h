@@ -17,9 +17,9 @@ namespace gestell::coupling
  *     z' = [-delta(a) + i (omega(a) - Omega)] z - i f/(2 omega_0),
  *     omega(a) = omega_0 + k(a)/(2 omega_0),     delta(a) = (phi^T B phi + c(a))/2,
  *
- * phi, omega_0 being the mode of the system linearised where it rests, phi^T M phi = 1, f the load of frequency Omega
- * in this mode, k and c what the describing functions of all elements have beyond the linear stiffness, and q_0 the
- * mean that the mean forces keep.  Of first order in k, c, f.
+ * phi, omega_0 being the mode of the system linearised at its equilibrium, phi^T M phi = 1, f the load of frequency
+ * Omega in this mode, k and c what the describing functions of all elements have beyond the linear stiffness, and q_0
+ * the mean that the mean forces keep.  Of first order in k, c, f.
  *
  * Steady motions are [(omega(a) - Omega)^2 + delta(a)^2] a^2 = (|f|/(2 omega_0))^2, free ones delta(a) = 0, and
  * omega(a) is the backbone.
@@ -31,7 +31,7 @@ class SlowFlow
 public:
   /// @param mode counted from the lowest; -1: the one nearest the load, or where there is none, the one that is excited
   ///             by itself, nearest the period of the problem
-  /// @throws std::invalid_argument: no such mode, more than one frequency of loads, or no place of rest
+  /// @throws std::invalid_argument: no such mode, more than one frequency of loads, or no equilibrium
   explicit SlowFlow(const PeriodicProblem &problem, int mode = -1);
   ~SlowFlow();
   SlowFlow(const SlowFlow &)            = delete;

@@ -14,7 +14,8 @@ namespace gestell::coupling
  * Orthogonal collocation of a periodic motion, condensed to the forces of the elements.
  *
  * On each interval of a mesh of the period forces are the polynomial through s = 4 Gauss points.  Between them the base
- * is carried exactly in its modes, and it closes by itself: x(t_0 + T) = x(t_0) gives x(t_0) for any forces,
+ * is propagated exactly in its modes, and it is periodic by construction: x(t_0 + T) = x(t_0) gives x(t_0) for any
+ * forces,
  *
  *     x_0 = (E - e^(Lambda T))^-1 sum_i e^(Lambda (T - t_i+1)) (in_i P_i + c_i),
  *
@@ -22,13 +23,12 @@ namespace gestell::coupling
  *
  *     u = u_0 + G_u P,   u' = v_0 + G_v P     [N s n_u],       P = p(t, u, u'),
  *
- * and only P is unknown, however many modes there are.  Where a motion of the base repeats by itself, as that of a mass
- * between stops, its two states at t_0 are unknown too, and its closing is an equation.  Order 2 s at the mesh points.
+ * and only P is unknown, however many modes there are.  For a free motion of the base, such as a mass between stops,
+ * its two states at t_0 are also unknowns, and its periodicity is an equation.  Order 2 s at the mesh points.
  *
- * Along free shifts of the problem nothing is to close, and the start stays where it is.
- *
- * Where nothing tells the time, T is unknown too, and q_phase(t_0) = phase_value an equation.  At given forces over
- * theta = (t - t_0)/T the motion changes with T by
+ * Along free shifts of the problem there is no periodicity condition, and the start is kept. For autonomous systems T
+ * is also unknown, and q_phase(t_0) = phase_value an equation.  At given forces over theta = (t - t_0)/T the motion
+ * changes with T by
  *
  *     dx/dT = eta + theta x',     eta' = Lambda eta - theta/T put P_theta,
  *
@@ -70,7 +70,7 @@ public:
   /// Lengths of unknowns y are those of diag(weights) y: forces by the time for which they stand, so that they are
   /// comparable from mesh to mesh.
   Eigen::VectorXd weights() const;
-  /// By interval: what the defect of the forces at its ends would move the measures, of their largest excursions.
+  /// By interval: change of the measures by the defect of the forces at its ends, relative to their ranges.
   Eigen::VectorXd errors(const Eigen::VectorXd &P);
   /// q, q' [n] at t_0.
   void state_at_begin(const Eigen::VectorXd &P, Eigen::VectorXd &q, Eigen::VectorXd &v) const;

@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-/// Mesh points of the given ones: ascending, with both ends, what lies nearer than 1e-9 of the period once.
+/// Mesh points from the given ones: ascending, with both ends, points within 1e-9 of the period merged.
 std::vector<double> mesh_of(std::vector<double> points);
 /// Events of a period that began at t_0, as shares of it.
 std::vector<double> event_points(const std::vector<Event> &events, double begin, double period);
@@ -17,11 +17,11 @@ std::vector<double> event_points(const std::vector<Event> &events, double begin,
 /// @throws ConvergenceFailure
 Eigen::VectorXd forces_along(PeriodFlow &flow, const PeriodicGuess &start, const std::vector<double> &mesh);
 
-/// Why a mesh does not see the forces of the motion that starts there: by name the element that remembers what was
-/// before, or sticks; empty: it does.
+/// Why a mesh cannot represent the forces of the motion that starts there: the element with hysteresis or sticking;
+/// empty: it can.
 std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const PeriodicGuess &start);
 
-/// A search by collocation on meshes that are divided where they err, with points at the events of the motion.
+/// A search by collocation on adaptive meshes, with points at the events of the motion.
 class MeshSearch
 {
 public:

@@ -12,15 +12,15 @@ namespace gestell::coupling
 {
 
 /**
- * The linear base system at the harmonics of a period, seen from its measures u = W^T q and, where the period is
- * unknown, from the coordinate that fixes the phase.  With coefficients of exp(i h omega (t - t_0)),
+ * The response of the linear base system at the harmonics of a period, in its measures u = W^T q and, for an unknown
+ * period, the coordinate that fixes the phase.  With coefficients of exp(i h omega (t - t_0)),
  *
  *     u_h = R_h p_h + u0_h,     R_h = W^T D(i h omega)^-1 W,     D(s) = s^2 M + s B + C,
  *
  * from the modes (BaseReceptance): m operations for a harmonic and a pair of measures, and no unknowns.
  *
- * Motions without stiffness make D(0) singular.  Their mean displacements y stay unknown, and their balance of mean
- * forces are equations of their own:
+ * Motions without stiffness make D(0) singular.  Their mean displacements y are unknowns, with the balance of mean
+ * forces as additional equations:
  *
  *     u_0 = R_0 p_0 + u0_0 + U_y y,     0 = P_y p_0 + l.
  *

@@ -24,7 +24,7 @@ namespace gestell::coupling
  *     z = (c_0, c_1, s_1, ... c_H, s_H; y; T)   [n_u (2 H + 1) + n_y + (0 or 1)],   c_h, s_h of cos, sin h omega (t -
  * t_0).
  *
- * However many modes the base has, they are in R_h alone, formed once for each omega.
+ * The modes of the base are only in R_h, computed once for each omega.
  */
 class HarmonicBalance
 {
@@ -40,7 +40,7 @@ public:
   int  samples() const { return forces_->samples(); }
   int  largest_load() const { return base_.largest_load(); } ///< highest harmonic of the load
 
-  /// @throws std::invalid_argument for loads above H, which the motion would lack
+  /// @throws std::invalid_argument for loads above H
   void require_load() const;
 
   /// Another number of harmonics; the modes of the base stay.
@@ -50,11 +50,11 @@ public:
   /// Of a continuation in the speed of the drive: harmonics of the load remain what they are of the period.
   void set_period(double period);
 
-  /// The linear response: all elements replaced by nothing.
+  /// The linear response without elements.
   Eigen::VectorXd linear_start();
   /// One harmonic through the state q, v [n] at t_0, about the mean of the linear response.
   Eigen::VectorXd start_through(const Eigen::VectorXd &q, const Eigen::VectorXd &v);
-  /// The unknowns of a motion that is known, cut or filled to H harmonics.
+  /// The unknowns of a known motion, truncated or padded to H harmonics.
   Eigen::VectorXd pack(const FourierSeries &motion) const;
 
   /// The unknowns (or a change of them) of `harmonics` harmonics with zeros for those above.
@@ -71,7 +71,7 @@ public:
   /// The same; for measures that turn at least their turn in a period, of which rounding is a share.
   Eigen::VectorXd scales_of_rounding(const Eigen::VectorXd &z) const;
 
-  /// What H harmonics leave out.
+  /// Truncation error of H harmonics.
   struct LeftOut
   {
     double motion = 0.; ///< that forces above harmonic H would add, |sum_{h>H} R_h p_h| / |u|, of what moves most of it
@@ -79,7 +79,7 @@ public:
     double samples = 0.; ///< share of `motion` that comes from too few samples of the forces
   };
   LeftOut left_out(const Eigen::VectorXd &z);
-  /// Whether laws remember beyond what the motion shows, and by how much of the force.
+  /// Whether laws have hysteresis, and its share of the force.
   HarmonicForces::Memory memory(const Eigen::VectorXd &z);
 
   /// All coordinates, in the time t itself.

@@ -18,7 +18,7 @@ namespace gestell::coupling
  *
  *     u = turn_u theta + sum_h u_h exp(2 pi i h theta),     theta = (t - t_0)/T
  *
- * N samples leave out what a law of degree k feeds back from beyond N/2: nothing for N > (k + 1) H.
+ * N samples alias parts beyond N/2 of a law of degree k: none for N > (k + 1) H.
  *
  * Source: Cameron and Griffin, Journal of Applied Mechanics 56(1), 1989, 149-154.
  */
@@ -37,7 +37,7 @@ public:
 
   /// @param harmonics H of the motion
   /// @param samples   0: by the laws: enough for cubic ones, more where they have branches
-  /// @throws std::invalid_argument if a law is held or remembers, or if samples are too few
+  /// @throws std::invalid_argument if an element sticks or has hysteresis, or for too few samples
   HarmonicForces(const PeriodicProblem &problem, int harmonics, int samples);
   ~HarmonicForces();
   HarmonicForces(const HarmonicForces &)            = delete;
@@ -54,7 +54,7 @@ public:
 
   int                     samples() const { return transform_.samples(); }
   const Eigen::MatrixXcd &forces() const { return forces_; } ///< p_0 ... p_{N/2} [n_u x (N/2 + 1)]
-  /// What kinks make of p_0 ... p_H at these samples, the error of a rule of second order: a third of the difference to
+  /// Error of p_0 ... p_H by kinks at these samples, by a rule of second order: a third of the difference to
   /// every other sample [n_u x (H + 1)].
   Eigen::MatrixXcd               sampling_errors() const;
   const std::vector<Derivative> &derivatives() const { return derivatives_; }

@@ -44,7 +44,7 @@ enum class FloquetWay
 };
 
 /// The cheaper way.  Hill's matrix costs some 25 [2n (2H + 1)]^3 operations, tangents some 10^3 ... 10^4 steps of 2n
-/// columns: Hill where its matrix has at most 300 rows, some 0.1 s, and no integration is to be asked for.
+/// columns: Hill if its matrix has at most 300 rows, about 0.1 s, and without integration.
 FloquetWay floquet_way(const PeriodicProblem &problem, int harmonics);
 
 } // namespace gestell::coupling

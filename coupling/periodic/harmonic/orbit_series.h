@@ -6,8 +6,8 @@ namespace gestell::coupling
 {
 
 /**
- * Fourier series, of `harmonics` H, of the motion that leaves q, v at t_0 and is integrated over `period`.  What keeps
- * it from closing is spread over the period as a line, so that a motion near a periodic one begins a search for it.
+ * Fourier series, of `harmonics` H, of the motion that starts at q, v at t_0, integrated over `period`. Its gap is
+ * distributed linearly over the period, for the start of a search near a periodic solution.
  *
  * @throws ConvergenceFailure if it cannot be integrated
  */

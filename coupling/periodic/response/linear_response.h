@@ -43,7 +43,7 @@ struct LinearAnswer
 };
 
 /**
- * The vibration of a machine under small harmonic forces F e^(i w t), linearised at an operating point:
+ * The response of a machine to small harmonic forces F e^(i w t), linearised at an operating point:
  *
  *     (-w^2 M + i w B + C) q = F + W p,     p = -D(w) u + E^T mu,     E u = 0,     u = W^T q,
  *     D(w) = -dp/du - i w dp/dv + w^2 dp/da + (stiffness of the joints' forces),
@@ -54,11 +54,10 @@ struct LinearAnswer
  *     [ 1 + Y D   -Y E^T ] [ u  ]   [ u_F ]
  *     [    E         0   ] [ mu ] = [  0  ],     u_F = W^T (-w^2 M + i w B + C)^-1 F,
  *
- * and refined with residuals in extended precision, so that the result carries the digits the matrices have.  Where the
- * base has no modes (a coordinate without mass) or is driven at a frequency of its own, the whole equations are solved.
+ * and refined with residuals in extended precision, so that the result is as accurate as the matrices.  Where the
+ * base has no modes (a coordinate without mass) or is driven at a natural frequency, the whole equations are solved.
  *
- * Excitation, events and gyroscopic change of the coordinates over time do not enter: coefficients are those of the
- * instant.
+ * Coefficients are those of the instant, without excitation, events and gyroscopic changes over time.
  *
  * Source: docs/frf.md (1) to (4).
  */
@@ -80,8 +79,7 @@ public:
   /// Why the whole equations are solved at every frequency; empty: they are condensed.
   const std::string &not_condensed() const;
 
-  /// Motions exp(s t) about the operating point that grow by themselves; nothing where that is not known, see
-  /// unstable_modes().
+  /// Growing motions exp(s t) about the operating point; nothing if unknown, see unstable_modes().
   std::optional<std::vector<std::complex<double>>> growing() const;
 
 private:

@@ -6,7 +6,7 @@
 namespace gestell::coupling
 {
 
-/// A resonance as a frequency response shows it.
+/// A resonance of a frequency response.
 struct ResponsePeak
 {
   double frequency_hz = 0.;

@@ -13,7 +13,7 @@ namespace gestell::coupling
 struct StateSpace
 {
   Eigen::MatrixXd A, B, C, D;
-  Eigen::MatrixXd Z; ///< [n x m] motions that joints and sticking leave free; the unit matrix where nothing binds
+  Eigen::MatrixXd Z; ///< [n x m] free motions of joints and sticking elements; the unit matrix without constraints
   bool            bound = false;
 };
 
@@ -28,7 +28,7 @@ struct StateSpace
  *
  * @param forces   F [n x inputs]
  * @param answers  outputs
- * @throws std::invalid_argument where a free motion has no mass: such a system is not of this form
+ * @throws std::invalid_argument if a free motion has no mass, which is not of this form
  *
  * Source: docs/frf.md (1), (2), (5).
  */

@@ -20,8 +20,8 @@ namespace gestell::coupling
  *     -[ Z^-1 (sigma B + sigma^2 M)       Z^-1 sigma^2 M ]
  *      [ Z^-1 (sigma B + sigma^2 M) - 1   Z^-1 sigma^2 M ],     Z = C + sigma B + sigma^2 M,
  *
- * so that coordinates without mass (theta = 0) need no care.  Motions at rest, and growth within rounding, |s| < 1e-6
- * sigma or Re s < 1e-7 |s|, are left out; sigma lies amid the natural frequencies.
+ * which includes coordinates without mass (theta = 0).  Motions at rest, and growth within rounding, |s| < 1e-6
+ * sigma or Re s < 1e-7 |s|, are omitted; sigma is in the range of the natural frequencies.
  *
  * Source: docs/frf.md, An unstable operating point.
  * @param M, B, C  [n x n], any of them may be unsymmetric

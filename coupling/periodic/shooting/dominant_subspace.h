@@ -9,15 +9,15 @@ namespace gestell::coupling
 {
 
 /**
- * The matrix of shooting without the tangents of motions that die away by themselves.
+ * The matrix of shooting without the tangents of fast-decaying motions.
  *
- * In the modes of the base system, x = from_q q + from_v q', a block that keeps less than a share of itself over a
- * period is fast, all others are slow; free motions are.  Tangents are carried for the slow ones alone,
+ * In the modes of the base system, x = from_q q + from_v q', a block with less than a share left after a period is
+ * fast, all others (and free motions) are slow. Tangents are integrated for the slow ones only,
  *
  *     Phi_x = [Phi_ss  0; Phi_fs  e^(Lambda_f T)],
  *
- * so that what is left out is the way of a fast motion over the forces of the elements, which Newton's method repairs
- * by more steps.  Exact where all blocks are slow.
+ * which omits the effect of fast motions through the forces of the elements; Newton's method corrects it by more steps.
+ * Exact where all blocks are slow.
  *
  * Source: Lust, Roose, Spence, Champneys, An adaptive Newton-Picard algorithm with subspace iteration for computing
  * periodic solutions, SIAM J. Sci. Comput. 19 (1998); the fast block here is that of the base system.
@@ -29,14 +29,14 @@ public:
   /// @throws std::invalid_argument as modal_blocks()
   explicit DominantSubspace(const PeriodicProblem &problem);
 
-  /// Motions that keep less than `share` of themselves over `period` are fast, but for the slowest of all.
+  /// Motions with less than `share` left after `period` are fast, except the slowest of all.
   void   choose(double share, double period);
   bool   formed() const { return newton_.size() > 0; }
   bool   all() const { return int(slow_.size()) == 2 * modes_.n_modal; }
   int    size() const { return int(slow_.size()); }
   double share() const { return share_; }
 
-  /// Tangents to be carried, dq and dv [n x size()].
+  /// Tangents to integrate, dq and dv [n x size()].
   Eigen::MatrixXd dq() const { return modes_.Q(Eigen::all, slow_); }
   Eigen::MatrixXd dv() const { return modes_.V(Eigen::all, slow_); }
 
@@ -74,7 +74,7 @@ public:
   Eigen::MatrixXd dv() const { return Z_.bottomRows(Z_.rows() / 2); }
   /// Images [2n x k] of dq, dv, which span the next space.
   void take(Eigen::MatrixXd images);
-  /// Whether what decides is known: the largest ones.
+  /// Whether the largest ones have converged.
   bool converged() const { return converged_; }
   /// Those whose motions are kept to themselves, largest first.
   Eigen::VectorXcd values() const;

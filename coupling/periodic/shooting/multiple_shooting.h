@@ -51,12 +51,12 @@ private:
 
 /**
  * The equations of multiple shooting: unknowns z are the states x_i = (Omega q, q') at M instants t_i
- * [2n M], and T behind them [s] where it is unknown; what is to vanish are the gaps
+ * [2n M], and T behind them [s] where it is unknown; the equations are the zero gaps
  *
  *     r_i(z) = phi_i(x_i) - x_(i+1),   i = 0 ... M - 2,      r_(M-1)(z) = phi_(M-1)(x_(M-1)) - x_0 - turn,
  *
- * phi_i the motion from t_i to t_(i+1), and q_phase(t_0) - given where T is unknown.  A neighbour parts by the M-th
- * root of the largest multiplier in a segment, so that Newton's method closes motions too unstable to be followed for a
+ * phi_i the motion from t_i to t_(i+1), and q_phase(t_0) - given where T is unknown.  Perturbations grow by the M-th
+ * root of the largest multiplier in a segment, so that Newton's method solves orbits too unstable to integrate for a
  * period.
  *
  * Source: Morrison, Riley, Zancanaro, Comm. ACM 5(12), 1962, 613-614; Stoer and Bulirsch, section 7.3.5.
@@ -73,10 +73,10 @@ public:
   Eigen::VectorXd at_one_place(const PeriodicGuess &guess) const;
 
   /// Integrates all segments with their tangents.
-  /// @throws ConvergenceFailure, also if elements remember at an end of a segment more than its state
+  /// @throws ConvergenceFailure, also if elements have hysteresis at the end of a segment
   void evaluate(const Eigen::VectorXd &z);
 
-  /// Takes segments of many more steps than those of the last evaluation for motions astray.
+  /// Rejects segments with many more steps than in the last evaluation.
   void expect_no_more();
 
   int                    segments() const { return M_; }
@@ -117,13 +117,13 @@ private:
  * Newton's method on SegmentEquations from z, each step halved until the step that the same matrix gives behind it is
  * shorter (natural monotonicity: Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 3.3).
  *
- * @throws NoPeriodicMotion if it stops before the gaps are below the tolerance; ConvergenceFailure
+ * @throws NoPeriodicMotion if it stops with gaps above the tolerance; ConvergenceFailure
  */
 PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicProblem &problem, Eigen::VectorXd z,
                                    const PeriodicOptions &options);
 
 /// The same for options.segments, or 8 and 32, from the motion that begins at the guess, and from states at its place.
-/// @throws NoPeriodicMotion, saying how near each came
+/// @throws NoPeriodicMotion, with the residual of each
 PeriodicSolution shoot_in_segments(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                    const PeriodicOptions &options);
 

@@ -55,28 +55,28 @@ private:
   IntegrationWork        work_;
 };
 
-/// Rest is a motion of any period, which is not meant where the period is unknown and nothing turns.
-/// @throws NoPeriodicMotion if what was found moves less than 1e-6 of the guess
+/// Rejects rest as a solution if the period is unknown and nothing rotates.
+/// @throws NoPeriodicMotion if the solution moves less than 1e-6 of the guess
 void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicSolution &found);
 
-/// Nothing determines the motion of a coordinate: no start helps.
+/// The motion of a coordinate is undetermined for any initial guess.
 struct UndeterminedMotion : NoPeriodicMotion
 {
   using NoPeriodicMotion::NoPeriodicMotion;
 };
 
-/// A note for users where a motion closes to `closing` only, worse than the tolerance; else empty.
+/// A note for users if the residual `closing` is above the tolerance; else empty.
 std::string closing_note(double closing, double tolerance);
 
-/// The motion of a passage that closes to `closing`, with the multipliers of its monodromy matrix if it has one.
+/// The motion of a passage with the residual `closing`, with the multipliers of its monodromy matrix if it has one.
 PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions &integration,
                              const PeriodPassage &passage, double closing);
 
 /**
- * Newton's method from z, each step halved until the motion closes better.
+ * Newton's method from z, each step halved until the residual decreases.
  *
- * @throws NoPeriodicMotion if it stops before closing() is below the tolerance, naming what moves freely where the
- * matrix is singular; ConvergenceFailure
+ * @throws NoPeriodicMotion if it stops before closing() is below the tolerance, with the free coordinate if the matrix
+ * is singular; ConvergenceFailure
  */
 PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, Eigen::VectorXd z,
                        const PeriodicOptions &options);

@@ -10,8 +10,8 @@ namespace gestell::coupling
 const PeriodicMethod &shooting_method();
 
 /**
- * Newton's method with DominantSubspace, at first with coarse steps; its matrix is kept while the motion closes well.
- * Where it does not, more motions are slow; where all are, this is shoot().  The largest multipliers are found by
+ * Newton's method with DominantSubspace, at first with coarse steps; its matrix is reused while convergence is good.
+ * Otherwise more motions are treated as slow; if all are, this is shoot().  The largest multipliers are found by
  * Rayleigh and Ritz; a note gives their number, and their residual where it has not converged.
  *
  * @throws NoPeriodicMotion, ConvergenceFailure as shoot()
