@@ -13,7 +13,7 @@ namespace gestell::coupling
 struct StateSpace
 {
   Eigen::MatrixXd A, B, C, D;
-  Eigen::MatrixXd Z; ///< [n x m] free motions of joints and sticking elements; the unit matrix without constraints
+  Eigen::MatrixXd Z; ///< [n x m] motions allowed by joints and sticking elements; the unit matrix without constraints
   bool            bound = false;
 };
 
