@@ -122,7 +122,7 @@ TEST_F(MatrixMarket, ErrorsNameFileLineAndRemedy)
   says("%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n", "2", "square");
   says("%%MatrixMarket matrix array real general\n2 2\n1\n2\n3\n", "5", "column 2");
   says(head + "2 2 3\n1 1 1\n% of the second element\n2 2 1\n1 1 2\n", "6", "column 1 is in line 3 already");
-  says("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 1\n2 1 1\n", "5", "add up");
+  says("%%MatrixMarket matrix coordinate real symmetric\n2 2 3\n1 1 1\n2 1 1\n2 1 1\n", "5", "sum them");
   EXPECT_THROW(read_matrix_market(file + ".absent"), std::invalid_argument);
 }
 
@@ -203,13 +203,13 @@ TEST_F(PetscBinary, ErrorsNameFilePlaceAndRemedy)
     EXPECT_EQ(text.find(file + ": byte "), 0u) << text;
     EXPECT_NE(text.find(words), std::string::npos) << text;
   };
-  says("", "cut off");
-  says("0012", "cut off");
+  says("", "truncated");
+  says("0012", "truncated");
   says("00127b4e 00000001" + one, "a PETSc vector");
-  says("00127b50 00000002", "cut off");
+  says("00127b50 00000002", "truncated");
   says("89484446 0d0a1a0a", "it begins with");
   const std::string head = "00127b50 00000001 00000002 00000001";
-  says(head + "00000001 00000000", "cut off");
+  says(head + "00000001 00000000", "truncated");
   says(head + "00000001 00000000" + one + zero, "numbers are complex");
   says(head + "00000001 00000000" + one + head + "00000001 00000000" + one, "in a separate file");
   says(head + "00000001 00000002" + one, "a column is 2; it must be from 0 to 1");
