@@ -40,7 +40,7 @@ struct StressField
 StressField stress_field(const ReducedStress &stress, const Eigen::VectorXd &state);
 
 /**
- * How much neighbouring cells disagree about the stress at a point: the root mean square of sigma_v of the deviation of
+ * Disagreement of neighbouring cells on the stress at a point: the root mean square of sigma_v of the deviation of
  * single cells from the mean, over the point and those that share a triangle with it, divided by sigma_v at the point.
  * It falls with the square of the size of the cells where the stress is smooth, and does not where it has no limit.
  */

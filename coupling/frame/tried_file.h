@@ -13,7 +13,7 @@ namespace gestell::coupling
 std::unique_lock<std::mutex> hdf5_alone();
 
 /**
- * Reads a file in a forked child first, once in this process for a file as it is, so that a crash of HDF5, which trusts
+ * Reads a file in a forked child first, once per process for an unchanged file, so that a crash of HDF5, which trusts
  * the addresses in a file, becomes a message. (A checksum detects damage, not forgery.) hdf5_alone() is locked.
  *
  * @param phase   what of it is read, for the message: "reading the frame"

@@ -24,7 +24,7 @@ struct EnergyShares
   Eigen::MatrixXd          kinetic; ///< [masses x modes]
 };
 
-/// What of a linear element a path of a signal tells: c u, with its own sign, and u.
+/// Signals of a linear element: c u, with its own sign, and u.
 struct LinearSpring
 {
   std::string name;

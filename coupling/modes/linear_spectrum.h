@@ -38,7 +38,7 @@ struct LargeMode
   ModeOrigin   origin;
   int          number; ///< from 1, by frequency, those that do not vibrate counted as well
   SpectrumLine line;
-  bool         bound = false; ///< stands for all modes up to its frequency, which are not known one by one
+  bool         bound = false; ///< represents all modes up to its frequency, not known individually
 };
 
 /**

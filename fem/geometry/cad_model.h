@@ -20,7 +20,7 @@ struct Solid
   std::vector<int> faces; ///< tags of its boundary
 };
 
-/// Names that a mesh file gives to nodes and to faces of cells beside its volumes and surfaces; nodes by gmsh's tags.
+/// Named groups of nodes and of cell faces in a mesh file, in addition to volumes and surfaces; nodes by gmsh's tags.
 struct MeshGroups
 {
   std::map<std::string, std::vector<std::size_t>>              nodes;

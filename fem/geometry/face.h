@@ -40,8 +40,8 @@ struct Face
   Vector3                  direction{};     ///< plane: outward normal; cylinder: axis, first component != 0 positive
   Vector3                  through{};       ///< plane: a point of it; cylinder: of its axis; nearest to centre
   double                   radius  = 0.;    ///< cylinder
-  bool                     faceted = false; ///< known by triangles only, their normals are approximate
-  std::vector<Sample>      samples;         ///< points of the surface the face is cut from
+  bool                     faceted = false; ///< given by triangles only, with approximate normals
+  std::vector<Sample>      samples;         ///< points of the underlying surface
 };
 
 /**
@@ -50,7 +50,7 @@ struct Face
  */
 void recognise(Face &face, double tolerance);
 
-/// One line a selector can be written from: "face 12: plane, normal (0 0 1), through (0 0 0.9), area 0.21 m^2".
+/// One line of data for a selector: "face 12: plane, normal (0 0 1), through (0 0 0.9), area 0.21 m^2".
 std::string describe(const Face &face);
 
 } // namespace gestell::fem

@@ -8,7 +8,7 @@
 namespace gestell::fem
 {
 
-/// The smallest things of a CAD model: they force small elements, whatever mesh.size says.
+/// The smallest features of a CAD model, which force small elements regardless of mesh.size.
 struct SmallFeatures
 {
   double  shortest_edge = 0.; ///< [m]

@@ -14,10 +14,10 @@ struct StepText
   std::size_t   n_missing     = 0;    ///< references to entities that are not in the file
   std::uint64_t first_missing = 0;    ///< number of such an entity
   std::uint64_t named_by      = 0;    ///< and of the one that refers to it
-  std::string   no_number;            ///< the first word that stands for a number and is none, such as NaN; "" for none
-  std::uint64_t no_number_in = 0;     ///< the entity in which it stands
+  std::string   no_number;            ///< the first invalid number, such as NaN; "" for none
+  std::uint64_t no_number_in = 0;     ///< its entity
   bool          has_unit     = false; ///< a unit of length, and a context it is assigned in
-  int           n_solids     = 0;     ///< solids described, once each however often they are placed
+  int           n_solids     = 0;     ///< solids, each counted once regardless of its placements
   bool          has_styles   = false; ///< colours or layers
 };
 

@@ -27,8 +27,8 @@ namespace gestell::fem
  */
 std::vector<int> select_faces(const std::vector<Face> &faces, const SurfaceSelector &selector, double diagonal);
 
-/// "face 4; coaxial faces not taken: 7 (radius 0.12 m)": the faces that a cylinder selects, where there is more to say
-/// than one of them, and the cylinders of any radius about its axis that it leaves; else empty.
+/// "face 4; coaxial faces not selected: 7 (radius 0.12 m)": the faces selected by a cylinder and the other coaxial
+/// cylinders of any radius; empty if there is only one face.
 std::string coaxial_faces(const std::vector<Face> &faces, const SurfaceSelector &selector,
                           const std::vector<int> &selected, double diagonal);
 

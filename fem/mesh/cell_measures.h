@@ -11,9 +11,8 @@ namespace gestell::fem
 /// Nodes of the quadratic cells: points, edges, quadrilateral faces and hexahedra, each counted once.
 int number_of_nodes(const Mesh &mesh);
 
-/// Least of the determinants of dx/dxi at the corners of a cell, each over the product of the lengths of the three
-/// edges there: 1 for a brick of any proportions, sqrt(3)/2 for a prism with equal sides, 0 or less where the cell
-/// folds.
+/// Smallest corner determinant of dx/dxi of a cell, relative to the product of the three edge lengths there: 1 for a
+/// brick of any proportions, sqrt(3)/2 for a prism with equal sides, 0 or less where the cell folds.
 double corner_quality(const Mesh &mesh, int cell);
 
 /// 1 for the best of its kind, 0 for a flat cell: quality() of tetrahedra, corner_quality() over that of a brick or of

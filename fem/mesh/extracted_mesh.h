@@ -20,14 +20,14 @@ struct ExtractedMesh
 
 struct ExtractionOptions
 {
-  int    bodies = 1;  ///< expected number of bodies whose cells hang together by common faces; 0: any
-  double gap    = 0.; ///< nodes no further apart are taken for one [m]
+  int    bodies = 1;  ///< expected number of bodies connected by common faces of cells; 0: any
+  double gap    = 0.; ///< nodes within this distance are merged [m]
 };
 
 /// Remark on touching bodies of a mesh: number of coincident nodes; "" for none.
 std::string touching_nodes(const Mesh &mesh);
 
-/// Notes on nodes that were merged, lie upon others, or belong to no cell.
+/// Notes on nodes that were merged, coincide with others, or are not part of a cell.
 void note_nodes(Mesh &mesh, const MeshNodes &nodes);
 
 } // namespace gestell::fem

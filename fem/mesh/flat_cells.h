@@ -9,7 +9,7 @@ namespace gestell::fem
 
 /// @param meshed  the mesh was read, not made
 /// @param head    "<place>: <file>", heads the message
-/// @throws std::invalid_argument for a cell that is nearly flat, turned inside out, or no cell at all
+/// @throws std::invalid_argument for a cell that is nearly flat, inverted or degenerate
 void require_thick_cells(const Mesh &mesh, bool meshed, const std::string &head);
 
 } // namespace gestell::fem

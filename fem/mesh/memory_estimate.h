@@ -28,7 +28,7 @@ double reduction_memory(double n_coordinates, double kappa, double n_averaged = 
 /// Nodes on an area [m^2] of quadratic triangles of this size [m]: two to a triangle.
 double nodes_on(double area, double size);
 
-/// Coordinates of a quadratic mesh of so many tetrahedra, within 20 %.
+/// Number of DOFs of a quadratic mesh with this number of tetrahedra, within 20 %.
 double coordinates_of(double n_tetrahedra);
 
 /// @param what    needs it, such as "the mesh has 30000 coordinates"

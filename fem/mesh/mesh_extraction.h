@@ -9,15 +9,14 @@ namespace gestell::fem
 {
 
 /**
- * Takes the tetrahedra out of gmsh, in metres: cells positively oriented however the file numbers them, the skin (faces
- * of one cell only) outward.  Middles of quadratic tetrahedra that are not straight are kept.  Meshes with
- * hexahedra or prisms are taken by extract_mixed().  Coincident nodes that join nothing, and nodes no cell uses, become
- * notes of the mesh.
+ * Extracts the tetrahedra from gmsh, in metres: cells positively oriented for any numbering of the file, the skin
+ * (faces of one cell only) outward. Middle nodes of curved quadratic tetrahedra are kept. Meshes with hexahedra or
+ * prisms are read by extract_mixed(). Unmerged coincident nodes and unused nodes become notes of the mesh.
  *
  * @param head  "<place>: <file>", heads messages
  * @throws std::invalid_argument if a solid has no cells, cells are no tetrahedra or twice the same point, more than two
- *         cells share a face, neighbouring cells lie on the same side of their common face (one is turned inside out),
- *         or there is another number of bodies than wanted.
+ *         cells share a face, neighbouring cells are on the same side of their common face (one is inverted), or the
+ * number of bodies is not the expected one.
  */
 ExtractedMesh extract_mesh(const CadModel &model, const std::string &head, const ExtractionOptions &options = {});
 

@@ -13,7 +13,7 @@ namespace gestell::fem
 {
 
 /**
- * Sizes that a frame's mesh is to have, without those that gmsh derives from the edges of a face: on a named surface
+ * Target sizes of a frame's mesh, without those derived by gmsh from the edges of a face: on a named surface
  * and on a bore their own, growing with the distance up to mesh.size, and those of a refinement.
  */
 class WantedSize
@@ -50,17 +50,17 @@ private:
  */
 double excess_of_triangles(const WantedSize &wanted, double unit);
 
-/// Whether gmsh has fields of sizes already, as a script may draw them.
+/// Whether gmsh already has size fields, for example from a script.
 bool has_size_fields();
 
-/// Edges whose sides are less than half of the wanted size.
+/// Edges with sides of less than half of the target size.
 struct ShortEdges
 {
   int    n        = 0;
   double shortest = 0.; ///< side [m]
 };
 
-/// Tells gmsh to mesh insides by the wanted sizes, which grow from short edges; does nothing if there are none.
+/// Sets target sizes that grow from short edges for the interior; does nothing without short edges.
 ShortEdges grade_from_short_edges(const WantedSize &wanted, const CadModel &model, const MeshOptions &options,
                                   const Selection &selection);
 

@@ -11,9 +11,9 @@ namespace gestell::fem
 {
 
 /**
- * Gives surfaces to a skin that has none, or not enough: where the file names no surface, triangles hang together
- * across edges that bend by less than 40 degrees; where a group of nodes or faces ends, a surface ends.  A face belongs
- * to a group of nodes if all its corners do.
+ * Gives surfaces to a skin that has none, or not enough: without named surfaces in the file, triangles are connected
+ * across edges with a bend of less than 40 degrees; surfaces end where a group of nodes or faces ends. A face is part
+ * of a group of nodes if all its corners are.
  *
  * @return  names of the groups of each new surface, by its tag
  */

@@ -20,9 +20,9 @@ class MeshNodes
 public:
   /**
    * @param unit   length of gmsh's unit [m]
-   * @param gap    nodes no further apart than this [m] are taken for one; 0: none are
+   * @param gap    nodes within this distance [m] are merged; 0: none
    * @param head   of messages
-   * @throws std::invalid_argument if a coordinate is no number.
+   * @throws std::invalid_argument if a coordinate is not finite.
    */
   MeshNodes(double unit, double gap, const std::string &head);
 
@@ -30,7 +30,7 @@ public:
   /// @param head  of the message of the std::invalid_argument for a node that is not in the mesh
   int index(std::size_t tag, std::vector<Point3> &points, const std::string &head);
 
-  /// Where a node stands that becomes no point, such as the middle of an edge.
+  /// Position of a node that does not become a point, such as the middle of an edge.
   Point3 position(std::size_t tag, const std::string &head) const;
 
   /// Index of a node that a cell uses, -1 for others.

@@ -14,8 +14,8 @@ double six_volumes(const Mesh &mesh, const std::array<int, 4> &cell);
 /// 12 (3 V)^(2/3) / (sum of the squared edges): 1 for a regular tetrahedron, 0 for a flat one.
 double quality(const Mesh &mesh, const std::array<int, 4> &cell);
 
-/// Unit vectors, at right angles to each other, along which a point may be moved without leaving the surface (or the
-/// straight edge) it lies on: none for corners, three inside the body.
+/// Orthonormal vectors along which a point may move on its surface (or straight edge): none for corners, three inside
+/// the body.
 using Freedom = std::vector<Vector3>;
 
 /**

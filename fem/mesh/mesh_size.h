@@ -24,7 +24,7 @@ constexpr int elements_around_circle = 12;
 double skin_area(const std::vector<Face> &faces);
 
 /**
- * Number of tetrahedra to be expected, right within a factor of about 1.5:
+ * Expected number of tetrahedra, within a factor of about 1.5:
  *     max(10 V / h^3, 4.5 A / h^2),
  * the second where plates are thinner than h, and for a surface of size s and area a another 10 a / (2 growth s^2).
  *
@@ -43,11 +43,11 @@ std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, 
  * Tells gmsh the sizes.
  *
  * @throws std::invalid_argument if the size is <= 0 or larger than the model, a surface is unknown or its size not in
- *         (0, size], or more than options.max_cells tetrahedra are to be expected; it says which size would do.
+ *         (0, size], or more than options.max_cells tetrahedra are expected; the message gives a suitable size.
  */
 void set_mesh_sizes(const CadModel &model, const MeshOptions &options, const Selection &selection);
 
-/// Tells gmsh the sizes of a refined mesh, which hold where they are smaller than those set before.
+/// Sets the sizes of a refined mesh in gmsh, used where they are smaller than the earlier ones.
 /// @param unit  length of gmsh's unit [m]
 void set_refined_sizes(const SizeField &field, double unit);
 

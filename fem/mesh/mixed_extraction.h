@@ -11,12 +11,12 @@ namespace gestell::fem
 {
 
 /**
- * Takes hexahedra, prisms and tetrahedra beside them out of gmsh as extract_mesh() does tetrahedra alone: outer
+ * Extracts hexahedra, prisms and adjacent tetrahedra from gmsh, like extract_mesh() for tetrahedra: outer
  * quadrilaterals come as such and as their halves, the surface of each half in `skin_surface`.  Of cells of higher
  * order only the corners are kept.
  *
  * @throws std::invalid_argument if a solid has no cells, more than two cells share a face, a quadrilateral of one cell
- *         meets triangles of others, or there is another number of bodies than wanted.
+ *         meets triangles of others, or if the number of bodies is not the expected one.
  */
 ExtractedMesh extract_mixed(const CadModel &model, const std::string &head, const ExtractionOptions &options);
 
@@ -26,7 +26,7 @@ using SurfaceOf = std::function<int(const std::vector<int> &corners)>;
 /**
  * The faces of one cell only, outward, with their surfaces.
  *
- * @param bodies  expected number that hang together by common faces; 0: any
+ * @param bodies  expected number connected by common faces; 0: any
  * @throws std::invalid_argument where triangles meet quadrilaterals, or for another number of bodies.
  */
 void add_skin(ExtractedMesh &mesh, const std::string &head, int bodies, const SurfaceOf &surface_of);

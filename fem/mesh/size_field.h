@@ -18,8 +18,7 @@ struct SizePoint
   double  size;
 };
 
-/// Element size [m] wherever it is asked for, from sizes at scattered points: the mean of those around, the nearest
-/// counting most.
+/// Element size [m] at any point, interpolated from sizes at scattered points, weighted by distance.
 class SizeField
 {
 public:

@@ -12,11 +12,11 @@ namespace gestell::fem
 /// Volumes of the solids of a mesh, with its curved sides [m^3].
 std::vector<double> volumes_of_solids(const Mesh &mesh, std::size_t n_solids);
 
-/// Notes every solid whose cells fill another volume than its geometry, by which its mass is wrong: sides of cells are
+/// Notes every solid whose mesh volume (and so its mass) differs from its geometry, because straight sides of cells are
 /// chords of curved faces.
 void note_volumes(Mesh &mesh, const std::vector<Solid> &solids, const MeshOptions &options);
 
-/// Volumes and boxes of the solids of a mesh file, which has no geometry to ask.
+/// Volumes and boxes of the solids of a mesh file without geometry.
 void measure_solids(CadModel &model, const Mesh &mesh);
 
 } // namespace gestell::fem

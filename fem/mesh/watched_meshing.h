@@ -25,7 +25,7 @@ struct SurfaceSizes
 {
   MeshOptions              options;
   std::optional<SizeField> refined;                  ///< of a refinement
-  bool                     script_has_sizes = false; ///< a script has drawn sizes of its own
+  bool                     script_has_sizes = false; ///< sizes drawn by a script
 };
 
 /// Meshes the surfaces; again with sizes that grow from short edges if those give far more triangles than intended.

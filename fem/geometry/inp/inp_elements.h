@@ -7,7 +7,7 @@
 namespace gestell::fem
 {
 
-/// What an element of Abaqus or CalculiX is made into.
+/// Target type of an Abaqus or CalculiX element.
 struct InpElementKind
 {
   enum class Use
@@ -24,7 +24,7 @@ struct InpElementKind
 };
 
 /// The kind of elements of a type in capitals, variants (C3D10M, C3D8R, ...) included; null if they are not read.
-/// Pyramids are known, so that a mesh that holds some is refused with their number.
+/// Pyramids are recognised, so that a mesh with pyramids is rejected with their number.
 const InpElementKind *inp_element_kind(const std::string &type);
 
 /// Corners of the faces S1, S2, ... of a cell, in the order of its nodes in the file; none for pyramids.

@@ -28,16 +28,16 @@ public:
   void add(const std::string &set, const std::string &entry);
 
   /**
-   * The numbers of a set, those of the sets that it names included: ascending, each once; none of a set that is not
-   * there.  What is added to a set later is not known to it.
+   * The numbers of a set, including those of the sets that it names: ascending, each once; none for an unknown set.
+   * Later additions are not included.
    *
-   * @throws std::invalid_argument for a set that names itself, also by way of others, for sets that name each other
-   *         more than 200 deep, and for more members than allowed.
+   * @throws std::invalid_argument for a set that names itself, also by way of others, for sets nested more than 200
+   * levels deep, and for more members than allowed.
    */
   const std::vector<std::size_t> &members(const std::string &set);
 
   /**
-   * Takes the ranges apart, now that all that may be in a set is known.
+   * Resolves the ranges when all nodes and elements are known.
    *
    * @param n_there  how many `things`, nodes or elements, there are
    * @param most     members of all sets together, counted wherever they are named: a short file can name very many

@@ -10,7 +10,7 @@
 namespace gestell::fem
 {
 
-/// Why a solid is not divided into swept pieces, and where; a sentence of a note.
+/// Reason and location why a solid is not swept; a sentence of a note.
 class NotSwept : public std::runtime_error
 {
 public:
