@@ -67,7 +67,7 @@ namespace
 BodyRequest read_body(const SceneTable &any, const SceneTable &scene, fem::Scripts scripts)
 {
   check_thing_name(any);
-  const BodyType  &type  = type_of(any, body_types(), body_types().front().keys);
+  const BodyType  &type  = type_of(any, body_types());
   const SceneTable table = any.declared(type.keys);
   BodyRequest      body;
   body.name  = any.name();

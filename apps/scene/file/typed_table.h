@@ -33,12 +33,17 @@ std::vector<Type> with_type(std::vector<Type> types)
   return types;
 }
 
-/// That of a table.
-/// @param keys  with `type` among them
+/// That of a table, which may have the keys of any of them beside `own`.
 template <class Type>
-const Type &type_of(const SceneTable &table, const std::vector<Type> &types, const std::vector<Key> &keys)
+const Type &type_of(const SceneTable &table, const std::vector<Type> &types, const std::vector<Key> &own = {})
 {
-  const std::string name = table.declared(keys).choice("type");
+  static const std::vector<Key> all = [&, keys = own]() mutable
+  {
+    for (const Type &type : types)
+      keys.insert(keys.end(), type.keys.begin(), type.keys.end());
+    return keys;
+  }();
+  const std::string name = table.declared(all).choice("type");
   return *std::find_if(types.begin(), types.end(), [&](const Type &type) { return type.name == name; });
 }
 

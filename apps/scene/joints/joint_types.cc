@@ -110,10 +110,7 @@ const std::vector<JointType> &joint_types()
 
 const JointType &joint_type(const std::string &name)
 {
-  for (const JointType &type : joint_types())
-    if (type.name == name)
-      return type;
-  throw std::logic_error("no type of joints: " + name);
+  return *std::find_if(joint_types().begin(), joint_types().end(), [&](const auto &type) { return type.name == name; });
 }
 
 const std::vector<Key> &place_keys()
@@ -140,7 +137,7 @@ void check_new_name(const SceneTable &table, const Names &names, const Scene &sc
 
 MeasureRequest read_measure(const SceneTable &any, const Names &names)
 {
-  const MeasureType &type    = type_of(any, measure_types(), measure_types().front().keys);
+  const MeasureType &type    = type_of(any, measure_types());
   MeasureRequest     measure = type.read(any.declared(type.keys), names);
   measure.name               = any.name();
   measure.place              = any.place();
@@ -150,7 +147,7 @@ MeasureRequest read_measure(const SceneTable &any, const Names &names)
 /// @param any  whose keys of other types are refused in words
 JointRequest read_joint(const SceneTable &any, const Names &names)
 {
-  const JointType &type = type_of(any, joint_types(), joint_types().front().keys);
+  const JointType &type = type_of(any, joint_types());
   JointRequest     joint;
   joint.name            = any.name();
   joint.place           = any.place();

@@ -56,16 +56,6 @@ void read_screw(const SceneTable &table, const Names &names, JointRequest &joint
                       pitch / (2. * M_PI), difference(joint.to.marker, joint.from.marker, joint.axis, true));
 }
 
-/// A rotor or planar body, which has an axis to turn about.
-const BodyRequest &turning_body(const SceneTable &table, const std::string &marker, const Names &names)
-{
-  const BodyRequest *body = names.find_body(marker);
-  if (!turns_about_own_axis(body))
-    throw table.error("from",
-                      "'" + marker + "' is no rotor or planar body; one that turns about its axis is needed here");
-  return *body;
-}
-
 /// Whether a body or what carries it may move along a direction.
 bool moves_along(const Names &names, const std::string &marker, const Vector3 &direction)
 {
@@ -88,13 +78,16 @@ MotionMeasure read_wheel_and_way(const SceneTable &table, const Names &names, Jo
 {
   read_two_places(table, names, joint);
   refuse_in_space(table, "to", joint.to.marker, names);
-  const BodyRequest &wheel = turning_body(table, joint.from.marker, names);
-  if (std::abs(dot(joint.axis, wheel.axis)) > 1e-9)
+  const BodyRequest *wheel = names.find_body(joint.from.marker);
+  if (!turns_about_own_axis(wheel))
+    throw table.error("from", "'" + joint.from.marker +
+                                  "' is no rotor or planar body; one that turns about its axis is needed here");
+  if (std::abs(dot(joint.axis, wheel->axis)) > 1e-9)
     throw table.error("direction", "must be at right angles to the axis of '" + joint.from.marker + "'");
   if (!moves_along(names, joint.from.marker, joint.axis) && !moves_along(names, joint.to.marker, joint.axis))
     throw table.error("direction", "neither '" + joint.from.marker + "' nor '" + joint.to.marker +
                                        "' can move along it, so that the wheel could not turn; " + way_out);
-  return difference(joint.from.marker, joint.to.marker, wheel.axis, true);
+  return difference(joint.from.marker, joint.to.marker, wheel->axis, true);
 }
 
 void read_rolling(const SceneTable &table, const Names &names, JointRequest &joint)

@@ -236,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"to        = \"frame.table\"", "to = \"slide\"", "element.spring.to", "two places"},
         Mistake{"on      = \"frame.crown\"", "on = \"frame.column\"", "body.crank.on", "no interface 'column'"},
         Mistake{"\"rotor\"", "\"rotr\"", "body.crank.type", "did you mean 'rotor'"},
-        Mistake{"\"connecting rod\"", "\"conecting rod\"", "element.rod.type", "did you mean 'connecting rod'"},
+        Mistake{"type    = \"rotor\"", "", "body.crank", "the key 'type' is missing; it needs one of 'rotor'", 1},
         Mistake{"[element.spring]", "[element.crank]", "element.crank", "a body has the name"},
         Mistake{"[element.spring]", "[element.\"a.b\"]", "element.\"a.b\"", "dots"},
         Mistake{"[body.slide]", "[body.frame]", "body.frame", "a meaning of its own"},
