@@ -75,15 +75,20 @@ ElementType hydraulic_cylinder_type()
             key::number("rated_flow", flow, "of the open valve; with `valve`")
                 .above_zero()
                 .by_default("")
+                .only_with("valve")
                 .into(&Cylinder::rated_flow),
             key::number("rated_drop", kind::pressure, "of pressure per edge at that flow; with `valve`")
                 .above_zero()
                 .by_default("")
+                .only_with("valve")
                 .into(&Cylinder::rated_drop),
             key::number("supply_pressure", kind::pressure, "of the pump; with `valve`")
                 .by_default("")
+                .only_with("valve")
                 .into(&Cylinder::supply),
-            key::number("tank_pressure", kind::pressure, "behind the valve").by_default(&Cylinder::tank),
+            key::number("tank_pressure", kind::pressure, "behind the valve")
+                .by_default(&Cylinder::tank)
+                .only_with("valve"),
             waits_key()}}),
       read_hydraulic_cylinder,
       {R"toml(from     = "slide"

@@ -85,6 +85,11 @@ Key Key::unless(const std::string &other) const
   return changed(*this, [&](Key &key) { key.substitute = other; });
 }
 
+Key Key::only_with(const std::string &other) const
+{
+  return changed(*this, [&](Key &key) { key.companion = other; });
+}
+
 Key Key::filling(const std::type_info &type, decltype(fill) filler) const
 {
   return changed(*this, [&](Key &key) { key.object = &type, key.fill = filler; });

@@ -84,6 +84,7 @@ struct Key
   std::vector<Key>         keys{};       ///< of its tables
   std::string              source{};     ///< key whose value it has where it is left out
   std::string              substitute{}; ///< key that tells the same, so that this one is not read
+  std::string              companion{};  ///< key without which this one is unknown
 
   /// Class of the object whose member it fills, and what fills it; null: a reader asks for the key by name.
   const std::type_info                                                                     *object = nullptr;
@@ -99,7 +100,8 @@ struct Key
   Key by_default(double value) const;
   Key by_default(const std::string &words) const; ///< "" for nothing to tell
   Key same_as(const std::string &key) const;      ///< by default
-  Key unless(const std::string &other) const;     ///< demanded where there is no key `other`, else left alone
+  Key unless(const std::string &other) const;     ///< read where there is no key `other`, else left alone
+  Key only_with(const std::string &other) const;  ///< unknown where there is no key `other`
 
   template <class Object, class Member>
   Key into(Member Object::*member) const
@@ -112,7 +114,7 @@ struct Key
   Key into(Member Object::*member, const std::vector<Member> &meanings) const
   {
     return filling(typeid(Object), [member, meanings](void *object, const SceneTable &table, const Key &key, bool)
-                   { static_cast<Object *>(object)->*member = meanings[chosen(table, key)]; });
+                   { static_cast<Object *>(object)->*member = meanings.at(chosen(table, key)); });
   }
   /// As into(); the default is the initial value of the member.
   template <class Object, class Member>

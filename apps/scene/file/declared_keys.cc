@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <stdexcept>
 
 namespace gestell::apps
 {
@@ -36,11 +37,15 @@ void SceneTable::fill(void *object, const std::type_info &type, bool on_angle) c
 {
   const auto is_read = [&](const Key &key)
   {
+    if (!key.companion.empty() && !has(key.companion))
+      return false;
     if (!key.substitute.empty())
-      return !has(key.substitute);
+      return !has(key.substitute) && (key.demanded || has(key.name));
     return key.demanded || key.fallback || key.form == Key::Form::choice || has(key.name) ||
            (!key.source.empty() && has(key.source));
   };
+  if (!keys_)
+    throw std::logic_error("SceneTable::fill: a table without declared keys");
   for (const Key &key : *keys_)
     if (key.object && *key.object == type && is_read(key))
       key.fill(object, *this, key, on_angle);

@@ -76,6 +76,7 @@ TEST(DryFriction, RefusesWhatMakesNoSense)
                    "needs either 'normal_force' with 'static' and 'kinetic', or 'static_force' and 'kinetic_force'");
   expect_complaint(with(with(scene, "static_force = \"6 N\"", ""), "kinetic_force = \"4 N\"", ""), "needs either");
   expect_complaint(with(scene, "static_force = \"6 N\"", "static_force = \"6 mm\""), "needs a force");
+  expect_complaint(with(stick_slip, "static = 0.3", ""), "the key 'static' is missing");
   expect_complaint(with(stick_slip, "kinetic = 0.2", "kinetic = 0.4"), "element.joint.static: is below 'kinetic'");
   expect_complaint(with(stick_slip, "from = \"rubbing\"", "from = \"rubbing\"\nabout = [0, 0, 1]"),
                    "a normal force has no lever");

@@ -202,6 +202,7 @@ TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
   expect_complaint(slider(1., "1 s") + cylinder("valve = 2\nrated_flow = \"1 cm^3/s\"\nrated_drop = \"1 bar\"\n"
                                                 "supply_pressure = \"9 bar\"\n"),
                    "opening of the valve = 2");
+  expect_complaint(slider(1., "1 s") + cylinder("flow = 0\nrated_flow = \"1 cm^3/s\"\n"), "unknown key 'rated_flow'");
   expect_refusal([&] { run(slider(1., "1 s") + cylinder("flow = 0\n"), {"run.method=newmark"}); }, "use bdf");
 }
 
