@@ -286,7 +286,7 @@ def _computes(name: str, answer, **renamed):
         texts = {option: _texts(given[key]) for key, option in keywords.items() if given.get(key, "") not in ("", None)}
         return answer(given["self"]._core.analyse(name, texts, _progress(given.get("progress"))))
 
-    method.__signature__ = signature
+    method.__name__, method.__signature__ = name, signature
     method.__doc__ = f"{does[0].upper()}{does[1:]}.\n\n" + "\n".join(f"{key}: {dict(options)[option]}." for key, option in keywords.items())
     return method
 
