@@ -14,7 +14,7 @@ namespace
 {
 
 bool        wanted_by_anyone = false;
-std::string given;
+std::string given, early_end;
 
 const std::string warning_begins = "gestell: warning: ";
 
@@ -38,9 +38,9 @@ std::string judged_part(const std::string &message)
 /// "scene.toml:12: body.crank.mass: needs a mass above zero, got 0; give ..." in its parts, as far as they are there.
 Json parts_of_error(const std::string &message, int exit_code)
 {
-  static const std::regex place(R"(^(?:--[^ ]+ [^:]*: )?([^:\n]+):([0-9]+): )"), key(R"(^([A-Za-z_][\w."\- ]*): )"),
-      value(R"(, got ([^;(\n]+))"), needed(R"(\b(?:needs|must be|valid:) ([^;\n]+?)(?=, got |;|\n|$))"),
-      way_out(R"(; ([^;]+)$)");
+  static const std::regex place(R"(^(?:--[^ ]+ [^:]*: )?([^:\n]+):([0-9]+): )"),
+      key(R"(^([A-Za-z_][\w\-]*(?:\.[\w."\- ]*)?): )"), value(R"(, got ([^;(\n]+))"),
+      needed(R"(\b(?:needs|must be|valid:) ([^;\n]+?)(?=, got |;|\n|$))"), way_out(R"(; ([^;]+)$)");
   Json        error = {{"exit_code", exit_code}, {"message", message}};
   std::smatch found;
   std::string rest = judged_part(message);
@@ -104,6 +104,7 @@ JsonAnswer::JsonAnswer(bool wanted) : wanted_(wanted)
 {
   wanted_by_anyone = wanted;
   given.clear();
+  early_end.clear();
   if (!wanted_)
     return;
   cout_ = std::cout.rdbuf(text_.rdbuf());
@@ -123,8 +124,8 @@ void JsonAnswer::finish(const std::string &command, int exit_code)
   std::cout.rdbuf(cout_);
   cout_         = nullptr;
   Json document = {{"command", command}, {"exit_code", exit_code}};
-  if (!failure_.empty())
-    document["error"] = parts_of_error(failure_, exit_code);
+  if (const std::string &message = failure_.empty() ? early_end : failure_; !message.empty())
+    document["error"] = parts_of_error(message, exit_code);
   document["answer"]   = given.empty() ? Json() : Json::parse(given);
   document["warnings"] = cerr_->warnings();
   document["text"]     = lines_of(text_.str());
@@ -140,6 +141,11 @@ bool answers_in_json()
 void answer_with(const std::string &json)
 {
   given = json;
+}
+
+void error_in_json(const std::string &message)
+{
+  early_end = message;
 }
 
 } // namespace gestell::apps

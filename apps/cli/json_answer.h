@@ -42,5 +42,7 @@ private:
 /// What a command answers, as JSON text, made only where somebody asked for it; the last one counts.
 bool answers_in_json();
 void answer_with(const std::string &json);
+/// Why an answer ends early, as people are told.
+void error_in_json(const std::string &message);
 
 } // namespace gestell::apps

@@ -8,6 +8,7 @@
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/section.h"
 #include "apps/output/tables/noise.h"
+#include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
@@ -162,8 +163,10 @@ int run_scene(const CommonOptions &options, const RunCommand &requested, const A
   std::cout << "report: " << (folder / "report.html").string() << '\n';
   if (!result.run->failure.empty())
   {
-    std::cerr << "gestell: the computation failed: " << result.run->failure << "\n  what was computed up to then is in "
-              << folder.string() << '\n';
+    const std::string message = (is_wanted_end(*result.run) ? "a switch ended the run: " : "the computation failed: ") +
+                                result.run->failure + "\n  what was computed up to then is in " + folder.string();
+    std::cerr << "gestell: " << message << '\n';
+    error_in_json(message);
     return exit_failed;
   }
   if (result.sensitivities && !result.sensitivities->failure.empty())

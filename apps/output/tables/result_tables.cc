@@ -1,15 +1,19 @@
 #include "apps/output/tables/result_tables.h"
 
 #include "apps/output/text/csv.h"
+#include "coupling/simulation/checks/contacts_and_switches.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 namespace gestell::apps
 {
 namespace
 {
+
+constexpr std::size_t longest_place = 1000; ///< letters: std::regex takes some of the stack for each
 
 void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
 {
@@ -27,7 +31,36 @@ void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, co
   }
 }
 
+/// "press.toml:12: element.stop: never acts in this run ...; expected: ...": its place is the key it begins with.
+coupling::Finding of_the_scene(const std::string &warning)
+{
+  static const std::regex begins(R"(^[^:\n]+:[0-9]+: ([A-Za-z_][^:\n]*): )");
+  std::smatch             found;
+  const std::string       head         = warning.substr(0, longest_place);
+  const std::string       place        = std::regex_search(head, found, begins) ? found[1].str() : "";
+  const bool              of_magnitude = warning.find("; expected: ") != std::string::npos;
+  return {coupling::Severity::warning, of_magnitude ? "magnitude" : place.empty() ? "" : "scene", place, warning};
+}
+
+/// Why a run came to an early end, as the check that knows it tells.
+coupling::Finding early_end(const coupling::RunResult &run)
+{
+  coupling::Finding end{coupling::Severity::error, "stopped-early", "", run.failure};
+  for (const coupling::Finding &finding : run.findings)
+    if (finding.text == end.text)
+      end = finding;
+  end.text = (is_wanted_end(run) ? "A switch ended the run: " : "The computation stopped early: ") + end.text;
+  return end;
+}
+
 } // namespace
+
+bool is_wanted_end(const coupling::RunResult &run)
+{
+  return std::any_of(run.findings.begin(), run.findings.end(),
+                     [&](const coupling::Finding &finding)
+                     { return finding.id == coupling::ended_by_switch && finding.text == run.failure; });
+}
 
 std::vector<coupling::Finding> all_findings(const Result &result)
 {
@@ -40,18 +73,11 @@ std::vector<coupling::Finding> all_findings(const Result &result)
       findings.push_back(finding);
   };
   if (result.run && !result.run->failure.empty())
-  {
-    coupling::Finding stop{Severity::error, "stopped-early", "", result.run->failure};
-    for (const coupling::Finding &finding : result.run->findings)
-      if (finding.text == stop.text)
-        stop = finding;
-    stop.text = "The computation stopped early: " + stop.text;
-    add(stop);
-  }
+    add(early_end(*result.run));
   if (result.run && result.run->interrupted)
     add({Severity::warning, "interrupted", "", "The computation was interrupted; the results end where it stopped."});
   for (const std::string &warning : result.warnings)
-    add({Severity::warning, "", "", warning});
+    add(of_the_scene(warning));
   if (result.run)
     for (const coupling::Finding &finding : result.run->findings)
       if (finding.text != result.run->failure)

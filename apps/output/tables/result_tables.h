@@ -7,6 +7,9 @@
 namespace gestell::apps
 {
 
+/// Whether the run ended early by a switch of the scene that is to end it.
+bool is_wanted_end(const coupling::RunResult &run);
+
 /// history.csv: one row per output instant, header "name [unit]", full precision.
 std::string history_csv(const coupling::RunResult &run);
 

@@ -27,7 +27,7 @@ void describe(Visitor &v, const Finding &x)
 {
   v("severity", x.severity == Severity::error ? "error" : "warning", "",
     "`warning`: the result is valid, but perhaps not what was meant; `error`: the run ended there");
-  v("id", x.id, "", "kind of finding, the same in all versions; empty: of the scene, the frame or an analysis");
+  v("id", x.id, "", "kind of finding, the same in all versions; empty: of the frame or an analysis");
   v("place", x.place, "", "element, joint, switch, signal or key; empty: the run as a whole");
   v("text", x.text, "", "what is wrong, where, and what to do");
 }

@@ -73,6 +73,33 @@ TEST(JsonAnswer, OfWrongInputTellsPlaceValueNeedAndWayOut)
   EXPECT_EQ(line["way_out"], "gestell check --help tells what it takes");
 }
 
+/// An end by a switch that is to end the run, and one where a law has no value: both with their error and as many
+/// findings as warnings and errors.
+TEST(JsonAnswer, OfARunThatEndsEarlyTellsWhy)
+{
+  const std::string slide = "[body.slide]\ntype = \"slider\"\naxis = [1, 0, 0]\nmass = 1\n"
+                            "[start]\nv = { slide = 1 }\n[run]\nstep = \"1 ms\"\nend = \"0.1 s\"\n"
+                            "[output.signals]\nx = \"slide.displacement\"\n";
+  const std::string far   = "[switch.far]\nwhen = \"slide.displacement\"\nabove = \"20 mm\"\nends = \"enough\"\n";
+  const std::string law   = "[element.law]\ntype = \"formula force\"\nfrom = \"slide\"\n"
+                            "force = \"1 N*sqrt(1 - t/(50 ms))\"\n";
+  const Folder      folder("json_end");
+  const auto        ended = [&](const std::string &more)
+  {
+    const Json json = document("run " + folder.file("scene.toml", slide + more) + folder.option(), 3);
+    EXPECT_EQ(json["answer"]["findings"].size(), json["warnings"].size() + 1);
+    return json;
+  };
+  const Json by_switch = ended(far);
+  EXPECT_EQ(by_switch["error"]["message"].get<std::string>().find("a switch ended the run: at t = 0.02 s, enough"), 0u);
+  EXPECT_FALSE(by_switch["error"].contains("key"));
+  EXPECT_EQ(by_switch["answer"]["findings"][0]["id"], "ended-by-switch");
+  EXPECT_EQ(by_switch["answer"]["findings"][0]["place"], "far");
+  const std::string message = ended(law)["error"]["message"];
+  EXPECT_EQ(message.find("the computation failed: "), 0u) << message;
+  EXPECT_NE(message.find("\"law\""), std::string::npos) << message;
+}
+
 TEST(JsonAnswer, OfAMessageOfAnyLengthIsTold)
 {
   const Json of_name = document("check 'x:99999999999999999999: y.toml'", 2);

@@ -8,6 +8,7 @@
 #include "apps/output/text/json.h"
 #include "apps/output/text/write_file.h"
 #include "coupling/frame/atomic_file.h"
+#include "coupling/simulation/checks/contacts_and_switches.h"
 #include "fem/values/number_text.h"
 #include "tests/support/output_example.h"
 #include "tests/support/program.h"
@@ -122,6 +123,27 @@ TEST(Tables, WarningsTellTheEarlyEndFirstAndNothingTwice)
   const auto warnings = all_warnings(result);
   ASSERT_EQ(warnings.size(), 3u);
   EXPECT_NE(warnings[0].find("stopped early: Newton"), std::string::npos);
+}
+
+TEST(Tables, FindingsHaveTheirKindAndPlace)
+{
+  Result result   = example_result();
+  result.warnings = {
+      "press.toml:12: element.stop: never acts in this run; expected: a force at some time; check its gap",
+      "press.toml:3: frame.mesh: is coarse", "of no place"};
+  result.run->failure  = "at t = 0.2 s, enough: x lies above 1, where switch \"far\" ends the run";
+  result.run->findings = {{coupling::Severity::error, coupling::ended_by_switch, "far", result.run->failure}};
+  const auto findings  = all_findings(result);
+  ASSERT_EQ(findings.size(), 4u);
+  EXPECT_TRUE(is_wanted_end(*result.run));
+  EXPECT_EQ(findings[0].id, "ended-by-switch");
+  EXPECT_EQ(findings[0].place, "far");
+  EXPECT_EQ(findings[0].text.find("A switch ended the run: at t = 0.2 s"), 0u);
+  EXPECT_EQ(findings[1].id, "magnitude");
+  EXPECT_EQ(findings[1].place, "element.stop");
+  EXPECT_EQ(findings[2].id, "scene");
+  EXPECT_EQ(findings[2].place, "frame.mesh");
+  EXPECT_EQ(findings[3].place, "");
 }
 
 TEST_F(ResultFolder, IsCreatedWithItsParentsAndClearedOfOwnFilesOnly)
