@@ -4,11 +4,7 @@
 #include "apps/output/report/section.h"
 #include "apps/output/tables/summary_json.h"
 #include "tests/support/refusal.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <set>
+#include "tests/support/test.h"
 
 namespace gestell::apps
 {

@@ -3,10 +3,7 @@
 
 #include "coupling/integration/integration_methods.h"
 #include "tests/support/scene_motion.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "tests/support/test.h"
 
 namespace gestell::tests
 {
