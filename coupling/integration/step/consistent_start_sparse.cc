@@ -1,6 +1,7 @@
 #include "coupling/integration/step/consistent_start.h"
 
 #include "coupling/integration/step/implicit_step.h"
+#include "coupling/integration/step/law_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,8 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
   for (int iteration = 0; iteration < most_iterations(); ++iteration)
   {
     system_.forces().tangent_blocks(local, 0., 0., 1., local.p, tangent_);
+    if (!local.p.allFinite() || !tangent_.allFinite())
+      require_law_values(system_, local);
     G_.set_forces(local.lambda, local.p);
     ++work.newton;
     ++work.evaluations;
