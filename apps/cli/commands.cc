@@ -1,10 +1,79 @@
 #include "apps/cli/commands.h"
 
 #include "apps/analysis/analyses.h"
-#include "apps/cli/analysis_command.h"
+#include "apps/analysis/analysis.h"
+#include "apps/cli/command.h"
+#include "apps/cli/json_answer.h"
+#include "apps/cli/progress.h"
+#include "apps/cli/results_path.h"
+#include "apps/output/report/section.h"
+#include "apps/output/tables/summary_json.h"
+#include "apps/output/values/result.h"
+
+#include <iostream>
+#include <memory>
 
 namespace gestell::apps
 {
+namespace
+{
+
+/// A run that stands in the folder is kept: only what the analysis adds is written.
+/// @return what is said of it
+std::string write_answer_of(const AnalysisEntry &entry, const Result &result, const std::filesystem::path &folder,
+                            const std::vector<std::filesystem::path> &inputs)
+{
+  if (!OwnFolder(folder).owns("history.csv"))
+  {
+    prepare_folder(folder, inputs);
+    write_results(folder, result);
+    return "report: " + (folder / "report.html").string();
+  }
+  write_modes(folder, result);
+  std::string files;
+  for (const ResultFile &file : entry.files)
+    if (file.by == WrittenBy::write_results)
+      files += file.name + ", ";
+  return folder.string() + " holds a run, which is kept: only " + files +
+         "tables of modes, their charts and frame_modes.pvd were written";
+}
+
+int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const CommonOptions &options)
+{
+  ProgressLine progress(options.quiet);
+  Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
+  session.check();
+  const std::filesystem::path folder = results_path(options, session.scene());
+  const ResultsLock           held(folder);
+  const auto                  inputs = inputs_of(options, analysis.reads());
+  require_room(folder, analysis.writes(), inputs);
+  const Result result = computed(entry, analysis, session);
+  progress.done();
+  const std::string where = write_answer_of(entry, result, folder, inputs);
+  OwnFolder         own(folder);
+  const std::string more = analysis.write(session, own);
+  if (answers_in_json())
+    answer_with(summary_json(result));
+  std::cout << answers_text(result);
+  for (const std::string &warning : result.warnings)
+    std::cerr << "gestell: warning: " << warning << '\n';
+  std::cout << (more.empty() ? "" : more + '\n') << where << '\n';
+  return exit_done;
+}
+
+/// The command of an analysis: checks, holds the folder of results, computes, writes, prints what it found, warns.
+Command analysis_command(const AnalysisEntry &entry)
+{
+  const std::shared_ptr<Analysis> analysis = entry.begin();
+  return {entry.name,
+          entry.does,
+          entry.examples,
+          CommandInput::scene,
+          analysis->options(),
+          [&entry, analysis](const CommonOptions &options) { return compute_analysis(entry, *analysis, options); }};
+}
+
+} // namespace
 
 Command run_command(), modes_command(), reduce_command(), check_command(), chart_command(), mesh_command(),
     stability_command(), periodic_command(), export_command(), size_command(), study_command(), show_command(),

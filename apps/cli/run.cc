@@ -5,17 +5,19 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
+#include "apps/output/describe/described_table.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/section.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/sensitivity_table.h"
-#include "apps/output/tables/stage_table.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/values/stage_result.h"
 #include "apps/session/session.h"
 #include "apps/session/story/run_facts.h"
 #include "coupling/frame/atomic_file.h"
+#include "fem/values/number_text.h"
 #include "fem/values/shell_word.h"
 
 #include <algorithm>
@@ -25,12 +27,31 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace gestell::apps
 {
 
 namespace
 {
+
+/// For the terminal.
+std::string stages_text(const StageResult &result)
+{
+  std::string text;
+  for (const Stage &stage : result.stages)
+    text += "stage " + stage.name + ": " + short_text(stage.begin, 6) + " to " + short_text(stage.end, 6) + " s\n";
+  for (const LiftOff &off : result.lift_offs)
+    text += "  " + off.wheel + " is off the ground from " + short_text(off.begin, 6) + " to " + short_text(off.end, 6) +
+            " s\n";
+  const Ringing &ringing = result.ringing;
+  if (!ringing.modes.empty())
+    text += "ringing from " + short_text(ringing.begin) + " to " + short_text(ringing.end) +
+            " s, beside the machine linearised at rest\n" + table_of(ringing.modes).terminal();
+  if (!ringing.note.empty() && !ringing.signals.empty())
+    text += "ringing: " + ringing.note + '\n';
+  return text;
+}
 void print_answer(const coupling::RunResult &run)
 {
   std::cout << std::left << std::setw(12) << "signal" << std::right << std::setw(16) << "min" << std::setw(14)

@@ -7,10 +7,11 @@
 #include "apps/cli/results_path.h"
 #include "apps/cli/team.h"
 #include "apps/output/folder/own_folder.h"
+#include "apps/output/folder_lock.h"
 #include "apps/study/results/findings_text.h"
 #include "apps/study/results/study_analysis.h"
 #include "apps/study/results/study_files.h"
-#include "apps/study/runs/study_lock.h"
+#include "apps/study/runs/study_folder.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -23,6 +24,24 @@ namespace gestell::apps
 {
 namespace
 {
+
+/**
+ * Holds the folder of a study while it lives: one call at a time makes or merges all of it, shares of it are made side
+ * by side.
+ */
+class StudyLock : public FolderLock
+{
+public:
+  /// @throws std::invalid_argument with the process that holds the folder
+  StudyLock(const std::filesystem::path &folder, const StudyShare &share);
+};
+
+StudyLock::StudyLock(const std::filesystem::path &folder, const StudyShare &share)
+    : FolderLock(folder, share.is_whole() ? Kind::alone : Kind::beside_others,
+                 share.is_whole() ? "is making a study there" : "is making a share of a study there",
+                 ", or give another folder with -o")
+{
+}
 
 struct StudyCommand
 {
