@@ -146,32 +146,11 @@ void MachineEvents::start(const LocalState &state)
   parts_.refresh_guards();
 }
 
-namespace
-{
-/// The motion with the rates that follow from those that are held, free of rounding.
-const LocalState &watched(MachineParts &parts, const LocalState &motion)
-{
-  if (parts.held_too.empty())
-    return motion;
-  parts.watched_state = motion;
-  for (const HeldMeasure &h : parts.held_too)
-    parts.watched_state.v[h.measure] = h.rate;
-  return parts.watched_state;
-}
-
-/// All elements but one accept the motion.
-void accept_motion(MachineParts &parts, const LocalState &motion, int except = -1)
-{
-  const LocalState &state = watched(parts, motion);
-  for (int i = 0; i < int(parts.placed.size()); ++i)
-    if (const auto &part = parts.placed[i]; part.branches && i != except)
-      part.branches->accept(part.motion(state, parts.by_history), parts.history_of(part));
-}
-} // namespace
-
 void MachineEvents::accept(const LocalState &state)
 {
-  accept_motion(parts_, state);
+  for (const auto &part : parts_.placed)
+    if (part.branches)
+      part.branches->accept(part.motion(state, parts_.by_history), parts_.history_of(part));
   parts_.find_sides(state);
 }
 
@@ -182,7 +161,11 @@ int MachineEvents::n_guards() const
 
 void MachineEvents::guard_values(const LocalState &motion, Eigen::VectorXd &g) const
 {
-  const LocalState &state = watched(parts_, motion);
+  if (!parts_.held_too.empty())
+    parts_.watched_state = motion;
+  for (const HeldMeasure &h : parts_.held_too)
+    parts_.watched_state.v[h.measure] = h.rate;
+  const LocalState &state = parts_.held_too.empty() ? motion : parts_.watched_state;
   int               first = 0;
   for (const auto &part : parts_.placed)
   {
@@ -216,7 +199,6 @@ void MachineEvents::transition(int i, const LocalState &state)
     parts_.throw_switch(active.index, state);
     parts_.find_stopped(state);
     parts_.refresh_guards();
-    accept_motion(parts_, state);
     return;
   }
   auto     &part      = parts_.placed[active.element];
@@ -238,7 +220,6 @@ void MachineEvents::transition(int i, const LocalState &state)
   parts_.find_stopped(state);
   part.came = 0;
   parts_.refresh_guards();
-  accept_motion(parts_, state, active.element); // others may have come to rest with it
 }
 
 namespace

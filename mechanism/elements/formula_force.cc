@@ -2,33 +2,11 @@
 
 #include "mechanism/require.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace gestell::mechanism
 {
-namespace
-{
-
-constexpr double unbounded = std::numeric_limits<double>::infinity();
-/// Share of the time that is one instant: events are located to 1e-11 of a step, and no step is longer than all of it.
-constexpr double instant = 1e-9;
-
-enum BehindSides ///< of the history
-{
-  validity,
-  last_u,
-  left_zero
-};
-
-/// Friction holds u, and the argument of a kink rests at zero.
-bool is_held(const LocalMotion &motion, const double *sides, int n_kinks)
-{
-  return motion.v[0] == 0. && std::find(sides, sides + n_kinks, 0.) != sides + n_kinks;
-}
-
-} // namespace
 
 FormulaForce::FormulaForce(const Parameters &parameters) : parameters_(parameters)
 {
@@ -59,9 +37,8 @@ void FormulaForce::extreme(bool largest, double u, double &K, double &D) const
   const int    n = n_kinks();
   for (const bool damping : {false, true})
   {
-    double sides[Formula::max_kinks + 3], both[2];
+    double sides[Formula::max_kinks + 1], both[2];
     start({0., &u, &zero, &zero}, sides);
-    std::replace(sides, sides + n, 0., 1.);
     derivatives_at(u, sides, both[0], both[1]);
     double best = both[damping];
     for (int i = 0; i < n; ++i)
@@ -93,49 +70,25 @@ void FormulaForce::start(const LocalMotion &motion, double *history) const
 {
   const double x[] = {motion.t, motion.u[0], motion.v[0]}, rates[] = {1., motion.v[0], motion.a[0]};
   kinks().start(x, rates, history);
-  history[n_kinks() + validity]  = 0.;
-  history[n_kinks() + last_u]    = motion.u[0];
-  history[n_kinks() + left_zero] = -unbounded;
+  history[n_kinks()] = 0.;
 }
 
-/// A side that was left for zero and is come back to in one instant stays: the value there pushes the motion off, and
-/// that of the side pushes it back, as that of dry friction does.
 void FormulaForce::accept(const LocalMotion &motion, double *history) const
 {
-  const double x[] = {motion.t, motion.u[0], motion.v[0]}, held[] = {1., motion.v[0], 0.};
-  double      &left = history[n_kinks() + left_zero];
+  const double x[] = {motion.t, motion.u[0], motion.v[0]};
   if (std::isnan(parameters_.force.value(x)))
-    history[n_kinks() + validity] = std::numeric_limits<double>::quiet_NaN();
-  if (!is_held(motion, history, n_kinks()))
-    history[n_kinks() + last_u] = motion.u[0];
-  if (!kinks().is_at_zero(x, held, history))
-    left = left == unbounded ? -unbounded : left;
-  else if (motion.t - left <= instant * std::abs(motion.t))
-    left = unbounded;
-  else
-    kinks().rest(x, held, history);
+    history[n_kinks()] = std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Rounding of u moves no argument that rests where u is held.
 void FormulaForce::guard_values(const LocalMotion &motion, const double *history, double *g) const
 {
   const double x[] = {motion.t, motion.u[0], motion.v[0]};
   kinks().guard_values(x, history, g);
-  if (!is_held(motion, history, n_kinks()))
-    return;
-  const double at_rest[] = {motion.t, history[n_kinks() + last_u], motion.v[0]};
-  double       own[2 * Formula::max_kinks];
-  kinks().guard_values(at_rest, history, own);
-  for (int i = 0; i < n_kinks(); ++i)
-    if (history[i] == 0.)
-      std::copy_n(own + 2 * i, 2, g + 2 * i);
 }
 
 void FormulaForce::transition(int i, const LocalMotion &motion, double *history) const
 {
   const double x[] = {motion.t, motion.u[0], motion.v[0]}, rates[] = {1., motion.v[0], motion.a[0]};
-  if (history[i / 2] == 0.)
-    history[n_kinks() + left_zero] = motion.t;
   kinks().transition(i, x, rates, history);
 }
 

@@ -57,15 +57,14 @@ public:
   void open_branch(const double *u, double *K, double *D) const override;
   bool stiffens() const override { return true; } ///< maybe; a formula may be anything
 
-  /// history: side of each kink, -1, 0 or 1; then 0, or nan once an accepted motion has left the range of a root: roots
-  /// are continued below zero only beyond a kink; then the last u that did not stick, and the last time at which a kink
-  /// left zero, infinite while one that came back in that instant stays on its side.
-  int                   n_history() const override { return n_kinks() + 3; }
+  /// history: side of each kink, -1 or 1; then 0, or nan once an accepted motion has left the range of a root: roots are
+  /// continued below zero only beyond a kink.
+  int                   n_history() const override { return n_kinks() + 1; }
   void                  start(const LocalMotion &motion, double *history) const override;
   void                  accept(const LocalMotion &motion, double *history) const override;
   Work                  work() const override { return Work::input; }
-  int                   n_guards(const double *) const override { return kinks().n_guards(); }
-  std::vector<Guard>    guards(const double *) const override { return kinks().guards(); }
+  int                   n_guards(const double *) const override { return n_kinks(); }
+  std::vector<Guard>    guards(const double *history) const override { return kinks().guards(history); }
   void                  guard_values(const LocalMotion &motion, const double *history, double *g) const override;
   void                  transition(int i, const LocalMotion &motion, double *history) const override;
   std::vector<Quantity> quantities() const override;

@@ -33,10 +33,10 @@ enum class Relation
  *
  * Kinks.  abs, sign, step, min, max and conditional are smooth on either side of a kink, where their argument is zero:
  * x itself, a - b of min(a, b) and max(a, b), the argument of a condition.  Given `sides` (n_kinks() numbers, > 0: the
- * side of positive arguments, 0: the argument is zero), value() takes each kink on that side and goes on smoothly
- * beyond it, so that a solver can locate kinks one by one; without, the arguments decide.  Square roots and powers c
- * that are no whole number go on below zero as -|x|^c then, max(u, 0)^1.5 beyond its kink; without sides they are no
- * number there.  Of a conditional only the chosen part is evaluated, and the kinks of the other part rest.
+ * side of positive arguments), value() takes each kink on that side and goes on smoothly beyond it, so that a solver
+ * can locate kinks one by one; without, the arguments decide.  Square roots and powers c that are no whole number go on
+ * below zero as -|x|^c then, max(u, 0)^1.5 beyond its kink; without sides they are no number there.  Of a conditional
+ * only the chosen part is evaluated, and the kinks of the other part rest.
  */
 class Formula
 {
@@ -81,7 +81,7 @@ public:
   friend Formula applied(Function f, const Formula &a);
   friend Formula atan2(const Formula &y, const Formula &x);
   friend Formula abs(const Formula &a);
-  friend Formula sign(const Formula &a); ///< -1, 0 or 1
+  friend Formula sign(const Formula &a); ///< -1 or 1; 0 at 0 if no side is given
   friend Formula step(const Formula &a); ///< 0 for a < 0, else 1
   friend Formula min(const Formula &a, const Formula &b);
   friend Formula max(const Formula &a, const Formula &b);

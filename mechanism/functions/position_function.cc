@@ -114,7 +114,7 @@ std::vector<Guard> PositionFunction::guards(const double *history) const
 {
   if (!spline_)
   {
-    auto guards = FormulaKinks(formula_).guards();
+    auto guards = FormulaKinks(formula_).guards(history);
     if (counts_periods())
     {
       guards.push_back({"next_period", Crossing::rising});
@@ -138,13 +138,13 @@ void PositionFunction::guard_values(double x, const double *history, double *g) 
     g[ends]   = x - spline_->end();
     return;
   }
-  const double inner = period_ ? x - periods(x, history) * period_->length : x;
+  const int    n_kinks = formula_.n_kinks();
+  const double inner   = period_ ? x - periods(x, history) * period_->length : x;
   FormulaKinks(formula_).guard_values(&inner, history, g);
   if (!counts_periods())
     return;
-  double *next = g + 2 * formula_.n_kinks();
-  next[0]      = inner - (period_->begin + period_->length);
-  next[1]      = inner - period_->begin;
+  g[n_kinks]     = inner - (period_->begin + period_->length);
+  g[n_kinks + 1] = inner - period_->begin;
 }
 
 void PositionFunction::transition(int i, double x, double rate, double *history) const
@@ -154,14 +154,14 @@ void PositionFunction::transition(int i, double x, double rate, double *history)
     history[i] = -history[i];
     return;
   }
-  const int n_kinks = formula_.n_kinks(), next = 2 * n_kinks;
-  double    inner = period_ ? x - periods(x, history) * period_->length : x;
-  if (i < next)
+  const int n_kinks = formula_.n_kinks();
+  double    inner   = period_ ? x - periods(x, history) * period_->length : x;
+  if (i < n_kinks)
   {
     FormulaKinks(formula_).transition(i, &inner, &rate, history);
     return;
   }
-  history[n_kinks] += i == next ? 1. : -1.;
+  history[n_kinks] += i == n_kinks ? 1. : -1.;
   inner = x - history[n_kinks] * period_->length;
   FormulaKinks(formula_).start(&inner, &rate, history);
 }

@@ -46,7 +46,7 @@ public:
   Value at(double x, const double *history = nullptr) const;
 
   int  n_history() const { return spline_ ? table_ends() : formula_.n_kinks() + int(counts_periods()); }
-  int  n_guards() const { return spline_ ? table_ends() : 2 * (formula_.n_kinks() + int(counts_periods())); }
+  int  n_guards() const { return spline_ ? table_ends() : formula_.n_kinks() + 2 * int(counts_periods()); }
   void start(double x, double rate, double *history) const;
   std::vector<Guard> guards(const double *history) const;
   void               guard_values(double x, const double *history, double *g) const;

@@ -139,10 +139,8 @@ std::vector<Switch> switches()
   const Formula u = Formula::variable(FormulaForce::displacement), v = Formula::variable(FormulaForce::rate);
   const auto    bent = std::make_shared<FormulaForce>(
       FormulaForce::Parameters{-80. * max(u - 0.3, 0.) * (1. + v) + power(v, 2.) * abs(u - 0.4)});
-  all.push_back(
-      {"formula_up", bent, (Eigen::VectorXd(5) << -1., -1., 0., 0., 0.).finished(), probe1(0.3, 2.), 0, "max_1_rises"});
-  all.push_back({"formula_down", bent, (Eigen::VectorXd(5) << 1., 1., 0., 0., 0.).finished(), probe1(0.4, -2.), 3,
-                 "abs_2_falls"});
+  all.push_back({"formula_up", bent, Eigen::Vector3d(-1., -1., 0.), probe1(0.3, 2.), 0, "max_1_rises"});
+  all.push_back({"formula_down", bent, Eigen::Vector3d(1., 1., 0.), probe1(0.4, -2.), 1, "abs_2_falls"});
   for (const double n : {1., 2., 7.5, 8.})
   {
     const auto            blanking = std::make_shared<BlankingForce>(sheet(n));

@@ -30,12 +30,11 @@ struct Followed
   /// Takes the corner that lies ahead and tells when it is.
   double pass_corner()
   {
-    double g[2] = {}; // of a kink its argument rises, or falls, which that of the time never does
-    EXPECT_GE(course.n_guards(history.data()), 1);
-    EXPECT_LE(course.n_guards(history.data()), 2);
-    course.guard_values(0., history.data(), g);
-    course.transition(0, -g[0], history.data());
-    return -g[0];
+    double g = 0.;
+    EXPECT_EQ(course.n_guards(history.data()), 1);
+    course.guard_values(0., history.data(), &g);
+    course.transition(0, -g, history.data());
+    return -g;
   }
   CommandedProfile    course;
   std::vector<double> history;

@@ -1,11 +1,12 @@
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/events/finite_state.h"
 #include "coupling/integration/events/guard_rounding.h"
+#include "coupling/integration/system/resumable.h"
+#include "coupling/integration/system/state_archive.h"
+
 #include "coupling/integration/step/load_breakpoints.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/error_control.h"
-#include "coupling/integration/system/resumable.h"
-#include "coupling/integration/system/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -285,17 +286,14 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   first.t = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n; ++i)
   {
-    const auto look     = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
+    const auto look    = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
     const auto is_event = [&]
     {
       const bool again = !events_.empty() && events_.back().name == system_.events().guard(i).name;
       return !again || !is_rounding(system_, integrator_, i, before_, g_);
     };
-    const auto sticks   = [&](int guard) { return system_.events().guard(guard).kind == "stick"; };
-    const auto precedes = [&](double at) // what comes to rest is first: arguments of other guards may rest with it
-    { return at < first.t || (at == first.t && sticks(i) && !sticks(first.guard)); };
     const bool past = begin == integrator_.step_begin() && begins_past(i, look(0).g);
-    if (precedes(begin) && (past || is_due_at_begin(i, look(0).g, look(1).g)) && is_event())
+    if (first.t > begin && (past || is_due_at_begin(i, look(0).g, look(1).g)) && is_event())
       first = {i, begin, 0.};
     for (int k = 0; k < last && t[k] < first.t; ++k)
     {
@@ -307,7 +305,7 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
       Crossing crossing;
       crossing.slope = (high.g - low.g) / (high.t - low.t);
       locate(i, low.t, low.g, high.t, high.g, crossing);
-      if (precedes(crossing.t) && is_event())
+      if (crossing.t < first.t && is_event())
         first = crossing;
       break;
     }
