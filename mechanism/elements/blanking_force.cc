@@ -152,9 +152,7 @@ std::vector<Quantity> BlankingForce::quantities() const
 double BlankingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
   const double z = motion.u[0] - parameters_.contact_at;
-  return i == 0   ? std::max(resistance(motion, history), 0.)
-         : i == 1 ? z
-                  : std::max(history[0], std::min(z, parameters_.thickness));
+  return i == 0 ? resistance(motion, history) : i == 1 ? z : std::max(history[0], std::min(z, parameters_.thickness));
 }
 
 } // namespace gestell::mechanism

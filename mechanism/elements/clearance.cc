@@ -153,12 +153,7 @@ std::vector<Quantity> Clearance::quantities() const
 
 double Clearance::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  if (i == 1)
-    return motion.u[0];
-  double       s;
-  const double pressed =
-      pressure(Measures<double>{motion.t, motion.u, motion.v, motion.a, motion.by_history}, history, s);
-  return pressed > 0. ? s * pressed : 0.; // an event is located to rounding, by which it would pull
+  return i == 0 ? resistance(motion, history) : motion.u[0];
 }
 
 } // namespace gestell::mechanism

@@ -2,7 +2,6 @@
 
 #include "mechanism/require.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gestell::mechanism
@@ -35,7 +34,7 @@ std::vector<Quantity> CuttingForce::quantities() const
 
 double CuttingForce::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  return i == 0 ? std::max(resistance(motion, history), 0.) : motion.u[0] - parameters_.contact_at;
+  return i == 0 ? resistance(motion, history) : motion.u[0] - parameters_.contact_at;
 }
 
 } // namespace gestell::mechanism

@@ -107,7 +107,7 @@ double JournalBearing::quantity(int i, const LocalMotion &motion, const double *
   case 0:
     return std::hypot(p[0], p[1]);
   case 1:
-    return std::max(-(p[0] * polar.n1 + p[1] * polar.n2), 0.);
+    return -(p[0] * polar.n1 + p[1] * polar.n2);
   case 2:
     return p[1] * polar.n1 - p[0] * polar.n2;
   case 3:

@@ -57,7 +57,7 @@ double PointContact::quantity(int i, const LocalMotion &motion, const double *hi
   switch (i)
   {
   case 0:
-    return -normal_.quantity(0, motion, history);
+    return p[0];
   case 1:
     return std::hypot(p[1], p[2]);
   case 2:

@@ -48,7 +48,7 @@ std::vector<Quantity> Rope::quantities() const
 
 double Rope::quantity(int i, const LocalMotion &motion, const double *history) const
 {
-  return i == 0 ? std::max(resistance(motion, history), 0.) : motion.u[0] - parameters_.slack;
+  return i == 0 ? resistance(motion, history) : motion.u[0] - parameters_.slack;
 }
 
 } // namespace gestell::mechanism

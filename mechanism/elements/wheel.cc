@@ -59,7 +59,7 @@ double Wheel::quantity(int i, const LocalMotion &motion, const double *history) 
     return -motion.u[0];
   double p;
   force(motion, history, &p);
-  return parameters_.bilateral ? p : std::max(p, 0.);
+  return p;
 }
 
 } // namespace gestell::mechanism

@@ -1,9 +1,6 @@
 // A single stop: one side of a play, and the restitution of its law.
 
 #include "mechanism/elements/clearance.h"
-#include "mechanism/elements/cutting_force.h"
-#include "mechanism/elements/rope.h"
-#include "mechanism/elements/wheel.h"
 #include "tests/support/element_probe.h"
 #include "tests/support/test.h"
 
@@ -36,28 +33,6 @@ TEST(Stop, MayStandOnTheOtherSideOfZero)
   EXPECT_NEAR(force(pressed, probe1(0., 0.), started(pressed, probe1(0., 0.)).data())[0], -1e3, 1e-9);
   EXPECT_NEAR(force(below, probe1(0., 0.), started(below, probe1(0., 0.)).data())[0], 1e3, 1e-9);
   EXPECT_EQ(force(pressed, probe1(-2e-3, 0.), started(pressed, probe1(-2e-3, 0.)).data())[0], 0.);
-}
-
-/// An event is located to rounding, by which a law that goes on smoothly would pull.
-TEST(OneSidedElements, TellNoPullWhereAnEventIsARoundingErrorOutside)
-{
-  const Clearance    play({5e-5, 1e9, 4.}), above({5e-5, 1e9, 4., Stops::above}), below({5e-5, 1e9, 4., Stops::below});
-  const Rope         rope({1e9, 1e3, 5e-5});
-  const Wheel        wheel({1e9, 1e3});
-  const CuttingForce tool({1e5, 1e-3, 5e-5});
-  const auto         told = [](const mechanism::Element &element, double inside, double outside)
-  {
-    const Eigen::VectorXd history = started(element, probe1(inside, 0.));
-    EXPECT_NE(element.quantity(0, probe1(inside, 0.).motion(true), history.data()), 0.);
-    return element.quantity(0, probe1(outside, 0.).motion(true), history.data());
-  };
-  EXPECT_EQ(told(play, 6e-5, 5e-5 - 1e-14), 0.);
-  EXPECT_EQ(told(play, -6e-5, -5e-5 + 1e-14), 0.);
-  EXPECT_EQ(told(above, 6e-5, 5e-5 - 1e-14), 0.);
-  EXPECT_EQ(told(below, -6e-5, -5e-5 + 1e-14), 0.);
-  EXPECT_EQ(told(rope, 6e-5, 5e-5 - 1e-14), 0.);
-  EXPECT_EQ(told(tool, 6e-5, 5e-5 - 1e-14), 0.);
-  EXPECT_EQ(told(wheel, -1e-5, 1e-14), 0.);
 }
 
 TEST(Stop, TellsTouchDownAndLiftOff)
