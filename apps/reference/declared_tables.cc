@@ -4,6 +4,7 @@
 #include "apps/scene/elements/element_types.h"
 #include "apps/scene/joints/compliance.h"
 #include "apps/scene/joints/joint_friction.h"
+#include "apps/scene/joints/joint_types.h"
 #include "apps/scene/read/frame/geometry_keys.h"
 #include "apps/scene/read/frame/matrix_keys.h"
 #include "apps/scene/read/frame/read_frame.h"

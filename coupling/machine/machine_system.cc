@@ -224,12 +224,15 @@ void MachineEvents::transition(int i, const LocalState &state)
 
 namespace
 {
+constexpr double astray = 1e100; ///< of a motion that has run away, whose energy overflows
+
 [[noreturn]] void throw_without_energy(const std::string &element, const LocalState &state, int measure)
 {
   std::ostringstream message;
   message << "\"" << element << "\" has no finite energy at t = " << state.t << ", u = " << state.u[measure]
-          << ", u' = " << state.v[measure] << " (SI units), as a gas whose piston has come to the end of its cylinder; "
-          << "check its place and the loads on it, or end the run before";
+          << ", u' = " << state.v[measure]
+          << " (SI units), the end of the range of its law, as for the piston of a gas at "
+          << "the end of its cylinder; check its place and the loads on it, or end the run before";
   throw ConvergenceFailure(message.str());
 }
 } // namespace
@@ -241,7 +244,7 @@ double MachineEnergy::stored(const LocalState &state) const
     if (part.law)
     {
       const double own = part.law->stored_energy(part.motion(state, parts_.by_history), parts_.history_of(part));
-      if (!std::isfinite(own))
+      if (!std::isfinite(own) && std::abs(state.u[part.first_measure]) < astray)
         throw_without_energy(part.name, state, part.first_measure);
       energy += own;
     }

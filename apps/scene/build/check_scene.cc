@@ -94,8 +94,11 @@ void require_free_motion(const Scene &scene, coupling::Machine &machine, const c
     throw std::invalid_argument(scene.element_places.at(conflict.element) + ": " + conflict.words);
   coupling::LocalState local;
   local.resize(machine);
+  machine.events().follow_history(true); // which sticking_conflict() has begun: kinks have the sides of the run
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
-  if (const coupling::LawWithoutValue none = coupling::law_without_value(machine, local); !none.element.empty())
+  const coupling::LawWithoutValue none = coupling::law_without_value(machine, local);
+  machine.events().follow_history(false);
+  if (!none.element.empty())
   {
     const auto place = scene.element_places.find(none.element);
     throw std::invalid_argument((place == scene.element_places.end() ? scene.run.place : place->second) + ": " +

@@ -18,7 +18,7 @@ struct LawWithoutValue
 /// @param state  t, u, u', u''; p of measures that stick
 LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalState &state);
 
-/// @throws ConvergenceFailure with its words if there is one
+/// @throws ConvergenceFailure with its words if there is one, unless the motion itself has run away
 void require_law_values(const SecondOrderSystem &system, const LocalState &state);
 
 } // namespace gestell::coupling
