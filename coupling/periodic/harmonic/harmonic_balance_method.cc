@@ -7,7 +7,6 @@
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shift_invariance.h"
 #include "coupling/periodic/shooting/shooting_method.h"
-#include "fem/values/available_memory.h"
 
 #include <cmath>
 #include <sstream>
@@ -222,12 +221,7 @@ void require_unknowns(const PeriodicProblem &problem, int harmonics)
   const auto   n_u = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
   const double n   = double(n_u) * (2. * harmonics + 1.);
   if (n <= most_asked)
-  {
-    if (harmonics > 0)
-      fem::require_available("harmonic balance: the equations of " + std::to_string(harmonics) + " harmonics",
-                             16. * n * n + 128. * n, "Request fewer harmonics, or omit their number.");
     return;
-  }
   std::ostringstream text;
   text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are " << n << " unknowns; at most "
        << most_asked << " are possible: request at most " << (most_asked / n_u - 1) / 2 << " harmonics";
