@@ -69,12 +69,6 @@ TEST(FrfCommand, RefusesOddInputWithTheWayOut)
   const auto   refused = [&](const std::string &options, const std::vector<std::string> &words)
   { expect_answer(gestell(press + options + folder.option()), 2, words); };
   refused("--to slide", {"--from is missing"});
-<<<<<<< HEAD
-=======
-  refused("--from slide", {"--to is missing"});
-  refused("--from slid --to slide", {"--from", "slide"});
-  refused("--from rod.force --to slide", {"not a displacement or an angle"});
->>>>>>> 79f7e003 (coupling: messages say what is wrong and what to do; tests quote them)
   refused("--from slide --to slide --kind compliance", {"--kind"});
   refused("--from slide --to slide --measured nowhere.csv", {"nowhere.csv", "cannot be read"});
   EXPECT_FALSE(std::filesystem::exists(folder.results() / "summary.json"));
