@@ -114,7 +114,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
 
 void check_options(const PeriodicRequest &request, const coupling::PeriodicMethod &method)
 {
-  if (const std::string none = method.follows_none(); !request.along.empty() && !none.empty())
+  if (const std::string none = coupling::why_no_branch(method); !request.along.empty() && !none.empty())
     throw std::invalid_argument("--along: " + none);
   if (request.check == method.name())
     throw std::invalid_argument("--check " + method.name() + ": the motion is found by " + method.name() +

@@ -27,7 +27,7 @@ using coupling::PeriodicSolution;
 std::unique_ptr<coupling::BranchEquations> equations_for(const SceneFamily &family, const PeriodicSolution &first,
                                                          const coupling::PeriodicOptions &options, int repeats)
 {
-  return coupling::periodic_method(first.method).branch(family.problems(), first, options, repeats);
+  return coupling::branch_from(first, family.problems(), options, repeats);
 }
 
 /// The branches that leave at a special motion, of `repeats` periods; at a doubling after twice as many.

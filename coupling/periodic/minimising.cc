@@ -167,12 +167,7 @@ public:
   {
     return {{"starts", "of minimise (default " + std::to_string(usual_starts) + ")", 1., 1e6}, lead_in_option()};
   }
-  bool                             integrates() const override { return true; }
-  std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
-                                          const PeriodicOptions &options, int ratio) const override
-  {
-    return shooting_branch(family, options, 2. * M_PI / first.period, ratio);
-  }
+  bool                          integrates() const override { return true; }
   bool                          finds_all() const override { return true; }
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;

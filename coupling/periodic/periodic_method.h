@@ -1,10 +1,8 @@
 #pragma once
 
-#include "coupling/periodic/followed_equations.h"
 #include "coupling/periodic/periodic_problem.h"
 #include "coupling/periodic/periodic_solution.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -55,12 +53,6 @@ public:
   /// @throws NoPeriodicMotion, ConvergenceFailure
   virtual std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                               const PeriodicOptions &options) const = 0;
-
-  /// Why it cannot follow a branch, and an alternative; empty: it can.
-  virtual std::string follows_none() const { return ""; }
-  /// Equations of a branch from `first` on, whose motions repeat after `ratio` times the period of the family.
-  virtual std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
-                                                  const PeriodicOptions &options, int ratio) const = 0;
 };
 
 /// "lead-in": periods that lead_in() integrates.

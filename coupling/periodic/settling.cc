@@ -233,13 +233,8 @@ public:
     return "Integrates period by period until (5.5.4/1) is satisfied, optionally with more damping at first; a second "
            "initial state searches for another solution.";
   }
-  std::string                      refuses(const PeriodicProblem &) const override { return ""; }
-  bool                             integrates() const override { return true; }
-  std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
-                                          const PeriodicOptions &options, int ratio) const override
-  {
-    return shooting_branch(family, options, 2. * M_PI / first.period, ratio);
-  }
+  std::string                 refuses(const PeriodicProblem &) const override { return ""; }
+  bool                        integrates() const override { return true; }
   std::vector<PeriodicOption> options() const override
   {
     return {{"damping", "of settling: damping ratio added to the lowest mode at first", 0., 1e6, false}};

@@ -64,12 +64,12 @@ std::optional<ComplianceRequest> read_compliance(const SceneTable &any, const Jo
   if (!given)
     return std::nullopt;
   if (!any.declared(type.keys).declares("stiffness"))
-    throw table.error(given,
+    throw any.error(given,
                       "makes a joint of two places yield, not a \"" + type.name +
                           "\"; for that use a spring-damper `on` a [measure] of type " +
                           (type.drawn == JointType::Drawn::bar ? "\"distance\"" : "\"sum\" or \"position function\""));
   if (!table.has("stiffness"))
-    throw table.error("needs 'stiffness' beside '" + std::string(given) + "'; a joint without any is ideal");
+    throw any.error("needs 'stiffness' beside '" + std::string(given) + "'; a joint without any is ideal");
   if (any.has("friction"))
     throw any.error("friction", "is that of an ideal joint, whose force closes it; beside a compliant one put an "
                                 "element of type \"friction\", or use a \"journal bearing\"");
@@ -77,7 +77,7 @@ std::optional<ComplianceRequest> read_compliance(const SceneTable &any, const Jo
   compliance.stiffness = read_directed(table, "stiffness", kind::stiffness, compliance);
   compliance.damping   = read_directed(table, "damping", kind::damping, compliance);
   if (compliance.stiffness == Vector3{})
-    throw table.error("stiffness", "is zero in every direction, so that the joint would hold nothing; leave it out");
+    throw any.error("stiffness", "is zero in every direction, so that the joint would hold nothing; leave it out");
   return compliance;
 }
 

@@ -16,9 +16,7 @@ bool is_finite(const LocalState &state)
 
 std::string non_finite_state_message(const SecondOrderSystem &system, const LocalState &state)
 {
-  if (state.u.allFinite() && state.v.allFinite())
-    if (const LawWithoutValue none = law_without_value(system, state); !none.element.empty())
-      return none.words;
+  const std::string  law = law_words(system, state);
   std::ostringstream message;
   message << "there is no finite number at t = " << state.t << " s for ";
   for (const auto &[values, what] :
@@ -27,8 +25,8 @@ std::string non_finite_state_message(const SecondOrderSystem &system, const Loca
       if (!std::isfinite((*values)[i]))
       {
         const Eigen::SparseMatrix<double>::InnerIterator acts(system.forces().directions(), i);
-        message << what << (acts ? system.linear().coordinate_name(int(acts.row())) : "a measure")
-                << "; a formula or law gives none there, or the motion grew beyond all numbers";
+        message << what << (acts ? system.linear().coordinate_name(int(acts.row())) : "a measure") << "; "
+                << (law.empty() ? "the motion grew beyond all numbers" : law);
         return message.str();
       }
   message << "the forces of joints; the motion grew beyond all numbers";

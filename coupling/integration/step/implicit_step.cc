@@ -359,8 +359,15 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
     scale_ = scale_before_;
     forget_contraction();
     saddle_->forget_pivots();
-    require_law_values(system_, local);
-    fail(base.t);
+    try
+    {
+      fail(base.t);
+    }
+    catch (const ConvergenceFailure &failure)
+    {
+      const std::string words = law_words(system_, local);
+      throw ConvergenceFailure(failure.what() + (words.empty() ? "" : "; " + words));
+    }
   }
   condensed.solver->solve(f, x);
   find_forces(condensed, base, x, local, work);
@@ -412,8 +419,15 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
     scale_ = scale_before_; // runaway iterates are no excursions
     forget_contraction();
     levers_age_ = 0;
-    require_law_values(system_, local);
-    fail(base.t);
+    try
+    {
+      fail(base.t);
+    }
+    catch (const ConvergenceFailure &failure)
+    {
+      const std::string words = law_words(system_, local);
+      throw ConvergenceFailure(failure.what() + (words.empty() ? "" : "; " + words));
+    }
   }
 }
 

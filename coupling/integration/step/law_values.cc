@@ -35,13 +35,18 @@ LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalSt
   return {};
 }
 
-void require_law_values(const SecondOrderSystem &system, const LocalState &state)
+std::string law_words(const SecondOrderSystem &system, const LocalState &state)
 {
   constexpr double astray = 1e100; // no machine gets there, and powers of it overflow: the iteration ran away
-  if (state.u.lpNorm<Eigen::Infinity>() > astray || state.v.lpNorm<Eigen::Infinity>() > astray)
-    return;
-  if (const LawWithoutValue none = law_without_value(system, state); !none.element.empty())
-    throw ConvergenceFailure(none.words);
+  if (!(state.u.lpNorm<Eigen::Infinity>() < astray && state.v.lpNorm<Eigen::Infinity>() < astray))
+    return "";
+  return law_without_value(system, state).words;
+}
+
+void require_law_values(const SecondOrderSystem &system, const LocalState &state)
+{
+  if (const std::string words = law_words(system, state); !words.empty())
+    throw ConvergenceFailure(words);
 }
 
 } // namespace gestell::coupling

@@ -18,7 +18,9 @@ struct LawWithoutValue
 /// @param state  t, u, u', u''; p of measures that stick
 LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalState &state);
 
-/// @throws ConvergenceFailure with its words if there is one, unless the motion itself has run away
+/// Its words; "" where there is none, or where the motion itself has run away.
+std::string law_words(const SecondOrderSystem &system, const LocalState &state);
+/// @throws ConvergenceFailure with them if there are any
 void require_law_values(const SecondOrderSystem &system, const LocalState &state);
 
 } // namespace gestell::coupling

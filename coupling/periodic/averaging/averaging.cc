@@ -34,16 +34,6 @@ public:
   }
   std::string refuses(const PeriodicProblem &problem) const override;
   bool        integrates() const override { return false; }
-  std::string follows_none() const override
-  {
-    return "averaging cannot follow a branch; use --method harmonic-balance --harmonics 1, which has the same "
-           "equations without the limit of small changes";
-  }
-  std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
-                                          const PeriodicOptions &options, int) const override
-  {
-    return balance_branch(family, with_harmonics(options, 1));
-  }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;

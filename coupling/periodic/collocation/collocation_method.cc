@@ -1,7 +1,5 @@
 #include "coupling/periodic/collocation/collocation_method.h"
 
-#include "coupling/periodic/collocation/collocation_branch.h"
-
 #include "coupling/periodic/collocation/mesh_search.h"
 #include "coupling/periodic/settling.h"
 
@@ -24,13 +22,8 @@ public:
   {
     return why_not_propagated(*problem.system, "settling");
   }
-  std::vector<PeriodicOption>      options() const override { return {lead_in_option()}; }
-  bool                             integrates() const override { return true; }
-  std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
-                                          const PeriodicOptions &options, int ratio) const override
-  {
-    return collocation_branch(family, options, ratio);
-  }
+  std::vector<PeriodicOption>   options() const override { return {lead_in_option()}; }
+  bool                          integrates() const override { return true; }
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override
   {

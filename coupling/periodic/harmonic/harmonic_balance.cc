@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -401,6 +402,19 @@ void HarmonicBalance::state_at_begin(const VectorXd &z, VectorXd &q, VectorXd &v
     q += 2. * c.col(h).real();
     v -= 2. * h * 2. * M_PI / period_ * c.col(h).imag();
   }
+}
+
+void require_unknowns(const PeriodicProblem &problem, int harmonics)
+{
+  constexpr int most_asked = 8000; // Newton's matrix and its factor take 1 GB
+  const auto    n_u        = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
+  const double  n          = double(n_u) * (2. * harmonics + 1.);
+  if (n <= most_asked)
+    return;
+  std::ostringstream text;
+  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are " << n << " unknowns; at most "
+       << most_asked << " are possible: request at most " << (most_asked / n_u - 1) / 2 << " harmonics";
+  throw std::invalid_argument(text.str());
 }
 
 } // namespace gestell::coupling

@@ -109,4 +109,7 @@ private:
   bool                            formed_with_slopes_ = false;
 };
 
+/// @throws std::invalid_argument if the harmonics of all measures are too many unknowns
+void require_unknowns(const PeriodicProblem &problem, int harmonics);
+
 } // namespace gestell::coupling

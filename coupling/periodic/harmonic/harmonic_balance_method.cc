@@ -29,7 +29,7 @@ constexpr double poor_hill       = 1e-3;      ///< error of Hill's multipliers a
 constexpr double another_motion  = 0.3;       ///< distance of two motions, of the unknowns
 constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
 constexpr int    most_samples    = 16384;     ///< of a period: kinks leave 1e-8 of their force then
-constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500, most_asked = 8000;
+constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500;
 
 double largest_share(const VectorXd &r, const VectorXd &scale)
 {
@@ -58,17 +58,6 @@ bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd 
 }
 
 } // namespace
-
-int harmonics_of(const PeriodicOptions &options)
-{
-  return int(options.value("harmonics", 0.));
-}
-
-PeriodicOptions with_harmonics(PeriodicOptions options, int harmonics)
-{
-  options.own["harmonics"] = harmonics;
-  return options;
-}
 
 HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
 {
@@ -215,19 +204,6 @@ std::string note_of_harmonics(const HarmonicBalance &balance, const HarmonicBala
 namespace
 {
 
-/// Unknowns of harmonics that were asked for.
-void require_unknowns(const PeriodicProblem &problem, int harmonics)
-{
-  const auto   n_u = std::max<Eigen::Index>(1, problem.system->forces().directions().cols());
-  const double n   = double(n_u) * (2. * harmonics + 1.);
-  if (n <= most_asked)
-    return;
-  std::ostringstream text;
-  text << "harmonic balance: " << harmonics << " harmonics of " << n_u << " measures are " << n << " unknowns; at most "
-       << most_asked << " are possible: request at most " << (most_asked / n_u - 1) / 2 << " harmonics";
-  throw std::invalid_argument(text.str());
-}
-
 class HarmonicBalanceMethod final : public PeriodicMethod
 {
 public:
@@ -244,12 +220,7 @@ public:
     return {{"harmonics", "of harmonic balance (default: until the truncation error is small)", 1., 1e4},
             lead_in_option()};
   }
-  bool                             integrates() const override { return false; }
-  std::unique_ptr<BranchEquations> branch(const ProblemFamily   &family, const PeriodicSolution &,
-                                          const PeriodicOptions &options, int) const override
-  {
-    return balance_branch(family, options);
-  }
+  bool integrates() const override { return false; }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override;

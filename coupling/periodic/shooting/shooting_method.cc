@@ -217,13 +217,8 @@ public:
   {
     return why_not_propagated(*problem.system, "settling");
   }
-  std::vector<PeriodicOption>      options() const override { return {lead_in_option()}; }
-  bool                             integrates() const override { return true; }
-  std::unique_ptr<BranchEquations> branch(const ProblemFamily &family, const PeriodicSolution &first,
-                                          const PeriodicOptions &options, int ratio) const override
-  {
-    return shooting_branch(family, options, 2. * M_PI / first.period, ratio);
-  }
+  std::vector<PeriodicOption> options() const override { return {lead_in_option()}; }
+  bool                        integrates() const override { return true; }
 
   std::vector<PeriodicSolution> solve(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                       const PeriodicOptions &options) const override

@@ -41,7 +41,7 @@ TEST(InertiaReliefOfAMachine, BalancesLoadsByItsAcceleration)
   EXPECT_NEAR(state.q[2] - state.q[1], 6. / 2000., 1e-12);
   EXPECT_NEAR(state.q[0] + 2. * state.q[1] + 3. * state.q[2], 0., 1e-12);
   ASSERT_EQ(state.notes.size(), 1u);
-  EXPECT_NE(state.notes[0].find("in 1 motion;"), std::string::npos) << state.notes[0];
+  EXPECT_NE(state.notes[0].find("in 1 rigid-body mode;"), std::string::npos) << state.notes[0];
   EXPECT_NE(state.notes[0].find("mean acceleration of [2, 0, 0] m/s^2"), std::string::npos) << state.notes[0];
 }
 

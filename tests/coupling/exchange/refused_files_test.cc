@@ -159,7 +159,7 @@ TEST_F(Refused, SystemsOfNodesOtherThanTheGlobalOne)
   expect_places("*INSTANCE,NAME=I,PART=P\n5.,0.,0.\n*NODE\n1,0.,0.,0.\n", {"model.txt:2", "*INSTANCE moves"});
   expect_places("NBLOCK,6,SOLID\n(3i9,6e21.13e3)\n        1        0        0 0.0000000000000E+000 "
                 "0.0000000000000E+000 0.0000000000000E+000 3.0000000000000E+001\n",
-                {"turned", "NROTAT"});
+                {"rotated", "NROTAT"});
   expect_places("NBLOCK,6\nnone\n", {"format of the nodes"});
   EXPECT_EQ(tests::refusal([&] { coupling::read_model_nodes(folder.write("m", "GRID,9,5,0.,0.,0.,7\n"), {1}); }), "")
       << "a node without rows may be in any system";

@@ -180,7 +180,7 @@ TEST(Averaging, RefusesWhatItCannotAverage)
   CubicSystem other = duffing_system(duffing_cases.at("duffing1"));
   problem           = problem_of_period(other, 1.);
   problem.turn[0]   = 6.;
-  EXPECT_THAT(averaging_method().refuses(problem), testing::HasSubstr("turns"));
+  EXPECT_THAT(averaging_method().refuses(problem), testing::HasSubstr("rotating"));
 }
 
 } // namespace gestell::tests

@@ -81,7 +81,7 @@ TEST_F(Extremes, AtAnEventThatAreZeroButForItsLocationHaveNone)
   EXPECT_TRUE(std::isnan(outputs[0].derivative[0]));
   EXPECT_TRUE(std::isnan(outputs[1].derivative[0]));
   EXPECT_TRUE(outputs[0].is_zero);
-  EXPECT_THAT(outputs[0].note, ::testing::HasSubstr("located"));
+  EXPECT_THAT(outputs[0].note, ::testing::HasSubstr("the accuracy of its event"));
 
   // Where the signal turns, the value is as exact as the motion, and a percentage of it is none.
   auto turning = of(-2.5e-5, 19613.);
