@@ -19,13 +19,19 @@ struct Checked
 };
 
 /// Findings of the run itself, which alone have an id.
+/// Findings before a run, which its checks do not make.
+bool of_the_scene(const std::string &id)
+{
+  return id.empty() || id == "scene" || id == "magnitude";
+}
+
 Checked checked_run(const Folder &folder, const std::string &scene)
 {
   gestell("run " + scene + folder.option());
   const auto summary = nlohmann::json::parse(read(folder.results() / "summary.json"));
   Checked    run;
   for (const auto &finding : summary.at("findings"))
-    if (const std::string id = finding.at("id"); finding.at("severity") == "warning" && !id.empty())
+    if (const std::string id = finding.at("id"); finding.at("severity") == "warning" && !of_the_scene(id))
     {
       run.warnings.push_back(finding.at("text"));
       run.ids.push_back(id);

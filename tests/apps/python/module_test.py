@@ -92,7 +92,6 @@ class Runs(unittest.TestCase):
         result = short_press().run()
         self.assertIsNone(result._along)
         self.assertIsNone(result._periodic)
-        self.assertIsNone(result._responses)
 
     def test_are_of_the_scene_as_it_was_when_they_began(self):
         scene, done = short_press().set("run.end", "1 ms"), threading.Event()
