@@ -18,13 +18,13 @@ struct Checked
   std::string              failure{};
 };
 
-/// Findings of the run itself, which alone have an id.
 /// Findings before a run, which its checks do not make.
 bool of_the_scene(const std::string &id)
 {
   return id.empty() || id == "scene" || id == "magnitude";
 }
 
+/// Findings of the run itself.
 Checked checked_run(const Folder &folder, const std::string &scene)
 {
   gestell("run " + scene + folder.option());
