@@ -76,7 +76,7 @@ void note_missing_cells(Mesh &mesh, const std::map<Key, int> &surface_of, const 
     mesh.notes.push_back(std::to_string(n) + " elements of surfaces" +
                          (where < 0 ? "" : ", one at " + text(mesh.points[where]) + " m,") +
                          " lie on no cell, though others of the same surfaces do: cells are missing there, as in a "
-                         "file that was cut off; export the mesh again if they are meant");
+                         "truncated file; export the mesh again if they are intended");
 }
 
 /// Whether two cells lie on either side of a face that both have, however their corners are numbered; flat ones are

@@ -74,7 +74,7 @@ TEST(InpSets, OfMoreMembersThanAFileCanMeanAreRefused)
     text << (node == 1 ? "*NODE\n" : "") << node << ", " << node << ", 0, 0\n";
   for (int set = 0; set < 700; ++set) // 700 times 2000
     text << "*NSET, NSET=S" << set << ", GENERATE\n1, 2000\n";
-  EXPECT_THAT(mesh_refusal(text.str()), HasSubstr("more than 1200000 nodes together"));
+  EXPECT_THAT(mesh_refusal(text.str()), HasSubstr("more than 1200000 nodes in total"));
 }
 
 TEST(InpMesh, TakesNumbersThatLieFarApartAndNoneThatNoProgramHas)
@@ -211,7 +211,7 @@ TEST(GeoScript, WithLongChainsOfIncludesIsRefused)
     write_text("chain" + std::to_string(k) + ".geo", "Include \"chain" + std::to_string(k + 1) + ".geo\";\n");
   write_text("chain100.geo", "x = 1;\n");
   EXPECT_THAT(refusal(specification(write_text("frame.geo", "Include \"chain0.geo\";\n"), 0.5)),
-              AllOf(HasSubstr("chain49.geo:1"), HasSubstr("included more than 50 deep")));
+              AllOf(HasSubstr("chain49.geo:1"), HasSubstr("included more than 50 levels deep")));
 }
 
 /// A mesh of gmsh in its format 2.2: nodes of the unit cube by bits of x, y, z, and one cell.

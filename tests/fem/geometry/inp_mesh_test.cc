@@ -90,7 +90,7 @@ TEST(InpMesh, TakesSurfacesOfElementSides)
                 AllOf(HasSubstr("mesh.inp:"), HasSubstr("GENERATE from 1 to 18446744073709551615 names more"),
                       HasSubstr(kind == "NSET" ? "nodes than the 8 there are" : "elements than the 6 there are")));
   EXPECT_THAT(inp_refusal(cube() + "*NSET, NSET=ALL, GENERATE\n8, 1\n"), HasSubstr("from 8 to 1"));
-  EXPECT_THAT(inp_refusal(cube() + "*SURFACE, NAME=X\n1, S5\n"), HasSubstr("S5 is no side of element 1"));
+  EXPECT_THAT(inp_refusal(cube() + "*SURFACE, NAME=X\n1, S5\n"), HasSubstr("S5 is not a side of element 1"));
 }
 
 TEST(InpMesh, OfSolidSectionsNamesSolidsByThem)

@@ -96,7 +96,7 @@ TEST(StepFile, WithAnOpenShellIsRefusedWithTheEdgesThatAreOpen)
   EXPECT_THAT(step_refusal(opened(text_of_cubes(0.))),
               AllOf(HasSubstr("no closed solid, only 5 faces"), HasSubstr("open at 4 edges"), HasSubstr("sew")));
   EXPECT_THAT(step_refusal(opened(text_of_cubes(100.))),
-              AllOf(HasSubstr("describes 2 solids, but only 1 are closed"), HasSubstr("5 faces that bound no solid"),
+              AllOf(HasSubstr("contains 2 solids, but only 1 are closed"), HasSubstr("5 faces that bound no solid"),
                     HasSubstr("open at 4 edges")));
 }
 
