@@ -17,7 +17,6 @@ namespace gestell::coupling
 
 namespace
 {
-
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -56,8 +55,18 @@ bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd 
   }
   return false;
 }
-
 } // namespace
+
+int harmonics_of(const PeriodicOptions &options)
+{
+  return int(options.value("harmonics", 0.));
+}
+
+PeriodicOptions with_harmonics(PeriodicOptions options, int harmonics)
+{
+  options.own["harmonics"] = harmonics;
+  return options;
+}
 
 HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
 {
@@ -106,7 +115,6 @@ PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalan
 
 namespace
 {
-
 /// Of the motion that starts where the series does; where that does not close, of the one near it that does.
 void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &solution)
 {
@@ -171,7 +179,6 @@ void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, 
   if (std::max(hill.left_out, shift) > poor_hill)
     multipliers_by_a_period(problem, solution);
 }
-
 } // namespace
 
 PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const VectorXd &z,
@@ -203,7 +210,6 @@ std::string note_of_harmonics(const HarmonicBalance &balance, const HarmonicBala
 
 namespace
 {
-
 class HarmonicBalanceMethod final : public PeriodicMethod
 {
 public:
@@ -430,7 +436,6 @@ std::vector<PeriodicSolution> HarmonicBalanceMethod::solve(const PeriodicProblem
   search.sample_finely();
   return {search.solution()};
 }
-
 } // namespace
 
 const PeriodicMethod &harmonic_balance_method()
