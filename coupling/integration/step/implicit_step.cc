@@ -169,10 +169,8 @@ void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd 
         p[block.first_measure + i] += *value++ * xi[block.first_measure + j];
 }
 
-/// Floors: the way of one step, so that a motion from rest has a scale at once, and what rounding in u leaves; of the
-/// measures of joints, what rounding in g = G u leaves, the difference of numbers as large as the block tells; other
-/// elements act on bodies that joints carry, and get their share.  G turns so little that
-/// once in some steps is enough.
+/// Floors: the distance moved in one step, so that a motion from rest has a scale at once, and the rounding of u; for
+/// joints the rounding of g = G u, a share of which other elements on the same bodies get.  G turns slowly.
 void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too)
 {
   const double left = rounding / options_.tolerance;
@@ -208,9 +206,8 @@ double ImplicitStep::size_of_correction() const
   return size.cwiseQuotient(scale_.cwiseMax(size).cwiseMax(std::numeric_limits<double>::min())).maxCoeff();
 }
 
-/// What a correction leaves, by what the one before it left.  Newton's corrections shrink the faster the smaller they
-/// are; one that is larger than that seen last is thought to leave more in proportion.  Of one that has suddenly grown,
-/// as where a law bends, and where nothing has been seen yet, only the next one tells.
+/// Error after a correction, from the contraction of the one before it.  Newton's corrections shrink faster the smaller
+/// they are; a larger one leaves more in proportion.  After a sudden growth, and at first, the next one decides.
 double ImplicitStep::remaining(int iteration, double size, double size_before)
 {
   double contraction = contraction_;
@@ -235,8 +232,7 @@ double ImplicitStep::remaining(int iteration, double size, double size_before)
   return std::min(size, left);
 }
 
-/// A share of the first correction is taken for each measure by itself: in the first iteration that of the largest one
-/// says the same of all.
+/// In the first iteration the share of the largest correction holds for all measures.
 bool ImplicitStep::is_converged(int iteration, double size, double remaining) const
 {
   if (remaining <= options_.tolerance)
