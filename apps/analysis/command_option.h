@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-/// An option of a command, as it is typed, told and checked.
+/// An option of a command, with its name, description and checks.
 struct CommandOption
 {
   using Value = std::variant<bool *, int *, double *, std::string *, std::vector<std::string> *, std::vector<int> *,
@@ -41,7 +41,7 @@ struct CommandOption
   std::string key() const;
 
   /// From texts as they are typed, several of a list; a flag by true, false, True, False, 1, 0 and "".
-  /// @throws std::invalid_argument if they are no number in the range, or none of the choices
+  /// @throws std::invalid_argument if a number is invalid or out of range, or for an unknown choice
   void set(const std::vector<std::string> &texts) const;
 };
 

@@ -24,7 +24,7 @@ public:
   JsonAnswer &operator=(const JsonAnswer &) = delete;
 
   bool wanted() const { return wanted_; }
-  /// Why there is no answer, as people are told.
+  /// Why there is no answer, as printed in the terminal.
   void failed(const std::string &message) { failure_ = message; }
   /// Writes the document, and nothing more.
   void finish(const std::string &command, int exit_code);
@@ -39,10 +39,10 @@ private:
   std::string               failure_;
 };
 
-/// What a command answers, as JSON text, made only where somebody asked for it; the last one counts.
+/// What a command answers, as JSON text, made only on request; the last one is used.
 bool answers_in_json();
 void answer_with(const std::string &json);
-/// Why an answer ends early, as people are told.
+/// Why an answer ends early, as printed in the terminal.
 void error_in_json(const std::string &message);
 
 } // namespace gestell::apps

@@ -23,6 +23,7 @@
 #include "apps/session/story/swing_shares.h"
 #include "apps/session/stress_answer.h"
 #include "coupling/periodic/period_flow.h"
+#include "coupling/periodic/settling.h"
 
 #include <algorithm>
 #include <ctime>

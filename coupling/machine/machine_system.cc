@@ -1,5 +1,6 @@
 #include "coupling/machine/machine_system.h"
 
+#include "coupling/integration/step/law_values.h"
 #include "coupling/machine/dense_base.h"
 #include "coupling/machine/sparse_base.h"
 
@@ -224,8 +225,6 @@ void MachineEvents::transition(int i, const LocalState &state)
 
 namespace
 {
-constexpr double astray = 1e100; ///< of a motion that has run away, whose energy overflows
-
 [[noreturn]] void throw_without_energy(const std::string &element, const LocalState &state, int measure)
 {
   std::ostringstream message;
@@ -244,7 +243,7 @@ double MachineEnergy::stored(const LocalState &state) const
     if (part.law)
     {
       const double own = part.law->stored_energy(part.motion(state, parts_.by_history), parts_.history_of(part));
-      if (!std::isfinite(own) && std::abs(state.u[part.first_measure]) < astray)
+      if (!std::isfinite(own) && std::abs(state.u[part.first_measure]) < beyond_machines)
         throw_without_energy(part.name, state, part.first_measure);
       energy += own;
     }

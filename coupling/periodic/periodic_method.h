@@ -55,9 +55,4 @@ public:
                                               const PeriodicOptions &options) const = 0;
 };
 
-/// "lead-in": periods that lead_in() integrates.
-PeriodicOption lead_in_option();
-/// The options without lead-in: the search begins at the guess.
-PeriodicOptions without_lead_in(PeriodicOptions options);
-
 } // namespace gestell::coupling

@@ -14,6 +14,11 @@ std::string why_not_propagated(const SecondOrderSystem &system, const std::strin
 /// becomes the guess.
 void lead_in(PeriodFlow &flow, const PeriodicProblem &problem, const PeriodicOptions &options, PeriodicGuess &guess);
 
+/// "lead-in": the option for its number of periods.
+PeriodicOption lead_in_option();
+/// The options without lead-in: the search begins at the guess.
+PeriodicOptions without_lead_in(PeriodicOptions options);
+
 /**
  * Integrates period by period until (5.5.4/1) is satisfied within the tolerance, and returns the number of periods. The
  * solution is stable, and one of possibly several.

@@ -10,12 +10,12 @@ namespace gestell::apps
 {
 
 /**
- * Orders of the first rotor whose angle or speed is a signal of the scene: every signal sampled anew at equal angles
+ * Orders of the first rotor whose angle or speed is a signal of the scene: every signal resampled at equal angles
  * phi, and fitted over windows of four turns, one turn apart or more,
  *
  *     y = a + b phi + c phi^2 + sum_k (C_k cos k phi + S_k sin k phi),     A_k = hypot(C_k, S_k),
  *
- * by least squares weighted after Hann.
+ * by least squares with Hann weights.
  *
  * So many orders as the rows of the history resolve by three samples of each period, at most eight.  Nothing where no
  * rotor is told, or it does not turn in one direction for sixteen turns at least.

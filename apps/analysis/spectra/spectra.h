@@ -9,7 +9,7 @@
 namespace gestell::apps
 {
 
-/// Amplitudes of a sum of cosines, in a window after Hann:
+/// Amplitudes of a sum of cosines, in a Hann window:
 ///
 ///     A(k) = 2 / sum(w) |sum_j w_j (y_j - mean) exp(-2 pi i j k / n)|,   k = 0 .. n / 2,
 ///

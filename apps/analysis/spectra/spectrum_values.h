@@ -16,7 +16,7 @@ struct SignalSpectrum
   std::vector<double> amplitudes; ///< of frequency k times the resolution, k = 0, 1, ...
 };
 
-/// Spectra of signals over a run, in one window after Hann.
+/// Spectra of signals over a run, in one Hann window.
 struct Spectra
 {
   double                      begin = 0., end = 0.; ///< [s] of the window
@@ -42,7 +42,7 @@ struct Waterfall
   std::vector<std::vector<double>> amplitudes;                ///< by speed, then by frequency
 };
 
-/// Signals of a run, sampled anew over the angle of a rotor and split into its orders.
+/// Signals of a run, resampled over the angle of a rotor and split into its orders.
 struct OrderTracking
 {
   std::string                rotor;

@@ -21,7 +21,7 @@ struct ResultFile
 {
   std::string name;
   std::string holds; ///< one clause, in Markdown
-  /// What stands in it; empty: `result` has nothing for it.  Null: written by what makes several files at once.
+  /// Its content; empty: `result` has none.  Null: it is written together with other files.
   std::string (*content)(const Result &result) = nullptr;
   std::string folder{}, ending{}; ///< that hold what the file names, "motion" and ".vtp"
   /// Of a name with a star, "orbit_*.csv": names and contents of all such files.

@@ -170,7 +170,8 @@ void ImplicitStep::add_tangent_times(const Eigen::VectorXd &xi, Eigen::VectorXd 
 }
 
 /// Floors: the distance moved in one step, so that a motion from rest has a scale at once, and the rounding of u; for
-/// joints the rounding of g = G u, a share of which other elements on the same bodies get.  G turns slowly.
+/// joints the rounding of g = G u, a share of which other elements on the same bodies get.  G changes so little
+/// that it is evaluated once in several steps.
 void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, bool of_joints_too)
 {
   const double left = rounding / options_.tolerance;
@@ -355,15 +356,7 @@ void ImplicitStep::solve(const Condensed &condensed, const Eigen::VectorXd &f, c
     scale_ = scale_before_;
     forget_contraction();
     saddle_->forget_pivots();
-    try
-    {
-      fail(base.t);
-    }
-    catch (const ConvergenceFailure &failure)
-    {
-      const std::string words = law_words(system_, local);
-      throw ConvergenceFailure(failure.what() + (words.empty() ? "" : "; " + words));
-    }
+    fail_with_law(system_, local, [&] { fail(base.t); });
   }
   condensed.solver->solve(f, x);
   find_forces(condensed, base, x, local, work);
@@ -415,15 +408,7 @@ void ImplicitStep::find_forces(const Condensed &condensed, const LocalState &bas
     scale_ = scale_before_; // runaway iterates are no excursions
     forget_contraction();
     levers_age_ = 0;
-    try
-    {
-      fail(base.t);
-    }
-    catch (const ConvergenceFailure &failure)
-    {
-      const std::string words = law_words(system_, local);
-      throw ConvergenceFailure(failure.what() + (words.empty() ? "" : "; " + words));
-    }
+    fail_with_law(system_, local, [&] { fail(base.t); });
   }
 }
 

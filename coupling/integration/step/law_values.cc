@@ -1,7 +1,5 @@
 #include "coupling/integration/step/law_values.h"
 
-#include "coupling/integration/system/convergence_failure.h"
-
 #include <sstream>
 
 namespace gestell::coupling
@@ -37,8 +35,7 @@ LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalSt
 
 std::string law_words(const SecondOrderSystem &system, const LocalState &state)
 {
-  constexpr double astray = 1e100; // no machine gets there, and powers of it overflow: the iteration ran away
-  if (!(state.u.lpNorm<Eigen::Infinity>() < astray && state.v.lpNorm<Eigen::Infinity>() < astray))
+  if (!(state.u.lpNorm<Eigen::Infinity>() < beyond_machines && state.v.lpNorm<Eigen::Infinity>() < beyond_machines))
     return "";
   return law_without_value(system, state).words;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/second_order_system.h"
 
 #include <string>
@@ -18,9 +19,27 @@ struct LawWithoutValue
 /// @param state  t, u, u', u''; p of measures that stick
 LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalState &state);
 
+/// No machine gets there, and powers of it overflow: a motion or an iteration that has run away.
+constexpr double beyond_machines = 1e100;
+
 /// Its words; "" where there is none, or where the motion itself has run away.
 std::string law_words(const SecondOrderSystem &system, const LocalState &state);
 /// @throws ConvergenceFailure with them if there are any
 void require_law_values(const SecondOrderSystem &system, const LocalState &state);
+
+/// Calls what throws a ConvergenceFailure, and adds the words of a law to it.
+template <class Fail>
+void fail_with_law(const SecondOrderSystem &system, const LocalState &state, const Fail &fail)
+{
+  try
+  {
+    fail();
+  }
+  catch (const ConvergenceFailure &failure)
+  {
+    const std::string words = law_words(system, state);
+    throw ConvergenceFailure(failure.what() + (words.empty() ? "" : "; " + words));
+  }
+}
 
 } // namespace gestell::coupling

@@ -13,7 +13,7 @@ namespace gestell::coupling
 /// Switches that never act, or act before anything has moved, are seldom meant.
 void check_switches(const Machine &machine, double begin, const std::vector<Event> &events, RunOutcome &outcome);
 
-/// Kind of the finding that a switch ended the run as the scene wants, which is no failure of the computation.
+/// Kind of the finding that a switch ended the run, as the scene specifies; the computation did not fail.
 constexpr const char *ended_by_switch = "ended-by-switch";
 
 /// Statement of the switch whose orders this event is, if they end the run; else empty.

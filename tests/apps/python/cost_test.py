@@ -44,4 +44,4 @@ for what, asked in (("extremes", {"peaks": "F_P"}), ("a history", {"signals": "F
         scene.run(**asked)
     of_module = cpu(resource.RUSAGE_SELF) - begin
     print(f"{RUNS} runs with {what}: {of_module:.2f} s from Python, {of_study:.2f} s in gestell study, ratio {of_module / of_study:.2f}")
-    assert of_module < 1.5 * of_study, what  # 1.2 measured; a run that makes a report as well costs twice as much
+    assert of_module < 1.5 * of_study, what  # 1.18 to 1.25 measured beside other tests; with report and pictures a run takes ten times as long

@@ -69,7 +69,9 @@ void expect_end_before(double t, const std::string &text)
       const auto        run        = coupling::simulate(machine, apps::initial_state(scene, machine), options, found);
       EXPECT_NE(run.failure, "");
       if (!coupling::method_of(method).carries_base()) // others know it by the coordinate it acts on alone
+      {
         EXPECT_THAT(run.failure, ::testing::HasSubstr("the law of \"law\" has "));
+      }
       EXPECT_THAT(run.failure, ::testing::Not(::testing::HasSubstr("stick")));
       EXPECT_TRUE(all_finite(run.rows));
       ASSERT_GE(run.rows.size(), run.columns.size()); // a first long step may fail
