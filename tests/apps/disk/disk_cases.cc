@@ -53,7 +53,7 @@ std::string timeless(const std::string &name, const std::string &text)
     if (json.is_discarded())
       return "cut";
     Json kept = json;
-    for (const char *key : {"wall_s", "warnings", "asked"})
+    for (const char *key : {"wall_s", "warnings", "findings", "asked"})
       kept.erase(key);
     return kept.dump();
   }
