@@ -67,6 +67,9 @@ public:
     p[0]                = side() * parameters_.area * (P - parameters_.back_pressure);
   }
 
+  /// V_c/2 [m^3]: below it the law goes on along its tangent, and no piston gets.
+  double least_volume() const { return 0.5 * parameters_.clearance_volume; }
+
   void stiffest(const double *u, double *K, double *D) const override;
 
   /// history: active branch; K [Pa m^(3n)].
@@ -113,7 +116,7 @@ private:
   Number enclosed(const Number &V, double K) const
   {
     using std::pow;
-    const double n = parameters_.exponent, least = 0.5 * parameters_.clearance_volume;
+    const double n = parameters_.exponent, least = least_volume();
     if (V < least)
       return K * std::pow(least, -n) * (1. - n * (V - least) / least);
     return K * pow(V, -n);

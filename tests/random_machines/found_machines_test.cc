@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Guard, FoundMachines, ::testing::Values(7021));
 /// closes; a mode that nothing moves; friction within the tolerance; a piston at its end, and one at the wall of its
 /// gas; drives that feed each other through a prescribed motion; a play between bars of which one begins at rest.
 INSTANTIATE_TEST_SUITE_P(Judge, FoundMachines,
-                         ::testing::Values(6015, 7041, 7122, 8275, 8666, 8884, 8999, 9609, 14299, 20061));
+                         ::testing::Values(6015, 7041, 7122, 8275, 8666, 8884, 8999, 9609, 14299, 20061, 30799));
 
 } // namespace
 } // namespace gestell::tests

@@ -8,7 +8,7 @@
 #include "coupling/simulation/checks/contacts_and_switches.h"
 #include "coupling/simulation/checks/force_bandwidth_check.h"
 #include "coupling/simulation/checks/gyroscopic_moments.h"
-#include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/piston_limits.h"
 #include "coupling/simulation/checks/instantaneous_modes.h"
 #include "coupling/simulation/checks/joint_force_guard.h"
 #include "coupling/simulation/checks/step_collapse_guard.h"
@@ -202,7 +202,7 @@ std::vector<std::unique_ptr<RunObserver>> run_checks(Machine &machine, const Mot
   std::vector<std::unique_ptr<RunObserver>> checks;
   checks.push_back(std::make_unique<SwitchCheck>(machine, options.begin));
   checks.push_back(std::make_unique<WorkCheck>(motion, options));
-  checks.push_back(std::make_unique<HydraulicLimits>(machine, integrator));
+  checks.push_back(std::make_unique<PistonLimits>(machine, integrator));
   if (!options.force_unstable)
     checks.push_back(std::make_unique<StiffnessCheck>(machine, integrator, initial, method));
   checks.push_back(std::make_unique<ForceBandwidthCheck>(machine, integrator));

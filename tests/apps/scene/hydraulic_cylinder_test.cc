@@ -195,6 +195,18 @@ TEST(HydraulicCylinder, TheEndOfItsStrokeIsWarnedOfWithItsTime)
   EXPECT_TRUE(std::isnan(warned_at(motion, "the end of its stroke on the side of chamber A")));
 }
 
+// At 1 m/s half of the clearance volume, 1e-5 m^3 on 1e-3 m^2, is left 5 mm behind the dead centre; the open valve
+// would let the piston through the head.
+TEST(GasForce, TheEndOfItsStrokeIsWarnedOfWithItsTime)
+{
+  const auto motion = run(slider(1e6, "107 ms") + "[element.gas]\ntype = \"gas force\"\nfrom = \"slide\"\n"
+                                                  "area = 1e-3\nclearance_volume = 1e-5\nsuction_pressure = \"1 bar\"\n"
+                                                  "delivery_pressure = \"2 bar\"\n[start]\nrule = \"given\"\n"
+                                                  "q = { slide = 0.1 }\nv = { slide = -1 }\n",
+                          {"run.step=0.1 ms", "output.picture_step=0"});
+  EXPECT_NEAR(warned_at(motion, "gas: the piston comes to the end of its stroke"), 0.105, 1e-6); // 200 N on 1e6 kg
+}
+
 TEST(HydraulicCylinder, BadInputAndMethodsAreRefused)
 {
   expect_complaint(slider(1., "1 s") + cylinder(""), "'flow'");

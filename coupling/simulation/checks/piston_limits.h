@@ -10,12 +10,12 @@
 namespace gestell::coupling
 {
 
-/// Looks at the hydraulic cylinders of a machine after every step: for pressures below zero, at which oil cavitates,
-/// and pistons at the end of their stroke, none of which their law knows.
-class HydraulicLimits : public RunObserver
+/// Checks cylinders of oil and of gas after every step: pressures of oil below zero, at which it cavitates, and pistons
+/// at the end of their stroke.  Their laws know neither.
+class PistonLimits : public RunObserver
 {
 public:
-  HydraulicLimits(const Machine &machine, const TimeIntegrator &integrator);
+  PistonLimits(const Machine &machine, const TimeIntegrator &integrator);
 
   void begin() override { step(); }
   void step() override;
@@ -30,7 +30,7 @@ private:
   {
     Signal      signal;
     double      sign = 1., offset = 0.;
-    std::string object, what, advice;
+    std::string object, id, what, advice;
     double      t = 0., value = 0.; ///< of the step before
     bool        known = false, passed = false;
     double      first = 0., lowest = 0.;

@@ -1,7 +1,8 @@
-#include "coupling/simulation/checks/hydraulic_limits.h"
+#include "coupling/simulation/checks/piston_limits.h"
 #include "coupling/integration/system/state_archive.h"
 
 #include "coupling/machine/element_law.h"
+#include "mechanism/elements/gas_force.h"
 #include "mechanism/elements/hydraulic_cylinder.h"
 
 #include <algorithm>
@@ -15,38 +16,43 @@ namespace
 constexpr double last_part = 0.01; // of both oil columns together: as near to an end as a piston gets
 } // namespace
 
-HydraulicLimits::HydraulicLimits(const Machine &machine, const TimeIntegrator &integrator)
+PistonLimits::PistonLimits(const Machine &machine, const TimeIntegrator &integrator)
     : machine_(machine), integrator_(integrator)
 {
   for (const ElementPlacement &placement : machine.model().elements())
   {
-    const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
-    if (!cylinder)
-      continue;
-    const auto add =
-        [&](const std::string &quantity, double sign, double offset, const std::string &what, const std::string &advice)
+    const auto add = [&](const std::string &quantity, double sign, double offset, const std::string &id,
+                         const std::string &what, const std::string &advice)
     {
       Limit limit;
       limit.signal = machine.signal(quantity, placement.name + "." + quantity);
       limit.sign   = sign;
       limit.offset = offset;
       limit.object = placement.name;
+      limit.id     = id;
       limit.what   = what;
       limit.advice = advice;
       limits_.push_back(limit);
     };
+    const std::string end = "the piston comes to the end of its stroke";
+    if (const auto *gas = law_of<mechanism::GasForce>(placement))
+      add("volume", 1., -gas->least_volume(), "gas-stroke", end,
+          "its law knows no end: put a \"stop\" there, or raise 'clearance_volume'");
+    const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
+    if (!cylinder)
+      continue;
     const double a = cylinder->lower_end(), b = cylinder->upper_end(), near = last_part * (b - a);
     for (const std::string chamber : {"a", "b"})
-      add("pressure_" + chamber, 1., 0.,
+      add("pressure_" + chamber, 1., 0., "hydraulic-pressure",
           "the pressure in chamber " + std::string(chamber == "a" ? "A" : "B") + " falls below zero",
           "oil cavitates there, but its column is taken to pull: raise the pressure, or hold the load");
     const std::string stop = "its law knows no end: put a \"stop\" there, or feed less oil";
-    add("stroke", 1., -a - near, "the piston comes to the end of its stroke on the side of chamber A", stop);
-    add("stroke", -1., b - near, "the piston comes to the end of its stroke on the side of chamber B", stop);
+    add("stroke", 1., -a - near, "hydraulic-stroke", end + " on the side of chamber A", stop);
+    add("stroke", -1., b - near, "hydraulic-stroke", end + " on the side of chamber B", stop);
   }
 }
 
-void HydraulicLimits::step()
+void PistonLimits::step()
 {
   if (limits_.empty())
     return;
@@ -67,7 +73,7 @@ void HydraulicLimits::step()
   }
 }
 
-void HydraulicLimits::finish(RunOutcome &outcome)
+void PistonLimits::finish(RunOutcome &outcome)
 {
   for (const Limit &limit : limits_)
   {
@@ -78,11 +84,11 @@ void HydraulicLimits::finish(RunOutcome &outcome)
     if (limit.signal.unit == "Pa")
       text << ", to " << limit.lowest << " Pa at the lowest";
     text << "; " << limit.advice;
-    outcome.warn(limit.signal.unit == "Pa" ? "hydraulic-pressure" : "hydraulic-stroke", limit.object, text.str());
+    outcome.warn(limit.id, limit.object, text.str());
   }
 }
 
-void HydraulicLimits::exchange(StateArchive &archive)
+void PistonLimits::exchange(StateArchive &archive)
 {
   for (Limit &limit : limits_)
     archive(limit.t, limit.value, limit.known, limit.passed, limit.first, limit.lowest);
