@@ -286,7 +286,7 @@ bool EventDriver::first_crossing_between(double begin, double end, Crossing &fir
   first.t = std::numeric_limits<double>::infinity();
   for (int i = 0; i < n; ++i)
   {
-    const auto look    = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
+    const auto look     = [&](int k) { return Look{t[k], sign(i) * g_[k][i]}; };
     const auto is_event = [&]
     {
       const bool again = !events_.empty() && events_.back().name == system_.events().guard(i).name;
@@ -342,7 +342,8 @@ bool EventDriver::looks_at_held_force(int guard)
   return probe_[guard] != g_[0][guard];
 }
 
-/// Whether a guard that is negative at three instants turns above zero between them: `top` there, `low` before it.
+/// Whether a guard that is negative at three instants turns above zero, by more than rounding, between them: `top`
+/// there, `low` before it.
 /// Parabolas close in on the turn until their vertex is far below against what they err.
 bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top)
 {
@@ -367,9 +368,10 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
     const Look seen{t, value_at(guard, t)};
     if (seen.g > 0.)
     {
-      low = t > b.t ? b : a;
-      top = seen;
-      return true;
+      low                   = t > b.t ? b : a;
+      top                   = seen;
+      const double rounding = guard_rounding(system_, integrator_, guard, before_, c.t - a.t);
+      return !(std::isfinite(rounding) && seen.g <= rounding); // at the begin, where it was left by a transition
     }
     // The highest of the four stays with its neighbours.
     Look four[] = {a, b, c, seen};
