@@ -179,8 +179,7 @@ int run_scene(const CommonOptions &options, const RunCommand &requested, const A
     std::cout << "damping of the frame: " << result.model.damping << '\n';
   for (const auto &warnings : {result.warnings, coupling::texts_of(result.run->findings)})
     for (const std::string &warning : warnings)
-      if (warning != result.run->failure)
-        std::cerr << "gestell: warning: " << warning << '\n';
+      std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << "report: " << (folder / "report.html").string() << '\n';
   if (!result.run->failure.empty())
   {

@@ -1,4 +1,5 @@
 #include "apps/fmu/fmi2_component.h"
+#include "coupling/simulation/checks/contacts_and_switches.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
 
@@ -173,12 +174,12 @@ fmi2Status step_to(FmuComponent &own, double t, double length)
   catch (const coupling::ConvergenceFailure &failure)
   {
     own.phase = Phase::failed;
-    model.finish(failure.what());
+    model.finish(failure.what(), failure.id());
     own.tell_findings();
     throw;
   }
   if (!model.ended().empty())
-    model.finish(model.ended());
+    model.finish(model.ended(), coupling::ended_by_switch);
   own.tell_findings();
   if (model.ended().empty())
     return fmi2OK;

@@ -219,9 +219,9 @@ void FmuModel::verify() const
     run_->verify();
 }
 
-std::string FmuModel::finish(const std::string &failure)
+std::string FmuModel::finish(const std::string &failure, const std::string &id)
 {
-  return run_ ? run_->finish(failure) : "";
+  return run_ ? run_->finish(failure, id) : "";
 }
 
 std::vector<coupling::Finding> FmuModel::take_findings()

@@ -62,13 +62,13 @@ public:
   void forget_start() { run_.reset(); } ///< it starts again, with what is set until then
   void reset();
   /// @param t  must be time()
-  void                           step(double t, double length);
-  double                         time() const; ///< [s]; before the start where the run begins
-  std::string                    ended() const;
-  void                           verify() const;                          ///< @throws as SteppedRun::verify()
-  std::string                    finish(const std::string &failure = ""); ///< as SteppedRun::finish()
-  std::vector<coupling::Finding> take_findings();                         ///< since they were taken last
-  std::vector<coupling::Event>   take_events();                           ///< likewise
+  void        step(double t, double length);
+  double      time() const; ///< [s]; before the start where the run begins
+  std::string ended() const;
+  void        verify() const;                                                      ///< @throws as SteppedRun::verify()
+  std::string finish(const std::string &failure = "", const std::string &id = ""); ///< as SteppedRun::finish()
+  std::vector<coupling::Finding> take_findings();                                  ///< since they were taken last
+  std::vector<coupling::Event>   take_events();                                    ///< likewise
   FmuState                       state();
   void                           require_own(const FmuState &state) const; ///< @throws if it is of another FMU
   void                           restore(const FmuState &state);           ///< one of its own

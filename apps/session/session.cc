@@ -134,8 +134,8 @@ std::vector<coupling::PeriodicSolution> searched(const ChosenMethod &chosen, con
 coupling::RunResult not_started(const coupling::RunOptions &run, const std::string &failure)
 {
   coupling::RunResult result;
-  result.method  = coupling::method_name(run.method);
-  result.failure = "the machine does not start: " + failure;
+  result.method = coupling::method_name(run.method);
+  result.stop("no-start", "", "the machine does not start: " + failure);
   return result;
 }
 

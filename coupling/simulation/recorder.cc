@@ -320,8 +320,7 @@ void Recorder::settle_at_end(RunOutcome &outcome)
   }
   catch (const ConvergenceFailure &failure)
   {
-    if (outcome.failure.empty())
-      outcome.failure = failure.what();
+    outcome.stop(failure.id(), failure.place(), failure.what());
   }
 }
 

@@ -238,18 +238,14 @@ public:
 private:
   void event(const Event &event) override
   {
-    if (!end_.empty())
-      return;
-    end_ = end_by_switch(machine_, options_.begin, event);
-    if (!end_.empty())
-      result_.findings.push_back({Severity::error, ended_by_switch, event.name, end_});
+    if (std::string end = end_by_switch(machine_, options_.begin, event); !end.empty())
+      result_.stop(ended_by_switch, event.name, std::move(end));
   }
 
   Machine                                  &machine_;
   const RunOptions                         &options_;
   const MethodOptions                      &method_;
   RunResult                                &result_;
-  std::string                               end_; ///< statement of a switch that ends the run
   Motion                                    motion_;
   Sampling                                  sampling_;
   Recorder                                  recorder_;
@@ -265,11 +261,8 @@ void Run::integrate(const std::function<void(double)> &progress, const std::atom
   CheckpointPace pace(checkpoints, [this] { return state(); });
   const auto     goes_on = [&]
   {
-    if (!end_.empty())
-    {
-      result_.failure = end_;
+    if (!result_.failure.empty())
       return false;
-    }
     const bool pauses = steps_++ % progress_every == 0;
     if (pauses && progress)
       progress(motion_.time());
@@ -284,7 +277,8 @@ void Run::integrate(const std::function<void(double)> &progress, const std::atom
   }
   catch (const ConvergenceFailure &failure)
   {
-    result_.failure = failure.what() + advice_on_failure(machine_, method_, motion_.integrator().instant());
+    result_.stop(failure.id(), failure.place(),
+                 failure.what() + advice_on_failure(machine_, method_, motion_.integrator().instant()));
   }
 }
 
@@ -294,8 +288,7 @@ void Run::finish()
   recorder_.finish(result_);
   result_.events    = motion_.driver().events();
   result_.end_state = integrator.instant().q;
-  if (result_.failure.empty())
-    result_.failure = non_finite_state_message(integrator.time(), result_.end_state, integrator.instant().v);
+  result_.stop("", "", non_finite_state_message(integrator.time(), result_.end_state, integrator.instant().v));
   static_cast<IntegrationWork &>(result_.work) = integrator.work();
   result_.work.chatter                         = motion_.chattering_steps();
   for (const auto &observer : observers_)

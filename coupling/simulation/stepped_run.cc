@@ -214,7 +214,8 @@ void SteppedRun::go_on_to(double t)
   }
   catch (const ConvergenceFailure &failure)
   {
-    throw ConvergenceFailure(failure.what() + advice_on_failure(machine_, method_, steps_.instant()));
+    throw ConvergenceFailure(failure.what() + advice_on_failure(machine_, method_, steps_.instant()), failure.id(),
+                             failure.place());
   }
   if (!(before && now_ >= end) && steps_.work().steps < next_look_)
     return;
@@ -234,7 +235,7 @@ void SteppedRun::verify()
     restore_checks(now);
 }
 
-std::string SteppedRun::finish(const std::string &failure)
+std::string SteppedRun::finish(const std::string &failure, const std::string &id)
 {
   const FlushDenormals while_they_tell;
   if (ahead_)
@@ -244,13 +245,10 @@ std::string SteppedRun::finish(const std::string &failure)
     if (steps_.step_begin() < now_ && now_ < steps_.time())
       steps_.show_until(now_);
   }
-  outcome_.failure = failure;
+  outcome_.stop(id, "", failure);
   for (const auto &check : checks_)
     check->finish(outcome_);
   machine_.events().follow_history(options_.events); // which checks may have ended
-  const auto fatal = [](const Finding &finding) { return finding.severity == Severity::error; };
-  outcome_.findings.erase(std::remove_if(outcome_.findings.begin(), outcome_.findings.end(), fatal),
-                          outcome_.findings.end()); // the failure tells them
   return failure.empty() ? outcome_.failure : "";
 }
 

@@ -63,7 +63,7 @@ public:
   /// Collects the findings of the checks up to time(); the run continues from a state only.
   /// @param failure  that ended it; empty: none
   /// @return         why it is not a motion, if detected only now
-  std::string finish(const std::string &failure = "");
+  std::string finish(const std::string &failure = "", const std::string &id = "");
 
   const std::vector<double> &values();        ///< of the signals at time()
   std::vector<Event>         take_events();   ///< up to time(), since they were taken last

@@ -120,8 +120,7 @@ void add_warnings(const Result &of_other, Result &result)
 {
   for (const auto &warnings : {of_other.warnings, coupling::texts_of(of_other.run->findings)})
     for (const std::string &warning : warnings)
-      if (warning != of_other.run->failure)
-        result.warnings.push_back(of_other.scene + ": " + warning);
+      result.warnings.push_back(of_other.scene + ": " + warning);
   if (!of_other.run->failure.empty())
     result.warnings.push_back(of_other.scene + " stopped early: " + of_other.run->failure);
 }

@@ -45,21 +45,15 @@ coupling::Finding of_the_scene(const std::string &warning)
 /// Why a run came to an early end, as the check that knows it tells.
 coupling::Finding early_end(const coupling::RunResult &run)
 {
-  coupling::Finding end{coupling::Severity::error, "stopped-early", "", run.failure};
-  for (const coupling::Finding &finding : run.findings)
-    if (finding.text == end.text)
-      end = finding;
-  end.text = (is_wanted_end(run) ? "A switch ended the run: " : "The computation stopped early: ") + end.text;
-  return end;
+  return {coupling::Severity::error, run.end_id.empty() ? "stopped-early" : run.end_id, run.end_place,
+          (is_wanted_end(run) ? "A switch ended the run: " : "The computation stopped early: ") + run.failure};
 }
 
 } // namespace
 
 bool is_wanted_end(const coupling::RunResult &run)
 {
-  return std::any_of(run.findings.begin(), run.findings.end(),
-                     [&](const coupling::Finding &finding)
-                     { return finding.id == coupling::ended_by_switch && finding.text == run.failure; });
+  return run.end_id == coupling::ended_by_switch;
 }
 
 std::vector<coupling::Finding> all_findings(const Result &result)
@@ -80,8 +74,7 @@ std::vector<coupling::Finding> all_findings(const Result &result)
     add(of_the_scene(warning));
   if (result.run)
     for (const coupling::Finding &finding : result.run->findings)
-      if (finding.text != result.run->failure)
-        add(finding);
+      add(finding);
   return findings;
 }
 

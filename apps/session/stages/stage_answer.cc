@@ -150,8 +150,8 @@ std::optional<StageResult> stage_answer(const Scene &scene, PreparedMachine &pre
   if (!missing.empty())
   {
     result.ringing.note = missing;
-    if (run.failure.empty() && !run.interrupted)
-      run.failure = missing;
+    if (!run.interrupted)
+      run.stop("stages", "stages", missing);
   }
   else if (!scene.stages.ringing.empty() && run.failure.empty() && prepared.machine.size() == end_state.size())
     find_ringing(scene, prepared, end_state, run, result);

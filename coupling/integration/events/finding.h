@@ -33,14 +33,25 @@ inline std::vector<std::string> texts_of(const std::vector<Finding> &findings)
 /// How a run ended and what was found of it.
 struct RunOutcome
 {
-  std::vector<Finding> findings;
-  std::string          failure; ///< not empty: why it stopped early
+  std::vector<Finding> findings; ///< without the one that ended it
+  std::string          failure;  ///< not empty: why it stopped early
+  std::string          end_id;   ///< of the kind of this end, as of a finding; empty: of no kind
+  std::string          end_place;
   bool                 interrupted = false;
 
   bool reached_end() const { return failure.empty() && !interrupted; }
   void warn(std::string id, std::string place, std::string text)
   {
     findings.push_back({Severity::warning, std::move(id), std::move(place), std::move(text)});
+  }
+  /// The first reason counts.
+  void stop(std::string id, std::string place, std::string text)
+  {
+    if (!failure.empty())
+      return;
+    failure   = std::move(text);
+    end_id    = std::move(id);
+    end_place = std::move(place);
   }
 };
 

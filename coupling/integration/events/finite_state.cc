@@ -16,7 +16,7 @@ bool is_finite(const LocalState &state)
 
 std::string non_finite_state_message(const SecondOrderSystem &system, const LocalState &state)
 {
-  const std::string  law = law_words(system, state);
+  const std::string  law = law_at_fault(system, state).words;
   std::ostringstream message;
   message << "there is no finite number at t = " << state.t << " s for ";
   for (const auto &[values, what] :

@@ -33,17 +33,17 @@ LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalSt
   return {};
 }
 
-std::string law_words(const SecondOrderSystem &system, const LocalState &state)
+LawWithoutValue law_at_fault(const SecondOrderSystem &system, const LocalState &state)
 {
   if (!(state.u.lpNorm<Eigen::Infinity>() < beyond_machines && state.v.lpNorm<Eigen::Infinity>() < beyond_machines))
-    return "";
-  return law_without_value(system, state).words;
+    return {};
+  return law_without_value(system, state);
 }
 
 void require_law_values(const SecondOrderSystem &system, const LocalState &state)
 {
-  if (const std::string words = law_words(system, state); !words.empty())
-    throw ConvergenceFailure(words);
+  if (const LawWithoutValue law = law_at_fault(system, state); !law.words.empty())
+    throw ConvergenceFailure(law.words, without_value, law.element);
 }
 
 } // namespace gestell::coupling

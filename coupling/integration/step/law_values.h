@@ -22,8 +22,10 @@ LawWithoutValue law_without_value(const SecondOrderSystem &system, const LocalSt
 /// No machine gets there, and powers of it overflow: a motion or an iteration that has run away.
 constexpr double beyond_machines = 1e100;
 
-/// Its words; "" where there is none, or where the motion itself has run away.
-std::string law_words(const SecondOrderSystem &system, const LocalState &state);
+/// The same; none where the motion itself has run away.
+LawWithoutValue law_at_fault(const SecondOrderSystem &system, const LocalState &state);
+/// Kind of failure
+constexpr const char *without_value = "law-without-value";
 /// @throws ConvergenceFailure with them if there are any
 void require_law_values(const SecondOrderSystem &system, const LocalState &state);
 
@@ -37,8 +39,10 @@ void fail_with_law(const SecondOrderSystem &system, const LocalState &state, con
   }
   catch (const ConvergenceFailure &failure)
   {
-    const std::string words = law_words(system, state);
-    throw ConvergenceFailure(failure.what() + (words.empty() ? "" : "; " + words));
+    const LawWithoutValue law = law_at_fault(system, state);
+    if (law.words.empty())
+      throw;
+    throw ConvergenceFailure(failure.what() + ("; " + law.words), without_value, law.element);
   }
 }
 

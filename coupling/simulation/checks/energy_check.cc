@@ -12,6 +12,8 @@ namespace gestell::coupling
 namespace
 {
 
+constexpr const char *energy_finding = "energy-balance";
+
 std::string method_and_step(const MethodOptions &method)
 {
   std::ostringstream text;
@@ -85,7 +87,7 @@ std::string EnergyCheck::words(EnergyGuard::Verdict verdict) const
 void EnergyCheck::verify() const
 {
   if (guard_.verdict() == EnergyGuard::Verdict::no_motion && !forced_)
-    throw ConvergenceFailure(words(EnergyGuard::Verdict::no_motion));
+    throw ConvergenceFailure(words(EnergyGuard::Verdict::no_motion), energy_finding);
 }
 
 void EnergyCheck::finish(RunOutcome &outcome)
@@ -96,12 +98,9 @@ void EnergyCheck::finish(RunOutcome &outcome)
     return;
   const std::string words = this->words(verdict);
   if (outcome.failure.empty() && verdict == EnergyGuard::Verdict::no_motion && !forced_)
-  {
-    outcome.failure = words;
-    outcome.findings.push_back({Severity::error, "energy-balance", "", words});
-  }
-  else if (outcome.failure != words) // which verify() may have ended the run with
-    outcome.warn("energy-balance", "", words);
+    outcome.stop(energy_finding, "", words);
+  else if (outcome.end_id != energy_finding) // with which verify() may have ended the run
+    outcome.warn(energy_finding, "", words);
 }
 
 void EnergyCheck::exchange(StateArchive &archive)

@@ -95,9 +95,12 @@ TEST(JsonAnswer, OfARunThatEndsEarlyTellsWhy)
   EXPECT_FALSE(by_switch["error"].contains("key"));
   EXPECT_EQ(by_switch["answer"]["findings"][0]["id"], "ended-by-switch");
   EXPECT_EQ(by_switch["answer"]["findings"][0]["place"], "far");
-  const std::string message = ended(law)["error"]["message"];
+  const Json        by_law  = ended(law);
+  const std::string message = by_law["error"]["message"];
   EXPECT_EQ(message.find("the computation failed: "), 0u) << message;
   EXPECT_NE(message.find("\"law\""), std::string::npos) << message;
+  EXPECT_EQ(by_law["answer"]["findings"][0]["id"], "law-without-value");
+  EXPECT_EQ(by_law["answer"]["findings"][0]["place"], "law");
 }
 
 TEST(JsonAnswer, OfAMessageOfAnyLengthIsTold)

@@ -131,9 +131,9 @@ TEST(Tables, FindingsHaveTheirKindAndPlace)
   result.warnings = {
       "press.toml:12: element.stop: never acts in this run; expected: a force at some time; check its gap",
       "press.toml:3: frame.mesh: is coarse", "of no place"};
-  result.run->failure  = "at t = 0.2 s, enough: x lies above 1, where switch \"far\" ends the run";
-  result.run->findings = {{coupling::Severity::error, coupling::ended_by_switch, "far", result.run->failure}};
-  const auto findings  = all_findings(result);
+  result.run->stop(coupling::ended_by_switch, "far",
+                   "at t = 0.2 s, enough: x lies above 1, where switch \"far\" ends the run");
+  const auto findings = all_findings(result);
   ASSERT_EQ(findings.size(), 4u);
   EXPECT_TRUE(is_wanted_end(*result.run));
   EXPECT_EQ(findings[0].id, "ended-by-switch");
