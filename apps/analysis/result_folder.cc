@@ -48,8 +48,7 @@ void require_no_study(const fs::path &folder)
     refuse(folder, "it holds a study, whose report would be replaced");
 }
 
-constexpr int     most_looks = 1000;           ///< while others make and remove the place
-const char *const complete   = "summary.json"; ///< the first to be removed and the last to be written
+const char *const complete = "summary.json"; ///< the first to be removed and the last to be written
 
 bool is_full(const std::error_code &error)
 {
@@ -112,6 +111,8 @@ void require_writable(const fs::path &folder)
   // What is missing is made when there is something to put into it: others may be at the same place, and take away what
   // they made there.
   std::error_code failure;
+  // while others make and remove the place; each look succeeds unless another acts in the same moment
+  constexpr int most_looks = 1000;
   for (int tries = 0; tries < most_looks; ++tries)
     if (failure = probe(folder); failure != std::errc::no_such_file_or_directory)
       break;

@@ -64,15 +64,15 @@ coupling::Machine flying_mass(double gap, double omega_contact)
   return machine;
 }
 
-constexpr double gap_in_steps = 3.7; // way from the middle to a stop at the first speed
-constexpr int    flight_steps = 4000;
+constexpr int flight_steps = 4000;
 
 /// Kinetic energy in flight relative to the start, step by step; it is kept from the last flight during a contact.
 std::vector<double> flight_energy(const NamedMethod &method, double omega_contact_h, bool locate)
 {
-  auto          machine = flying_mass(gap_in_steps, omega_contact_h); // h = 1, first speed 1
-  MethodOptions options = method.options;
-  options.step          = 1.;
+  constexpr double gap_in_steps = 3.7; // way from the middle to a stop at the first speed
+  auto             machine      = flying_mass(gap_in_steps, omega_contact_h); // h = 1, first speed 1
+  MethodOptions    options      = method.options;
+  options.step                  = 1.;
 
   coupling::Motion motion(machine, coupling::make_integrator(machine, options));
   motion.begin(0., Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1), {locate, flight_steps});

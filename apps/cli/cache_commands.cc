@@ -36,8 +36,6 @@ std::string formatted(const char *format, const Parts &...parts)
 
 using coupling::CacheEntry;
 
-constexpr std::size_t most_particulars = 6;
-
 /// "12.4 MB"
 std::string size_text(double bytes)
 {
@@ -182,10 +180,11 @@ std::string particulars(const CacheEntry &entry, const std::vector<CacheEntry> &
   for (const CacheEntry &other : entries)
     if (other.defect.empty() && origin_text(other.origin) == origin_text(entry.origin))
       alike.push_back(&other);
-  std::string       text;
-  const auto       &recipe = entry.origin.recipe;
-  const auto        names  = distinguishing(alike);
-  const std::size_t shown  = std::min(names.size(), most_particulars);
+  std::string           text;
+  const auto           &recipe           = entry.origin.recipe;
+  const auto            names            = distinguishing(alike);
+  constexpr std::size_t most_particulars = 6; // what fits one line
+  const std::size_t     shown            = std::min(names.size(), most_particulars);
   for (std::size_t i = 0; i < shown; ++i)
   {
     const auto own =

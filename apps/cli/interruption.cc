@@ -35,8 +35,6 @@ std::atomic<std::int64_t> first_signal{0}; ///< [ns]
 static_assert(std::atomic<Interruption>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
               "else no handler of signals may ask them");
 
-constexpr std::int64_t one_wish = 500000000; ///< [ns]
-
 void say(const char *words)
 {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, words, std::strlen(words));
@@ -81,6 +79,8 @@ extern "C" void note_interruption(int signal_number)
   }
   const std::int64_t time  = nanoseconds();
   std::int64_t       first = 0;
+  // [ns] a key that repeats, or a signal to the group and to the process, is one wish
+  constexpr std::int64_t one_wish = 500000000;
   if (first_signal.compare_exchange_strong(first, time))
   {
     interrupted = true;

@@ -24,7 +24,6 @@ namespace gestell::apps
 
 namespace
 {
-constexpr std::size_t most_rows = 40; ///< of standard output
 
 std::string stability_text(const coupling::PeriodicSolution &solution)
 {
@@ -54,7 +53,8 @@ void print_signals(const PeriodicEntry &entry)
 void print_solutions(const PeriodicResult &result)
 {
   std::cout << result.method << ": " << result.reason << '\n';
-  int number = 0;
+  int                   number    = 0;
+  constexpr std::size_t most_rows = 40; // of standard output, a screen; the file has all
   for (const PeriodicEntry &entry : result.entries)
   {
     if (++number > int(most_rows))

@@ -8,12 +8,6 @@
 namespace gestell::apps
 {
 
-namespace
-{
-constexpr double told_from   = 2.;   ///< [s] of a phase
-constexpr double least_share = 0.01; ///< of it that tells the pace
-} // namespace
-
 std::string duration_text(double seconds)
 {
   const long s = std::max(0L, std::lround(seconds));
@@ -59,11 +53,13 @@ void ProgressLine::show(const std::string &phase, double share)
 /// "  12 s, about 3 min left": at the pace of the phase so far; too early, or without a share, nothing is foretold.
 std::string ProgressLine::times(double share) const
 {
-  const double passed = std::chrono::duration<double>(Clock::now() - begin_).count();
+  const double     passed    = std::chrono::duration<double>(Clock::now() - begin_).count();
+  constexpr double told_from = 2.; // [s] of a phase: shorter ones end before they are read
   if (passed < told_from)
     return "";
-  const std::string text = "  " + duration_text(passed);
-  const double      gone = share - first_share_;
+  const std::string text        = "  " + duration_text(passed);
+  const double      gone        = share - first_share_;
+  constexpr double  least_share = 0.01; // of a phase: less tells nothing of its pace
   return gone < least_share ? text : text + ", about " + duration_text(passed * (1. - share) / gone) + " left";
 }
 

@@ -27,8 +27,6 @@ fmi2Status no_function(fmi2Component c, const char *function, const char *reason
 
 constexpr const char *never_pending = "steps are done when fmi2DoStep returns; none is under way";
 
-constexpr std::size_t head_size = 2 + sizeof(double);
-
 /// Phase and stop time, then the state.
 std::string bytes_of(const KeptState &kept)
 {
@@ -39,7 +37,8 @@ std::string bytes_of(const KeptState &kept)
 
 KeptState kept_of(const std::string &bytes)
 {
-  const int phase = bytes.size() < head_size ? -1 : bytes[0] - '0';
+  constexpr std::size_t head_size = 2 + sizeof(double); // phase, flag and one number
+  const int             phase     = bytes.size() < head_size ? -1 : bytes[0] - '0';
   if (phase < 0 || phase > int(Phase::terminated) || (bytes[1] != '0' && bytes[1] != '1'))
     throw std::invalid_argument("these bytes are no state of an FMU of Gestell");
   KeptState kept{FmuState::of_bytes(bytes.substr(head_size)), Phase(phase), bytes[1] == '1', 0.};

@@ -19,8 +19,6 @@ using Vector   = Eigen::VectorXd;
 using Matrix   = Eigen::MatrixXd;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double most_rows = 1e8;
-
 Matrix matrix_of(const char *name, const std::vector<double> &numbers, int rows, int columns)
 {
   if (numbers.size() != std::size_t(rows) * std::size_t(columns))
@@ -117,6 +115,7 @@ Vector start_of(const char *name, const std::vector<double> &numbers, int n)
 
 void require_grid(double end, double output_step)
 {
+  constexpr double most_rows = 1e8; // 0.8 GB for each coordinate; as the message below has it
   if (!(end > 0.) || !std::isfinite(end) || !(output_step > 0.) || !(end / output_step < most_rows))
     throw std::invalid_argument("integrate: end is " + short_text(end) + ", output_step " + short_text(output_step) +
                                 "; both must be above zero, with at most 1e8 rows");

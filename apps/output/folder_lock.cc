@@ -19,8 +19,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr const char *lock_name  = ".gestell-lock";
-constexpr int         most_tries = 1000; ///< while others make and remove the same folder
+constexpr const char *lock_name = ".gestell-lock";
 
 /// Locks of the system are those of a process: what it holds itself it must know.
 class OwnLocks
@@ -191,7 +190,8 @@ bool FolderLock::is_still_there() const
 
 void FolderLock::take(const std::string &doing, const std::string &way_out)
 {
-  const short type = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
+  const short   type       = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
+  constexpr int most_tries = 1000; // while others make and remove the same folder
   for (int tries = 0; tries < most_tries; ++tries)
   {
     if (!open_file())

@@ -15,8 +15,6 @@ namespace
 namespace py = pybind11;
 using namespace pybind11::literals;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 py::array_t<double> numbers(const std::vector<double> &values)
 {
   return py::array_t<double>(py::ssize_t(values.size()), values.data());
@@ -108,10 +106,11 @@ py::dict periodic_values(const apps::PeriodicResult &found)
 
 py::dict along_values(const apps::AlongResult &along)
 {
-  const auto     &positions = along.modes.positions;
-  const auto      rows = Eigen::Index(positions.size()), lines = Eigen::Index(along.modes.moves_most.size());
-  Eigen::VectorXd x(rows);
-  Eigen::MatrixXd frequencies = Eigen::MatrixXd::Constant(rows, lines, nan), damping = frequencies,
+  const auto      &positions = along.modes.positions;
+  const auto       rows = Eigen::Index(positions.size()), lines = Eigen::Index(along.modes.moves_most.size());
+  Eigen::VectorXd  x(rows);
+  constexpr double nan         = std::numeric_limits<double>::quiet_NaN();
+  Eigen::MatrixXd  frequencies = Eigen::MatrixXd::Constant(rows, lines, nan), damping = frequencies,
                   assurance = frequencies;
   std::vector<Eigen::MatrixXd> shapes;
   py::dict                     gaps;

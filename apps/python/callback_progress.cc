@@ -2,11 +2,6 @@
 
 namespace gestell::python
 {
-namespace
-{
-constexpr std::chrono::milliseconds between_calls{100};
-} // namespace
-
 apps::Watch CallbackProgress::watch()
 {
   if (call_.is_none())
@@ -18,7 +13,8 @@ void CallbackProgress::tell(const std::string &phase, double share)
 {
   if (requested_)
     stop_ = true;
-  const auto now = std::chrono::steady_clock::now();
+  const auto                          now = std::chrono::steady_clock::now();
+  constexpr std::chrono::milliseconds between_calls{100}; // a person sees ten changes a second as steady
   if (stop_ || (phase == phase_ && now - reported_ < between_calls))
     return;
   reported_ = now;

@@ -16,8 +16,6 @@ namespace
 
 namespace py = pybind11;
 
-constexpr std::size_t most_charts = 2;
-
 } // namespace
 
 py::array read_only(const py::object &result, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
@@ -63,7 +61,8 @@ std::string run_text(const coupling::RunResult &run)
                      count_text(run.events.size(), "event") + "</p>";
   if (n_rows(run) > 2)
   {
-    const auto charts = apps::signal_charts(run);
+    const auto            charts      = apps::signal_charts(run);
+    constexpr std::size_t most_charts = 2; // in a notebook; `report` has all
     for (std::size_t i = 0; i < std::min(most_charts, charts.size()); ++i)
       text += charts[i].svg;
   }

@@ -14,8 +14,6 @@ using apps::Place;
 using apps::SceneNode;
 using Type = SceneNode::Type;
 
-constexpr int deepest = 50; ///< dicts and lists in each other, as tables and arrays of a file
-
 /// How deep node_of() is in itself.
 class Depth
 {
@@ -88,8 +86,9 @@ SceneNode node_of(py::handle value, const Place &place, const std::string &folde
 {
   const Depth depth;
   SceneNode   node;
-  node.place  = place;
-  node.folder = folder;
+  node.place            = place;
+  node.folder           = folder;
+  constexpr int deepest = 50; // dicts and lists in each other, as tables and arrays of a file
   if (Depth::now() > deepest)
     refuse(node, "",
            "dicts and lists lie more than " + std::to_string(deepest) + " deep in each other; does one hold itself?");

@@ -12,10 +12,9 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t name_width = 24;
-
 std::string padded(const std::string &name)
 {
+  constexpr std::size_t name_width = 24; // of the 80 letters of a line; longer names are followed by one blank
   return "  " + name + std::string(name.size() < name_width ? name_width - name.size() : 1, ' ');
 }
 

@@ -26,22 +26,19 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double heaviest = 1e7, lightest = 1e-6; // kg: a ship's engine has 2e6
-constexpr double farthest = 200.;                 // m
-constexpr double widest = 20., narrowest = 1e-4;  // m, radius of gyration
-constexpr double most_turns = 2.;                 // of a start
-
 using Unexpected = std::vector<UnexpectedValue>;
 
 void look_at(const BodyRequest &body, Unexpected &found)
 {
+  constexpr double heaviest = 1e7, lightest = 1e-6; // kg: a ship's engine has 2e6
   if (body.mass > heaviest || (body.mass > 0. && body.mass < lightest))
     found.push_back({body.place,
                      "has a mass of " + short_text(body.mass) + " kg; expected: " + short_text(lightest) + " kg to " +
                          short_text(heaviest) +
                          " kg; numbers without a unit are in kg, others are written as \"3 t\", \"20 g\"",
                      std::max(body.mass / heaviest, lightest / body.mass)});
-  const double arm = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 1.;
+  const double     arm    = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 1.;
+  constexpr double widest = 20., narrowest = 1e-4; // m, radius of gyration
   if (arm > widest || arm < narrowest)
     found.push_back({body.place,
                      "has " + short_text(body.inertia) + " kg m^2 with " + short_text(body.mass) +
@@ -49,7 +46,8 @@ void look_at(const BodyRequest &body, Unexpected &found)
                          " m to " + short_text(widest) +
                          " m; is its mass or inertia in another unit, such as \"40 kg mm^2\"?",
                      std::max(arm / widest, narrowest / arm)});
-  const double place = std::hypot(body.position[0], body.position[1], body.position[2]);
+  const double     place    = std::hypot(body.position[0], body.position[1], body.position[2]);
+  constexpr double farthest = 200.; // m
   if (place > farthest)
     found.push_back({body.place,
                      "lies " + short_text(place) + " m from the origin; expected: at most " + short_text(farthest) +
@@ -71,6 +69,7 @@ void warn_of_implausible_numbers(Scene &scene)
   Unexpected found;
   for (const BodyRequest &body : scene.bodies)
     look_at(body, found);
+  constexpr double most_turns = 2.; // of a start
   for (const NamedValue &angle : scene.start.q)
     if (const double turned = std::abs(angle.value) / (2. * M_PI); turns(scene, angle.name) && turned > most_turns)
       found.push_back({angle.place,
@@ -292,12 +291,11 @@ ModesRequest read_modes(const SceneTable &scene, const Names &names, const Scene
   return modes;
 }
 
-constexpr double strong_gravity = 100.; // m/s^2, ten times that of the earth
-
 void check_gravity(const SceneTable &table, const Scene &scene)
 {
-  const auto  &g      = scene.gravity;
-  const double amount = std::hypot(g[0], g[1], g[2]);
+  const auto      &g              = scene.gravity;
+  const double     amount         = std::hypot(g[0], g[1], g[2]);
+  constexpr double strong_gravity = 100.; // m/s^2, ten times that of the earth
   if (amount > strong_gravity)
   {
     std::ostringstream text;

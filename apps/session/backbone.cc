@@ -14,11 +14,6 @@ namespace
 {
 using Eigen::VectorXd;
 
-constexpr int    most_coordinates = 3;
-constexpr int    amplitudes = 48, rows_of_amplitude = 128;
-constexpr double beyond_largest = 1.15; ///< of the solutions' amplitudes
-constexpr double same_frequency = 1e-9;
-
 /// (Omega, parameter) of all solutions, ascending; empty: the parameter does not change Omega one to one.
 std::vector<std::pair<double, double>> frequencies_of(const std::vector<PeriodicEntry> &entries)
 {
@@ -26,6 +21,7 @@ std::vector<std::pair<double, double>> frequencies_of(const std::vector<Periodic
   for (const PeriodicEntry &entry : entries)
     pairs.emplace_back(2. * M_PI * entry.solution.ratio / entry.solution.period, entry.parameter);
   std::sort(pairs.begin(), pairs.end());
+  constexpr double same_frequency = 1e-9; // relative: rounding of periods
   if (pairs.empty() || !(pairs.back().first > (1. + same_frequency) * pairs.front().first))
     return {};
   const bool rising = pairs.back().second > pairs.front().second;
@@ -91,14 +87,18 @@ std::vector<PeriodicEntry> backbone_of(coupling::Machine &machine, const couplin
                                        const std::vector<PeriodicEntry>    &entries,
                                        const std::vector<coupling::Signal> &signals)
 {
-  const auto frequencies = frequencies_of(entries);
+  const auto    frequencies      = frequencies_of(entries);
+  constexpr int most_coordinates = 3; // as for averaging: one mode answers in a chart of so few
   if (frequencies.empty() || machine.size() > most_coordinates || problem.period_is_unknown())
     return {};
   std::vector<PeriodicEntry> backbone;
   try
   {
     coupling::SlowFlow flow(problem);
-    const double       largest = beyond_largest * largest_amplitude(machine, flow, flow.mean(), entries);
+    constexpr double   beyond_largest = 1.15; // of the solutions' amplitudes: the curve is seen to pass its resonance
+    const double       largest        = beyond_largest * largest_amplitude(machine, flow, flow.mean(), entries);
+    constexpr int      amplitudes     = 48;     // points of a curve: a chord of a smooth bend is a pixel off at most
+    constexpr int      rows_of_amplitude = 128; // of a period: extremes to (pi / 128)^2 / 2 = 0.03 %
     for (int k = 1; k <= amplitudes && largest > 0.; ++k)
     {
       const auto   motion    = free_motion(problem, flow, largest * k / amplitudes);

@@ -18,10 +18,6 @@ namespace
 {
 using Eigen::VectorXd;
 
-constexpr int    usual_points = 60, samples = 256;
-constexpr double bytes_of_start = 8.; ///< the motion it settles to, and after how many periods
-constexpr double excursions     = 2.; ///< of the motions, that the plane reaches to either side
-
 /// A side of the plane, as it is typed.
 struct PlaneSide
 {
@@ -105,6 +101,7 @@ std::pair<VectorXd, VectorXd> extremes(const coupling::PeriodicProblem          
   {
     coupling::PeriodicProblem own = problem;
     own.period                    = solution.period;
+    constexpr int samples         = 256; // of a period: extremes to (pi / 256)^2 / 2 = 0.01 %
     coupling::trace(own, solution, samples * solution.ratio,
                     [&](const coupling::OrbitPoint &point)
                     {
@@ -121,9 +118,10 @@ std::pair<double, double> ends_of(const PlaneSide &side, const std::pair<VectorX
 {
   if (side.ends)
     return *side.ends;
-  const double one = side.sign * motion.first[side.index], other = side.sign * motion.second[side.index];
-  const double low = std::min(one, other), high = std::max(one, other);
-  const double middle = 0.5 * (low + high), reach = 0.5 * excursions * (high - low);
+  const double     one = side.sign * motion.first[side.index], other = side.sign * motion.second[side.index];
+  const double     low = std::min(one, other), high = std::max(one, other);
+  constexpr double excursions = 2.; // of the motions, that the plane reaches to either side
+  const double     middle = 0.5 * (low + high), reach = 0.5 * excursions * (high - low);
   if (!(reach > 0.))
     throw std::invalid_argument("--basins: " + side.name + " does not move in the motions found; give its ends, \"" +
                                 side.name + " from ... to ...\"");
@@ -138,6 +136,7 @@ void check_basins(const coupling::Machine &machine, const coupling::PeriodicProb
   if (request.basins.empty())
     return;
   sides_of(machine, request.basins);
+  constexpr double bytes_of_start = 8.; // the motion it settles to, and after how many periods
   fem::require_available("--basin-points " + std::to_string(request.basin_points) +
                              ": the plane of that many starts a side",
                          bytes_of_start * request.basin_points * double(request.basin_points), "Ask for fewer.");
@@ -159,7 +158,8 @@ coupling::StartPlane start_plane(const coupling::Machine &machine, const couplin
   const auto motion           = extremes(problem, solutions);
   const auto [x_begin, x_end] = ends_of(x, motion);
   const auto [y_begin, y_end] = ends_of(y, motion);
-  const int points            = request.basin_points > 0 ? request.basin_points : usual_points;
+  constexpr int usual_points  = 60; // 3600 starts, each a motion of many periods
+  const int     points        = request.basin_points > 0 ? request.basin_points : usual_points;
   return {x.index, y.index, x_begin, x_end, y_begin, y_end, points, x.sign, y.sign};
 }
 

@@ -25,10 +25,6 @@ using coupling::Signal;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int         usual_periods = 256;
-constexpr int         once_more     = 4; ///< times as many, where the motion still settles
-constexpr std::size_t most_planes   = 2; ///< of a section
-
 /// Signals of a state at the begin of a period, when elements have nothing to remember yet.
 class BeginReader
 {
@@ -78,7 +74,8 @@ std::vector<double> read_section(coupling::Machine &machine, double begin, const
 std::vector<Signal> plane_signals(const coupling::Machine &machine, const Recurrence &motion,
                                   const std::vector<Signal> &signals)
 {
-  std::vector<Signal> planes;
+  std::vector<Signal>   planes;
+  constexpr std::size_t most_planes = 2; // of a section: a row of charts
   for (const Signal &signal : signals)
     if (planes.size() < most_planes && rate_of(signal))
       planes.push_back(signal);
@@ -203,6 +200,7 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
 {
   if (request.along.empty())
     verify_stable(problem, solutions);
+  constexpr int usual_periods = 256; // points of a section: its shape shows, and lines of its spectrum
   if (!is_wanted(problem, request, solutions, found))
   {
     if (all_unstable(solutions) && request.along.empty())
@@ -219,9 +217,10 @@ void follow_long_run(coupling::Machine &machine, const PeriodicProblem &problem,
   LongRun run;
   try
   {
-    const int periods   = request.section > 0 ? request.section : usual_periods;
-    run.motion          = recurrence_of(problem, start, options, periods);
-    const bool may_beat = run.motion.kind == "drifting"; // more slowly than this section shows
+    const int periods       = request.section > 0 ? request.section : usual_periods;
+    run.motion              = recurrence_of(problem, start, options, periods);
+    const bool    may_beat  = run.motion.kind == "drifting"; // more slowly than this section shows
+    constexpr int once_more = 4;                             // times as many, where the motion still settles
     if ((!run.motion.is_recognised() || may_beat) && request.section == 0)
       run.motion = recurrence_of(problem, start, options, once_more * periods);
   }

@@ -12,8 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double doubtful = 0.5; ///< modal assurance below which a line may have changed its shape for another one
-
 coupling::SweptCoordinate named(const std::string &option, const coupling::Machine &machine, const std::string &name)
 {
   try
@@ -108,6 +106,7 @@ std::vector<std::string> along_warnings(const AlongResult &along)
       first_gap = position_text(coordinate, at.x) + ": " + at.gap;
     if (!at.no_equilibrium.empty() && undeformed++ == 0)
       first_undeformed = position_text(coordinate, at.x) + ": " + at.no_equilibrium;
+    constexpr double doubtful = 0.5; // modal assurance below which a line may have changed its shape for another one
     for (std::size_t i = 0; i < at.assurance.size(); ++i)
       if (at.assurance[i] < doubtful && i < at.modes.size() && at.modes[i].frequency_hz > 0.)
         warnings.push_back("line " + std::to_string(i + 1) + " is uncertain at " + position_text(coordinate, at.x) +

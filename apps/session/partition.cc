@@ -90,8 +90,6 @@ void add_acting(const Scene &scene, const coupling::Machine &machine, Reasons &r
     reasons.add(measure_of(load.u, model), load.oscillations.empty() ? "constant load" : "excited", load.name);
 }
 
-constexpr double no_rank = 1e-6; ///< of the largest row
-
 /// Takes from the rows R [n1 x f] what the row at i spans; its length before.
 double take(Eigen::MatrixXd &R, Eigen::Index i)
 {
@@ -121,6 +119,7 @@ void hold_free_motions(const coupling::ReducedFrame &frame, Reasons &reasons, Pa
       for (Eigen::Index i = 0; i < R.rows(); ++i)
         if (counts(int(i)) && (best < 0 || R.row(i).norm() > R.row(best).norm()))
           best = i;
+      constexpr double no_rank = 1e-6; // of the largest row
       if (best < 0 || take(R, best) <= no_rank * most)
         return found;
       act(int(best));

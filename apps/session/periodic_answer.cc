@@ -21,12 +21,7 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int    few_coordinates = 3;     ///< up to which all solutions are looked for unasked
-constexpr int    harmonics_told  = 10;    ///< of the drive
-constexpr double neutral         = 1e-9;  ///< distance of a multiplier from 1 that is none
-constexpr double steady          = 1e-9;  ///< amplitude that is what steps leave, of the mean: that is the size
-constexpr double fine_steps      = 1e-11; ///< tolerance of the steps that trace a motion
-constexpr int    least_samples   = 4096;  ///< of a period, for extremes
+constexpr int harmonics_told = 10; ///< of the drive
 
 using coupling::PeriodicSolution;
 
@@ -63,7 +58,8 @@ void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &
   if (std::any_of(signals.begin(), signals.end(), [](const auto &signal) { return signal.reads_acceleration(); }))
     accelerations.emplace(machine);
   const Eigen::VectorXd            none;
-  const int                        finer = std::max(1, least_samples / rows);
+  constexpr int                    least_samples = 4096; // of a period, for extremes
+  const int                        finer         = std::max(1, least_samples / rows);
   std::vector<std::vector<double>> samples(signals.size());
   int                              k = 0;
   coupling::trace(problem, solution, finer * rows,
@@ -107,6 +103,7 @@ ChosenMethod chosen_method(const RepeatingMachine &repeating, const std::string 
   const std::string why = coupling::shooting_method().refuses(problem);
   if (!why.empty())
     return {&coupling::settling_method(), why};
+  constexpr int few_coordinates = 3; // up to which all solutions are looked for unasked
   if (problem.turn.size() <= few_coordinates && !problem.period_is_unknown())
     return {&coupling::minimising_method(), "few coordinates: all solutions are looked for"};
   return {&coupling::shooting_method(), "it takes few periods, and tells the stability"};
@@ -182,7 +179,8 @@ coupling::RunResult orbit_run(coupling::Machine &machine, const PeriodicSolution
                               const std::vector<coupling::Signal> &signals, int rows, OrbitRun keep)
 {
   coupling::RunOptions run;
-  run.method = solution.integration;
+  run.method                  = solution.integration;
+  constexpr double fine_steps = 1e-11; // tolerance of the steps that trace a motion
   if (!(run.method.tolerance > 0.) && !(run.method.step > 0.))
     run.method.tolerance = fine_steps;
   run.begin          = solution.begin;
@@ -205,7 +203,8 @@ PeriodicEntry entry_of(coupling::Machine &machine, const coupling::PeriodicProbl
                        std::optional<coupling::RunResult> *run_of_it)
 {
   PeriodicEntry entry;
-  entry.solution = solution;
+  entry.solution           = solution;
+  constexpr double neutral = 1e-9; // distance of a multiplier from 1 that is none
   if (const double largest = solution.largest_multiplier(); std::abs(largest - 1.) <= neutral)
     entry.solution.notes.push_back(
         "a multiplier is 1: a motion beside it stays there and comes neither nearer nor away, "
@@ -249,6 +248,7 @@ PeriodicCheck compared(const PeriodicEntry &first, const PeriodicEntry &second, 
       apart = std::max(apart, std::abs(first.rows[i] - second.rows[i]));
       size  = std::max(size, std::abs(first.rows[i] - first.signals[j].mean));
     }
+    constexpr double steady = 1e-9; // amplitude that is what steps leave, of the mean: that is the size
     if (const double mean = std::abs(first.signals[j].mean); size <= steady * mean)
       size = mean;
     check.distances.emplace_back(first.signals[j].name, size > 0. ? apart / size : apart);

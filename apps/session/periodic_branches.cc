@@ -16,11 +16,8 @@ namespace gestell::apps
 namespace
 {
 constexpr int         usual_points = 100, rows_of_branches = 128;
-constexpr int         most_turns_per_point = 10;   ///< points of a branch, of those from end to end
-constexpr int         generations          = 2;    ///< of branches that leave branches
-constexpr std::size_t most_left            = 16;   ///< points at which branches leave that are followed
-constexpr double      same_place           = 1e-6; ///< of the range, of the period
-constexpr double      same                 = 1e-5; ///< distance of two motions, of their size
+constexpr std::size_t most_left  = 16;   ///< points at which branches leave that are followed
+constexpr double      same_place = 1e-6; ///< of the range, of the period
 
 using coupling::PeriodicSolution;
 
@@ -52,7 +49,8 @@ bool known(const PeriodicResult &result, const PeriodicSolution &solution, doubl
   return std::any_of(result.entries.begin(), result.entries.end(),
                      [&](const PeriodicEntry &entry)
                      {
-                       const PeriodicSolution &s = entry.solution;
+                       const PeriodicSolution &s    = entry.solution;
+                       constexpr double        same = 1e-5; // distance of two motions, of their size
                        return std::abs(entry.parameter - parameter) <= 1e-12 * range && s.ratio == solution.ratio &&
                               omega * (s.q - solution.q).norm() + (s.v - solution.v).norm() <= same * size;
                      });
@@ -137,10 +135,11 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
                      const std::function<void(double)> &progress, const std::atomic<bool> *stop, PeriodicResult &result)
 {
   coupling::ContinuationOptions along;
-  along.from   = family.from();
-  along.to     = family.to();
-  along.points = request.points > 0 ? request.points : usual_points;
-  along.most   = std::max(along.most, most_turns_per_point * along.points);
+  along.from                         = family.from();
+  along.to                           = family.to();
+  along.points                       = request.points > 0 ? request.points : usual_points;
+  constexpr int most_turns_per_point = 10; // points of a branch, of those from end to end
+  along.most                         = std::max(along.most, most_turns_per_point * along.points);
   BranchTable table(family, result);
   const auto  on_point = [&](const coupling::BranchPoint &point)
   {
@@ -170,6 +169,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
         for (const auto &other : new_branches(family, special, options, along, times, on_point))
         {
           keep(other);
+          constexpr int generations = 2; // of branches that leave branches
           if (generation < generations)
             shed(other, times, generation + 1);
         }

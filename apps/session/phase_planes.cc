@@ -9,14 +9,13 @@ namespace gestell::apps
 
 namespace
 {
-constexpr std::size_t most_planes = 4, most_curves = 6;
-constexpr int         rows_of_planes = 4096; ///< of a period: shocks are short
-constexpr double      seen = 1e-3; ///< distance of points, of the widths of the plane, below which they are one
+constexpr int rows_of_planes = 4096; ///< of a period: shocks are short
 
 /// Column j against its rate, n columns further; points that lie on one another are left out.
 PhasePlane::Curve curve_of(const PeriodicEntry &traced, std::size_t j, std::size_t n)
 {
   const SignalOrbit &x = traced.signals[j], &rate = traced.signals[n + j];
+  constexpr double   seen  = 1e-3; // distance of points, of the widths of the plane, below which they are one
   const double       width = seen * (x.max - x.min), height = seen * (rate.max - rate.min);
   PhasePlane::Curve  curve;
   const std::size_t  columns = 2 * n + 1, rows = traced.rows.size() / columns;
@@ -65,6 +64,8 @@ std::vector<PhasePlane> phase_planes(coupling::Machine &machine, const coupling:
                                      const std::vector<coupling::Signal> &signals)
 {
   std::vector<coupling::Signal> read, rates;
+  constexpr std::size_t         most_planes = 4; // two rows of charts
+  constexpr std::size_t         most_curves = 6; // colours of a chart but one
   for (const coupling::Signal &signal : signals)
     if (const auto rate = rate_of(signal); rate && read.size() < most_planes)
     {

@@ -28,8 +28,6 @@ namespace gestell::apps
 
 namespace
 {
-/// Modes damped in an unreduced frame with modal damping, at least.
-constexpr int damped_modes = 60;
 
 /// A frame made from geometry or given by matrices, with its reduced companion.
 coupling::MeshService::Unreduced unreduced_frame(const Scene &scene, const coupling::Progress &progress)
@@ -123,7 +121,8 @@ PreparedMachine on_full_frame(const Scene &scene, const coupling::Progress &prog
   coupling::Machine companion = build_machine(scene, reduced);
   if (frame.modal_damping_ratio.any())
   {
-    const int n_reduced = static_cast<int>(reduced.omega0.size());
+    const int     n_reduced    = static_cast<int>(reduced.omega0.size());
+    constexpr int damped_modes = 60; // Modes damped in an unreduced frame with modal damping, at least.
     coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress);
   }
   return {build_machine(scene, std::move(frame)), std::move(companion), false, {}};
@@ -363,13 +362,6 @@ void add_modes_beside(const Scene &scene, coupling::Machine &machine, const coup
   result.warnings.push_back("no modes are told: " + why);
 }
 
-/// Coordinates of a machine of which a run tells modes unasked: they take the cube of that number, a motion much less.
-constexpr int most_coordinates = 600;
-
-/// Dense matrices [n x n] that modes of n coordinates have at once: M, B, K, Z, those of the free motions, the modes,
-/// and the state [2n x 2n] with its vectors, twice as wide as they are complex.
-constexpr double matrices_of_modes = 24.;
-
 /// Why there are no modes; empty: there are.
 /// @throws std::invalid_argument if memory does not hold what they take
 std::string without_modes(const Scene &scene, const std::string &command, const coupling::Machine &machine)
@@ -380,10 +372,15 @@ std::string without_modes(const Scene &scene, const std::string &command, const 
         "modes.number = 0 leaves out what `gestell modes` tells; give it --set modes.number=20");
   if (scene.modes.number == 0)
     return "not asked for";
+  // Coordinates of a machine of which a run tells modes unasked: they take the cube of that number, a motion much less.
+  constexpr int most_coordinates = 600;
   if (command == "run" && n > most_coordinates)
     return "of " + std::to_string(n) + " coordinates, more than " + std::to_string(most_coordinates) +
            ", modes take longer than most runs (the cube of their number) and are left out of the report; `gestell "
            "modes` tells them, modes.number = 0 leaves this note out";
+  // Dense matrices [n x n] that modes of n coordinates have at once: M, B, K, Z, those of the free motions, the modes,
+  // and the state [2n x 2n] with its vectors, twice as wide as they are complex.
+  constexpr double matrices_of_modes = 24.;
   fem::require_available("modes: dense matrices of " + std::to_string(n) + " coordinates",
                          matrices_of_modes * 8. * n * n,
                          "modes.number = 0 leaves modes out; give the machine fewer bodies.");

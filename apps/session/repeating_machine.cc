@@ -21,9 +21,6 @@ using coupling::BodyKind;
 using Eigen::VectorXd;
 
 constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
-constexpr double equal_periods = 1e-9; ///< of loads and a period that is given
-constexpr double equal_turns   = 5e-2; ///< of speeds over `turns_tried`, which linkages let vary within a turn
-constexpr double turns_tried   = 3.;   ///< of the fastest angle
 constexpr double drifting_runs = 100.; ///< in which what turns comes round at least once
 
 /// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
@@ -93,15 +90,17 @@ TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, con
   for (const auto *group : {&moving.rotors, &moving.planar})
     for (const int i : *group)
       fastest = std::max(fastest, std::abs(start.v[i]));
-  const double   time = turns_tried * 2. * M_PI / fastest;
-  const VectorXd way =
+  constexpr double turns_tried = 3.; // of the fastest angle
+  const double     time        = turns_tried * 2. * M_PI / fastest;
+  const VectorXd   way =
       coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.}, start.t, time, stop);
   for (const int i : moving.planar)
     if (way[i] != 0.)
     {
       turning.angles.push_back(i);
-      turning.speed[i]  = way[i] / time;
-      turning.tolerance = equal_turns;
+      turning.speed[i]             = way[i] / time;
+      constexpr double equal_turns = 5e-2; // of speeds over `turns_tried`, which linkages let vary within a turn
+      turning.tolerance            = equal_turns;
     }
   return turning;
 }
@@ -146,7 +145,8 @@ int periods_of_loads(double period, const std::vector<double> &omega, const Scen
 {
   if (omega.empty())
     return 1;
-  const double own = common_period_of(omega, scene), times = period / own;
+  const double     own = common_period_of(omega, scene), times = period / own;
+  constexpr double equal_periods = 1e-9; // of loads and a period that is given
   if (std::round(times) >= 1. && std::abs(times - std::round(times)) <= equal_periods * times)
     return int(std::round(times));
   throw std::invalid_argument(scene.file + ": --period: the loads do not repeat after " + short_text(period, 8) +

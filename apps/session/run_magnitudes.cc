@@ -20,15 +20,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double softest     = 0.05;      ///< [m] tyres and rubber mounts of any machine yield by centimetres
-constexpr double most_twist  = 0.5;       ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
-constexpr double most_turns  = 4. * M_PI; ///< [rad] of a torsion spring on the ground
-constexpr double most_travel = 1.;        ///< of the machine: no spring is longer
-constexpr double farthest    = 10.;       ///< of the machine: beyond, a body has left it
-constexpr double fastest     = 300.;      ///< [m/s] of a body: tools and slides move below the speed of sound in air
-/// [m/s] of a solid disc of steel at sqrt(8 sigma / ((3 + nu) rho)) with a strength of 600 MPa
-constexpr double fastest_rim = 430.;
-constexpr double standstill  = 0.05; ///< of the synchronous speed
+constexpr double most_twist = 0.5;       ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
+constexpr double most_turns = 4. * M_PI; ///< [rad] of a torsion spring on the ground
 
 using coupling::ElementPlacement;
 using mechanism::KlossMotor;
@@ -185,7 +178,8 @@ std::optional<UnexpectedValue> RunMagnitudes::judged_slip(const Watched         
                                "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start",
                            std::abs(slip) / most};
   };
-  const bool turns = std::abs(1. - value.first) > standstill;
+  constexpr double standstill = 0.05; // of the synchronous speed
+  const bool       turns      = std::abs(1. - value.first) > standstill;
   if (turns && std::abs(value.first) > most)
     return unexpected("at the start", value.first, "1 at standstill, or ");
   // A start-up that is under way is no mistake.
@@ -210,15 +204,18 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
   const auto above = [](double amount, double most, const std::string &place, const std::string &words) {
     return most > 0. && amount > most ? std::optional(UnexpectedValue{place, words, amount / most}) : std::nullopt;
   };
-  const auto        key  = [&](const char *name) { return key_place(scene_, watched.object, name); };
-  const std::string body = "body." + watched.object;
-  const double      way  = value.most - value.least;
+  const auto        key      = [&](const char *name) { return key_place(scene_, watched.object, name); };
+  const std::string body     = "body." + watched.object;
+  const double      way      = value.most - value.least;
+  constexpr double  farthest = 10.;  // of the machine: beyond, a body has left it
+  constexpr double  fastest  = 300.; // [m/s] of a body: tools and slides move below the speed of sound in air
   switch (watched.kind)
   {
   case Kind::deformation:
   {
-    const bool   turns = unit == "N m";
-    const double size = size_of(watched.object), e = value.largest() / watched.scale,
+    const bool       turns   = unit == "N m";
+    constexpr double softest = 0.05; // [m] tyres and rubber mounts of any machine yield by centimetres
+    const double     size = size_of(watched.object), e = value.largest() / watched.scale,
                  most = turns       ? most_twist
                         : size > 0. ? std::max(softest, most_yielding * size)
                                     : 0.;
@@ -232,8 +229,9 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
   }
   case Kind::travel:
   {
-    const bool   turns = unit == "rad";
-    const double most  = turns ? watched.scale : most_travel * size_;
+    const bool       turns       = unit == "rad";
+    constexpr double most_travel = 1.; // of the machine: no spring is longer
+    const double     most        = turns ? watched.scale : most_travel * size_;
     return above(way, most, key("stiffness"),
                  "its ends move by " + amount(way, unit) + " against each other; expected: at most " +
                      amount(most, unit) +
@@ -255,6 +253,8 @@ std::optional<UnexpectedValue> RunMagnitudes::judged(const Watched &watched, con
   case Kind::turning:
   {
     const double rim = value.largest() * watched.scale;
+    // [m/s] of a solid disc of steel at sqrt(8 sigma / ((3 + nu) rho)) with a strength of 600 MPa
+    constexpr double fastest_rim = 430.;
     return above(rim, fastest_rim, body + ".radius",
                  "its rim has " + amount(rim, "m/s") + at(value.t_largest()) + "; expected: at most " +
                      amount(fastest_rim, "m/s") +

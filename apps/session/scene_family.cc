@@ -43,9 +43,6 @@ std::shared_ptr<const coupling::ReducedFrame> plain(const coupling::ReducedFrame
   return copy;
 }
 
-constexpr int    halvings       = 50;
-constexpr double zero_frequency = 1e-9; ///< frequency of a load that counts as zero, of that where the search begins
-
 /// Of the loads on the frame and on bodies [rad/s]; infinite where none oscillates.
 double lowest_frequency(const Scene &scene)
 {
@@ -183,8 +180,10 @@ std::string SceneFamily::standstill(double within, double beyond) const
     }
   };
   probe(beyond);
+  constexpr int halvings = 50; // from the range to its rounding, 2^-50 = 1e-15
   for (int k = 0; ends && k < halvings; ++k)
     probe(0.5 * (within + beyond));
+  constexpr double zero_frequency = 1e-9; // frequency of a load that counts as zero, of that where the search begins
   if (!ends || !(last < zero_frequency * first))
     return {};
   const double where = std::abs(beyond) < zero_frequency * range ? 0. : beyond;

@@ -40,15 +40,14 @@ private:
   pid_t process_ = -1;
 };
 
-constexpr int patience_ms = 20000;
-
 /// The number of the display, which Xvfb writes once it serves; "" if it ends or keeps silent before.
 std::string display_from(int pipe)
 {
   std::string text;
   for (char c; text.find('\n') == std::string::npos;)
   {
-    pollfd wait{pipe, POLLIN, 0};
+    pollfd        wait{pipe, POLLIN, 0};
+    constexpr int patience_ms = 20000; // a browser starts within some seconds, also on a slow machine
     if (poll(&wait, 1, patience_ms) <= 0 || read(pipe, &c, 1) <= 0)
       return "";
     text += c;

@@ -14,14 +14,9 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double coarser    = 1.5;  ///< size of the cells of the second mesh
-constexpr double mesh_order = 1.5;  ///< in their size
-constexpr double hardly     = 1.1;  ///< ratio of sizes below which two meshes are alike
-constexpr double left_over  = 1.25; ///< of what degree three corrects, docs/theory/mesh_error.md (4b)
-constexpr int    most_raised =
-    60000; ///< coordinates of a mesh that is compared with degree three, which has three times as many
-constexpr int    coarsest_raised = 3; ///< powers of the ratio of sizes
-constexpr double no_part         = 0.;
+constexpr double coarser    = 1.5; ///< size of the cells of the second mesh
+constexpr double mesh_order = 1.5; ///< in their size
+constexpr double no_part    = 0.;
 
 using Differs = std::optional<std::string>; ///< the event in which two models differ; none: in none
 
@@ -189,13 +184,16 @@ Comparison BudgetMaker::degree()
 /// Of the mesh itself in elements of degree three, or of a coarser one whose error is reckoned to this one.
 Comparison BudgetMaker::raised()
 {
-  ModelVariant variant = finest_;
-  variant.modes        = run_.modes;
+  ModelVariant variant          = finest_;
+  variant.modes                 = run_.modes;
+  constexpr int coarsest_raised = 3; // powers of the ratio of sizes
   for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= coarser)
   {
     if (k > 0 && !mesh_can_change(scene_))
       break;
     const ModelAnswer first = k > 0 ? models_.of(variant) : models_.of(finest_);
+    // coordinates of a mesh that is compared with degree three, which has three times as many
+    constexpr int most_raised = 60000;
     if (first.n_frame > most_raised)
       continue;
     const double ratio = std::cbrt(double(run_.n_frame) / first.n_frame);
@@ -207,7 +205,8 @@ Comparison BudgetMaker::raised()
     Comparison comparison =
         against(variant, "elements of degree three" +
                              (k > 0 ? " in cells of " + short_text(std::pow(coarser, k), 3) + " times the size" : ""));
-    comparison.factor = left_over / std::pow(ratio, mesh_order);
+    constexpr double left_over = 1.25; // of what degree three corrects, docs/theory/mesh_error.md (4b)
+    comparison.factor          = left_over / std::pow(ratio, mesh_order);
     return comparison;
   }
   return {};
@@ -223,9 +222,10 @@ Comparison BudgetMaker::coarser_cells()
   if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;
-  comparison.first   = models_.of(finest_);
-  comparison.second  = models_.of(variant);
-  const double ratio = std::cbrt(double(run_.n_frame) / comparison.second->n_frame);
+  comparison.first        = models_.of(finest_);
+  comparison.second       = models_.of(variant);
+  const double     ratio  = std::cbrt(double(run_.n_frame) / comparison.second->n_frame);
+  constexpr double hardly = 1.1; // ratio of sizes below which two meshes are alike
   if (ratio < hardly)
     return not_known("cells of 1.5 times the size give nearly the same mesh: small features decide its size");
   comparison.factor = 1. / (std::pow(ratio, mesh_order) - 1.);

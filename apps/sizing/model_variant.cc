@@ -36,9 +36,6 @@ double frequency_of(const OutputName &output, const Modes &modes)
   return modes[std::size_t(output.mode) - 1].frequency_hz;
 }
 
-constexpr double least_steps = 50.;
-constexpr int    least_more  = 8; ///< modes
-
 const coupling::SignalSummary &signal_of(const coupling::RunResult &run, const std::string &name)
 {
   return *std::find_if(run.signals.begin(), run.signals.end(),
@@ -99,6 +96,7 @@ int modes_asked(const Scene &scene, const ModelAnswer &answer)
 
 int more_than(int modes)
 {
+  constexpr int least_more = 8; // modes: twice one or two would add next to nothing
   return modes < 0 ? modes : std::max(2 * modes, modes + least_more);
 }
 
@@ -374,7 +372,8 @@ coupling::MethodOptions finest_method(const Scene &scene)
   if (run.method.method == finest.method)
     finest.own = run.method.own;
   finest.set("force", std::string("collocation"));
-  finest.tolerance = 1e-10;
+  finest.tolerance             = 1e-10;
+  constexpr double least_steps = 50.; // of the run: no load goes by between two steps
   // A fixed step says nothing of the longest one; no load goes by between two steps.
   finest.step = controlled(run.method) ? run.method.step : (run.end - run.begin) / least_steps;
   for (const LoadRequest &load : scene.loads)

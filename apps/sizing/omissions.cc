@@ -12,9 +12,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double half        = 0.5;
-constexpr double as_rigid    = 1e4; ///< times as stiff
-constexpr double near_cutoff = 1.5; ///< times a frequency of a load: modes up to there answer to it
+constexpr double half     = 0.5;
+constexpr double as_rigid = 1e4; ///< times as stiff
 
 /// The largest change of an output, of its scale.
 struct Change
@@ -234,6 +233,7 @@ void Questions::fast_loads()
     double highest = 0.;
     for (const auto &harmonic : load.oscillations)
       highest = std::max(highest, harmonic.omega / (2. * M_PI));
+    constexpr double near_cutoff = 1.5; // times a frequency of a load: modes up to there answer to it
     if (near_cutoff * highest > cutoff)
       found_.missing.push_back("modes above " + short_text(cutoff, 3) + " Hz, the highest that is kept: \"" +
                                load.name + "\" acts with " + short_text(highest, 3) + " Hz");

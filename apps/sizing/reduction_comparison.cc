@@ -13,9 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int most_unasked = 64; ///< modes
-constexpr int finer        = 4;  ///< times the largest number of modes, of the reference
-
 /// Largest number of modes a frame can keep; where it is not known, any.
 int most_modes(const Scene &scene)
 {
@@ -30,7 +27,8 @@ int most_modes(const Scene &scene)
 /// Ascending, each once.
 std::vector<int> modes_of(const ComparisonOptions &options, int most)
 {
-  std::vector<int> modes = options.modes;
+  std::vector<int> modes        = options.modes;
+  constexpr int    most_unasked = 64; // modes
   for (int number = 2; options.modes.empty() && number <= std::min(most, most_unasked); number *= 2)
     modes.push_back(number);
   if (modes.empty())
@@ -92,7 +90,8 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
   if (largest > most)
     throw std::invalid_argument("--modes: " + std::to_string(largest) + " modes, but the inside of the frame has " +
                                 std::to_string(most) + " coordinates; name no more");
-  ModelAnswer reference, answer;
+  ModelAnswer   reference, answer;
+  constexpr int finer  = 4; // times the largest number of modes, of the reference
   comparison.reference = options.full ? point_of(scene, "condensation", -1, outputs, options.stop, reference)
                                       : point_of(scene, "craig-bampton", std::min(most, finer * largest), outputs,
                                                  options.stop, reference);

@@ -9,14 +9,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double least_order = 1., most_order = 4., usual_order = 3.;
-constexpr double fewest = 1., most = 3., usual_growth = 2.; ///< r of walls
-constexpr double of_work = 1.2; ///< power of the coordinates: sparse factors of solids of few cells
-constexpr double finest = 0.125, finest_of_one = 0.5; ///< of the size of the finest point
-constexpr double unseen   = 1. / 1.5;                 ///< next size where the error is not known
-constexpr double apart    = 1.05;                     ///< ratio of sizes from which on two points show a law
-constexpr int    halvings = 40;
-
 double power(double a, double b, double size_a, double size_b)
 {
   return std::log(a / b) / std::log(size_a / size_b);
@@ -36,9 +28,17 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
                                          double coarsest)
 {
   std::sort(points.begin(), points.end(), [](const MeshPoint &a, const MeshPoint &b) { return a.size < b.size; });
-  const MeshPoint &best = points.front();
-  const auto       law  = std::find_if(points.begin(), points.end(),
-                                       [&](const MeshPoint &other) { return other.size > apart * best.size; });
+  const MeshPoint &best         = points.front();
+  constexpr double apart        = 1.05; // ratio of sizes from which on two points show a law
+  const auto       law          = std::find_if(points.begin(), points.end(),
+                                               [&](const MeshPoint &other) { return other.size > apart * best.size; });
+  constexpr double least_order  = 1.;                   // re-entrant edges leave about one
+  constexpr double most_order   = 4.;                   // energies of quadratic elements
+  constexpr double usual_order  = 3.;                   // between both, until two meshes tell it
+  constexpr double fewest       = 1.;                   // beams
+  constexpr double most         = 3.;                   // solids
+  constexpr double usual_growth = 2.;                   // walls
+  constexpr double finest = 0.125, finest_of_one = 0.5; // of the size of the finest point
   double           q = usual_order, r = usual_growth, least = finest_of_one;
   const double     error = largest(best.shares, &Shares::degree);
   if (law != points.end())
@@ -59,7 +59,9 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
   };
   if (!(expected(0.) <= aim) && std::isfinite(error))
     return {};
-  double ratio = coarsest / best.size;
+  double           ratio    = coarsest / best.size;
+  constexpr double unseen   = 1. / 1.5; // next size where the error is not known
+  constexpr int    halvings = 40;       // to 2^-40 of the first range of ratios
   if (!std::isfinite(error))
     ratio = largest(best.shares, &Shares::sides) <= aim ? unseen : 0.;
   else if (expected(least) > aim)
@@ -70,9 +72,10 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
   if (!(ratio > 0.))
     return {};
   MeshPoint next;
-  next.size        = ratio * best.size;
-  next.coordinates = best.coordinates * std::pow(ratio, -r);
-  next.cpu_s       = best.cpu_s * std::pow(ratio, -r * of_work);
+  next.size                = ratio * best.size;
+  next.coordinates         = best.coordinates * std::pow(ratio, -r);
+  constexpr double of_work = 1.2; // power of the coordinates: sparse factors of solids of few cells
+  next.cpu_s               = best.cpu_s * std::pow(ratio, -r * of_work);
   return next;
 }
 

@@ -13,20 +13,6 @@
 namespace gestell::apps
 {
 
-namespace
-{
-
-constexpr int    first_modes        = 8;
-constexpr double smallest_tolerance = 1e-8; ///< of outputs
-constexpr double loosest            = 1e-3; ///< tolerance of `exact`
-constexpr double finest_tolerance   = 1e-9; ///< ten times that of the finest of a budget
-constexpr double longest            = 8.;   ///< of the scene's steps
-constexpr double rounding           = 1e-9;
-
-constexpr double unknown = std::numeric_limits<double>::infinity();
-
-} // namespace
-
 double memory_taken()
 {
   std::ifstream status("/proc/self/status");
@@ -40,6 +26,7 @@ SizeModels::SizeModels(const Scene &scene, const std::vector<OutputName> &output
                        const std::atomic<bool> *stop)
     : scene_(scene), outputs_(outputs), tolerance_(tolerance), stop_(stop), models_(scene, outputs, stop)
 {
+  constexpr double smallest_tolerance = 1e-8; // of outputs
   if (!(tolerance >= smallest_tolerance) || tolerance > 1.)
     throw std::invalid_argument(
         "--tolerance: needs a relative error between 1e-8, below which rounding decides, and 1, "
@@ -97,15 +84,18 @@ ModelVariant SizeModels::variant_of(const SizePlace &place, double most_cells) c
 SizePlace SizeModels::coarse()
 {
   SizePlace place;
-  place.mesh  = mesh_can_change(scene_) ? coarsest_mesh : 1.;
-  place.modes = modes_are_chosen(scene_) ? std::min(first_modes, most_modes()) : -1;
-  place.time  = loosest;
+  place.mesh                = mesh_can_change(scene_) ? coarsest_mesh : 1.;
+  constexpr int first_modes = 8; // the search adds and removes others
+  place.modes               = modes_are_chosen(scene_) ? std::min(first_modes, most_modes()) : -1;
+  constexpr double loosest  = 1e-3; // tolerance of `exact`
+  place.time                = loosest;
   if (by_exact_ = takes_exact(place); by_exact_)
     return first_ = place;
   if (!scene_.run.step_given)
     throw std::invalid_argument(scene_.run.place + ": the step follows from the modes, and `size` varies a given one: "
                                                    "give run.step, or a method with a tolerance");
-  const coupling::MethodOptions &given = scene_.run.options.method;
+  const coupling::MethodOptions &given   = scene_.run.options.method;
+  constexpr double               longest = 8.; // of the scene's steps: eight times, four, two, as given
   for (double factor = longest; factor >= 1.; factor /= 2.)
     try
     {
@@ -130,7 +120,8 @@ double SizeModels::scale_of(std::size_t output, const ModelAnswer &answer) const
 
 Shares SizeModels::shares_of(const BudgetEntry &entry, double allowed) const
 {
-  const auto share = [&](const std::optional<double> &error) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  const auto       share   = [&](const std::optional<double> &error) {
     return !error ? unknown : *error == 0. ? 0. : *error / allowed;
   };
   std::optional<double> degree;
@@ -235,6 +226,7 @@ bool SizeModels::by_steps() const
 
 SizeModels::TimeLaw SizeModels::time_law() const
 {
+  constexpr double finest_tolerance = 1e-9; // ten times that of the finest of a budget
   if (by_exact_)
     return {10., 1., finest_tolerance};
   return by_steps() ? TimeLaw{2., double(std::max(1, scene_.run.options.method.order)), 0.} : TimeLaw{4., 1., 0.};
@@ -242,7 +234,8 @@ SizeModels::TimeLaw SizeModels::time_law() const
 
 std::vector<SizePlace> SizeModels::about(const SizePlace &chosen, const SizePlace &coarsest) const
 {
-  std::vector<double> meshes = {chosen.mesh}, times;
+  std::vector<double> meshes   = {chosen.mesh}, times;
+  constexpr double    rounding = 1e-9; // of factors that were multiplied a few times
   if (mesh_can_change(scene_))
     for (double mesh = chosen.mesh / ratio_of_meshes; mesh <= coarsest.mesh; mesh *= ratio_of_meshes)
       if (std::abs(mesh / chosen.mesh - 1.) > rounding)

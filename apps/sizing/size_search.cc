@@ -16,20 +16,10 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double aim                = 0.8; ///< of what is allowed, as laws err
-constexpr double of_a_part          = 0.2; ///< of what is allowed: modes and time are cheap beside the mesh,
-constexpr double without_mesh       = 0.5; ///< of modes where there is none to be made finer
-constexpr double enough             = 1.5; ///< times that part: only above is it made smaller
-constexpr double worth_it           = 0.8; ///< of the coordinates, below which a smaller model is judged, too
-constexpr double another_kind       = 2.;  ///< times the coordinates of the first model, from which others are tried
-constexpr double most_runs          = 10.; ///< of the chosen model, that a search may take
-constexpr double not_worth_counting = 5.;  ///< [s] that a search may take of machines that run in a moment
-constexpr int    most_judged        = 12;
-constexpr int    seen_enough        = 3;   ///< models without a known error
-constexpr double of_finer_cells     = 2.6; ///< CPU time of cells of 2/3 the size in walls, 1.5^(2 1.2)
-constexpr double models_of_a_budget = 4.;  ///< of about the same cost: sides, degree, modes, time
-/// Coordinates that a cell brings at least: a tetrahedron of a solid 4.1, a hexahedron of one layer 15.
-constexpr double of_tetrahedron = 4., of_hexahedron = 12.;
+constexpr double aim          = 0.8; ///< of what is allowed, as laws err
+constexpr double of_a_part    = 0.2; ///< of what is allowed: modes and time are cheap beside the mesh,
+constexpr double without_mesh = 0.5; ///< of modes where there is none to be made finer
+constexpr double most_runs    = 10.; ///< of the chosen model, that a search may take
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
@@ -124,7 +114,8 @@ void Search::plan(const SizedPlace &last)
 {
   const auto  &shares = last.point.shares;
   const double modes = largest(shares, &Shares::modes), time = largest(shares, &Shares::time);
-  planned_ = last.place;
+  planned_                = last.place;
+  constexpr double enough = 1.5; // times that part: only above is it made smaller
   if (planned_.modes >= 0 && modes > enough * of_modes())
     planned_.modes = std::min(models_.most_modes(), modes_for(of_modes(), last.place.modes, modes));
   if (time > enough * of_a_part)
@@ -219,8 +210,10 @@ void Search::try_kind(double coordinates)
   place.mesh      = coarsest_mesh;
   place.cells     = untried_.back();
   untried_.pop_back();
-  const double of_a_cell = place.cells == Cells::swept ? of_hexahedron : of_tetrahedron;
-  const double most      = std::isfinite(coordinates) ? coordinates / of_a_cell : 0.;
+  // Coordinates that a cell brings at least: a tetrahedron of a solid 4.1, a hexahedron of one layer 15.
+  constexpr double of_tetrahedron = 4., of_hexahedron = 12.;
+  const double     of_a_cell = place.cells == Cells::swept ? of_hexahedron : of_tetrahedron;
+  const double     most      = std::isfinite(coordinates) ? coordinates / of_a_cell : 0.;
   try
   {
     const int n = models_.answers().of(models_.variant_of(place, most)).n_frame;
@@ -282,6 +275,7 @@ bool Search::is_confirmed()
 /// more and tell no more.
 bool Search::is_known()
 {
+  constexpr int seen_enough = 3; // models without a known error
   if (int(judged_.size()) < seen_enough ||
       std::any_of(judged_.begin(), judged_.end(), [](const auto &judged) { return std::isfinite(judged.rung.share); }))
     return true;
@@ -297,16 +291,18 @@ bool Search::is_worth(const SizePlace &place, double coordinates)
 {
   if (std::any_of(judged_.begin(), judged_.end(), [&](const SizedPlace &other) { return other.place == place; }))
     return false;
-  const SizedPlace *so_far = best();
+  const SizedPlace *so_far   = best();
+  constexpr double  worth_it = 0.8; // of the coordinates, below which a smaller model is judged, too
   return !so_far || coordinates < worth_it * so_far->point.coordinates ||
          (place.cells == so_far->place.cells && place.mesh == so_far->place.mesh && place.modes < so_far->place.modes);
 }
 
 void Search::forecast(double coordinates, double model_cpu, double work)
 {
-  const double  spent = cpu_now() - begin_, proof = mesh_can_change(scene_) ? of_finer_cells : 0.;
-  SizeForecast &reported = result_.forecast;
-  reported               = {coordinates, planned_.modes, model_cpu, spent, spent + (work + proof + 1.) * model_cpu};
+  constexpr double of_finer_cells = 2.6; // CPU time of cells of 2/3 the size in walls, 1.5^(2 1.2)
+  const double     spent = cpu_now() - begin_, proof = mesh_can_change(scene_) ? of_finer_cells : 0.;
+  SizeForecast    &reported = result_.forecast;
+  reported                  = {coordinates, planned_.modes, model_cpu, spent, spent + (work + proof + 1.) * model_cpu};
   if (options_.on_forecast)
     options_.on_forecast(reported);
 }
@@ -331,20 +327,23 @@ bool Search::may_cost(const SizePlace &place, const MeshPoint &next)
 
 void Search::search()
 {
-  const SizePlace    coarse = planned_ = models_.coarse();
-  const ModelAnswer &answer            = models_.answers().of(models_.variant_of(coarse));
+  const SizePlace    coarse = planned_  = models_.coarse();
+  const ModelAnswer &answer             = models_.answers().of(models_.variant_of(coarse));
+  constexpr double   models_of_a_budget = 4.; // of about the same cost: sides, degree, modes, time
   forecast(answer.n_frame, answer.cpu(), models_of_a_budget);
   stop_above(answer.cpu());
   plan(judge(coarse));
   if (!result_.stopped.empty())
     return;
   keep_few_modes(judged_.front());
+  constexpr int most_judged = 12; // bounds a search that its laws mislead
   find_kinds();
   while (int(judged_.size()) < most_judged && is_known())
   {
-    SizePlace    place;
-    const auto   next  = expected(place);
-    const double limit = next ? next->coordinates : best() ? best()->point.coordinates : no_limit;
+    SizePlace        place;
+    const auto       next         = expected(place);
+    const double     limit        = next ? next->coordinates : best() ? best()->point.coordinates : no_limit;
+    constexpr double another_kind = 2.; // times the coordinates of the first model, from which others are tried
     if (!untried_.empty() && limit >= another_kind * judged_.front().point.coordinates)
     {
       try_kind(limit);
@@ -377,7 +376,8 @@ void Search::question(const SizedPlace &chosen)
   QuestionedModel model{scene, answer, outputs_, {}, options_.tolerance, coarse, judged_.front().model.run, {}};
   for (std::size_t i = 0; i < outputs_.size(); ++i)
     model.scales.push_back(models_.scale_of(i, answer));
-  if (!options_.exhaustive) // and the last run
+  constexpr double not_worth_counting = 5.; // [s] that a search may take of machines that run in a moment
+  if (!options_.exhaustive)                 // and the last run
     model.affords = [&](double cpu)
     { return cpu_now() - begin_ + cpu + answer.cpu() <= std::max(most_runs * answer.cpu(), not_worth_counting); };
   const Omissions found                                        = find_omissions(model, options_.stop);

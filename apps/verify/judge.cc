@@ -15,8 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int shown_digits = 10;
-
 /// Numbers side by side, of one column.
 struct Pairs
 {
@@ -184,11 +182,12 @@ CheckOutcome worst(const std::vector<Pairs> &columns, const Check &check)
       outcome.passed       = outcome.passed && error <= allowed;
       if (used <= most)
         continue;
-      most             = used;
-      outcome.error    = error;
-      outcome.allowed  = allowed;
-      outcome.expected = short_text(column.expected[i], shown_digits);
-      outcome.obtained = short_text(column.obtained[i], shown_digits);
+      most                       = used;
+      outcome.error              = error;
+      outcome.allowed            = allowed;
+      constexpr int shown_digits = 10; // of values that are compared to 1e-9 at best
+      outcome.expected           = short_text(column.expected[i], shown_digits);
+      outcome.obtained           = short_text(column.obtained[i], shown_digits);
     }
   }
   if (outcome.n_numbers == 0)

@@ -21,9 +21,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_overlays = 8;
-constexpr std::size_t most_copies   = 4; ///< of curves that are shown without script, too
-
 /// Column j of the history over the time, times the factor of a unit.
 Curve history_curve(const std::string &name, const coupling::RunResult &run, std::size_t j, double factor)
 {
@@ -65,7 +62,9 @@ std::vector<Section::Drawing> overlay_charts(const std::string &scene, const cou
 {
   using Shown = Section::Drawing::Shown;
   std::vector<Section::Drawing> charts;
-  const auto                    add = [&](const std::string &name, const Chart &chart, ChartLink link) {
+  // curves that are shown without script, too: they take most of the page's size
+  constexpr std::size_t most_copies = 4;
+  const auto            add         = [&](const std::string &name, const Chart &chart, ChartLink link) {
     charts.push_back({name, chart, link, charts.size() < most_copies ? Shown::live : Shown::named});
   };
   if (run.rows.size() < 2 * run.columns.size() || other.run.rows.size() < 2 * other.run.columns.size())
@@ -74,6 +73,7 @@ std::vector<Section::Drawing> overlay_charts(const std::string &scene, const cou
   std::size_t n     = 0;
   for (const SharedSignal shared : shared_signals(run, other.run))
   {
+    constexpr std::size_t most_overlays = 8; // a screen each; the file of the comparison has all signals
     if (++n > most_overlays)
       break;
     Chart      chart  = overlay(scene, run, other, shared);

@@ -12,8 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_panels = 8, most_rows = 12, in_a_row = 4;
-constexpr double      panel_width = 190., gap = 16., row = 26., bar = 9., top = 66., letter = 6.6, head_room = 46.;
+constexpr double panel_width = 190., gap = 16., row = 26., bar = 9., top = 66., letter = 6.6, head_room = 46.;
 
 /// Amplitudes of a shape with angles times the arm, largest 1.
 Eigen::VectorXd drawn(const ComparedShapes &shapes, const Eigen::VectorXd &shape, double arm)
@@ -58,6 +57,7 @@ std::vector<Eigen::Index> shown_measures(const std::vector<DrawnPair> &pairs)
   for (Eigen::Index k = 0; k < size.size(); ++k)
     order.push_back(k);
   std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return size[i] > size[j]; });
+  constexpr std::size_t most_rows = 12; // the height of a panel; smaller parts are in the files
   order.resize(std::min(order.size(), most_rows));
   std::sort(order.begin(), order.end());
   return order;
@@ -119,6 +119,8 @@ double widest_name(const ComparedShapes &shapes, const std::vector<Eigen::Index>
 std::string shape_pairs_svg(const ComparedShapes &shapes, double arm)
 {
   std::vector<DrawnPair> pairs;
+  constexpr std::size_t  most_panels = 8; // two rows of panels, a screen
+  constexpr std::size_t  in_a_row    = 4; // four of panel_width side by side are as wide as a chart
   for (const coupling::ModePair &pair : shapes.match.pairs)
     if (shapes.a.modes[std::size_t(pair.a)].frequency_hz > 0. && pairs.size() < most_panels)
       pairs.push_back(drawn_pair(shapes, pair, arm));

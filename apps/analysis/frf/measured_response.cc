@@ -24,8 +24,6 @@ namespace
 
 using Complex = std::complex<double>;
 
-constexpr int highest_derivative = 2;
-
 /// What files hold of a curve, before it is known for which pair it stands.
 struct ReadCurve
 {
@@ -190,6 +188,7 @@ void convert(ReadCurve &read, const ResponsePair &pair)
     Dimension      reached = own.dimension;
     times                  = int(std::lround(own.dimension[2] - wanted.dimension[2])); // 1/s per derivative
     reached[2] -= times;
+    constexpr int highest_derivative = 2; // from displacement to acceleration
     if (!equal(reached, wanted.dimension) || std::abs(times) > highest_derivative)
       throw std::invalid_argument(read.place + "the unit [" + read.unit + "] is none of " + pair.name() +
                                   ", which is in [" + pair.unit + "]");

@@ -22,10 +22,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_listed = 3; ///< motions that grow
-constexpr int         most_points = 1000000;
-constexpr double      slow        = 1e-3; ///< beside the fastest mode: a drive that weights hold, or a foundation
-
 void require_choice(const std::string &option, const std::string &value, const std::vector<std::string> &choices)
 {
   if (std::find(choices.begin(), choices.end(), value) == choices.end())
@@ -95,6 +91,7 @@ std::pair<double, double> default_band(const std::vector<coupling::Mode> &modes,
   double lowest = 0., highest = 0., fastest = 0.;
   for (const coupling::Mode &mode : modes)
     fastest = std::max(fastest, mode.frequency_hz);
+  constexpr double slow = 1e-3; // of the fastest mode: a drive that weights hold, or a foundation
   for (const coupling::Mode &mode : modes)
     if (mode.frequency_hz > slow * fastest)
     {
@@ -159,7 +156,8 @@ void warn_of_growth(const coupling::LinearResponse &linear, bool moves, std::vec
   }
   if (growing->empty())
     return;
-  std::string text;
+  std::string           text;
+  constexpr std::size_t most_listed = 3; // motions that grow: one suffices to refuse, more are in `gestell modes`
   for (std::size_t i = 0; i < std::min(growing->size(), most_listed); ++i)
     text += (i > 0 ? ", " : "") + growth_text((*growing)[i]);
   if (growing->size() > most_listed)
@@ -176,6 +174,7 @@ void check_frf_options(const FrfOptions &options)
   require_choice("--kind", options.kind, {"receptance", "mobility", "accelerance"});
   require_choice("--at", options.at, {"start", "equilibrium", "undeformed"});
   require_choice("--spacing", options.spacing, {"log", "linear"});
+  constexpr int most_points = 1000000; // 16 MB for each pair; no chart or file is read so finely
   if (options.points < 2 || options.points > most_points)
     throw std::invalid_argument("--points is " + std::to_string(options.points) + "; it needs 2 to " +
                                 std::to_string(most_points));

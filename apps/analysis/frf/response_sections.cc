@@ -13,16 +13,14 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_curves    = 5;    ///< of a chart
-constexpr double      widest_heights = 1e12; ///< of amplitudes in a chart: below are zeros and undamped antiresonances
-
 /// Pairs that share a chart.
 std::vector<std::vector<std::size_t>> chart_groups(const FrequencyResponse &response)
 {
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < response.pairs.size(); ++i)
   {
-    const auto joins = [&](const std::vector<std::size_t> &group)
+    constexpr std::size_t most_curves = 5; // of a chart: curves of more are not told apart
+    const auto            joins       = [&](const std::vector<std::size_t> &group)
     { return group.size() < most_curves && response.pairs[group[0]].unit == response.pairs[i].unit; };
     const auto found = std::find_if(groups.begin(), groups.end(), joins);
     if (found == groups.end())
@@ -114,6 +112,7 @@ void set_heights(Chart &chart)
     for (const double y : curve.y)
       if (std::isfinite(y) && y > 0.)
         high = std::max(high, y), low = std::min(low, y);
+  constexpr double widest_heights = 1e12; // of amplitudes in a chart: below are zeros and undamped antiresonances
   if (low < high / widest_heights)
     chart.y.begin = high / widest_heights;
 }

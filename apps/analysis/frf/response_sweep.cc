@@ -16,16 +16,13 @@ namespace
 
 using Complex = std::complex<double>;
 
-constexpr double widest_turn  = M_PI / 3.; ///< of a phase from one frequency to the next
-constexpr double least_damped = 1e-7;      ///< ratio of a mode whose frequency is asked for beside the given ones
-constexpr int    most_halves  = 8;
-constexpr double rounding     = 1e-12; ///< of a coordinate beside the motion of all, in the metric of mass
-
 const Complex unknown(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN());
 
 /// Both are known, and the phase turns far.
 bool turns(Complex a, Complex b)
 {
+  // of a phase from one frequency to the next: a mode turns it by pi, so that three steps or more follow it
+  constexpr double widest_turn = M_PI / 3.;
   return std::isfinite(std::abs(a)) && std::isfinite(std::abs(b)) && a != 0. && b != 0. &&
          std::abs(std::arg(b / a)) > widest_turn;
 }
@@ -34,6 +31,8 @@ bool turns(Complex a, Complex b)
 void add_modes(const std::vector<coupling::Mode> &modes, std::vector<double> &frequencies)
 {
   const double lowest = frequencies.front(), highest = frequencies.back();
+  // ratio of a mode whose frequency is added to the given ones: less is rounding
+  constexpr double least_damped = 1e-7;
   for (const coupling::Mode &mode : modes)
     if (mode.damping_ratio > least_damped && mode.damped_frequency_hz > 0.)
       for (const double nearby : {-2., -1., -0.5, 0., 0.5, 1., 2.})
@@ -64,7 +63,8 @@ Complex ResponseSweep::value(const Answer &answer, const coupling::Vibration &vi
   for (Eigen::Index i = 0; i < q.size(); ++i)
   {
     const auto &[on_q, on_v, on_a, on_p, on_lambda] = answer.signal;
-    const double weight = std::abs(on_q[i]) + s * std::abs(on_v[i]) + s * s * std::abs(on_a[i]);
+    const double     weight   = std::abs(on_q[i]) + s * std::abs(on_v[i]) + s * s * std::abs(on_a[i]);
+    constexpr double rounding = 1e-12; // of a coordinate beside the motion of all, in the metric of mass
     floor += masses_[i] > 0. ? rounding * weight * size / std::sqrt(masses_[i]) : 0.;
   }
   const Complex own = answer.signal.of(vibration, column);
@@ -114,6 +114,7 @@ std::vector<ResponseSweep::Sample> ResponseSweep::sampled(std::vector<double> fr
 
 void ResponseSweep::add_between(std::vector<Sample> &samples) const
 {
+  constexpr int most_halves = 8; // a 256th of a step follows modes of that much less damping than the grid resolves
   for (int k = 0; k < most_halves; ++k)
   {
     std::vector<Sample> finer;

@@ -15,9 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int frequency_axis = 18, si_units = 1;
-constexpr int n_head = 11; ///< records before the numbers
-
 /// Lines between two marks -1, the first of which names the data set.
 struct DataSet
 {
@@ -115,6 +112,7 @@ int derivatives_of(int data_type)
 
 UniversalFunction function_of(const DataSet &set)
 {
+  constexpr int n_head = 11; // records before the numbers
   if (set.records.size() <= n_head)
     set.refuse(set.records.size(), "ends before its numbers; it needs eleven lines of head");
   const std::vector<double> form = numbers(set, 6, 7);
@@ -126,6 +124,7 @@ UniversalFunction function_of(const DataSet &set)
     set.refuse(6, "data type is " + std::to_string(type) + "; 2 or 4 (real), 5 or 6 (complex) are known");
   if (!(form[1] >= 1.) || !(form[1] <= 1e8) || (spacing != 0 && spacing != 1))
     set.refuse(6, "the number of points must be above zero and the spacing 0 (uneven) or 1 (even)");
+  constexpr int frequency_axis = 18; // data set 58, record 8: abscissa is frequency
   if (const int axis = first_number(set, 7); axis != frequency_axis)
     set.refuse(7, "its abscissa is of type " + std::to_string(axis) + "; a frequency response needs 18 (frequency)");
   const std::size_t count = std::size_t(form[1]), first = spacing == 0 ? 1 : 0, width = first + (is_complex ? 2 : 1);
@@ -156,6 +155,7 @@ UniversalFunction function_of(const DataSet &set)
 std::vector<UniversalFunction> read_universal_functions(const std::string &file)
 {
   std::vector<UniversalFunction> functions;
+  constexpr int                  si_units = 1; // data set 164, record 1: SI
   for (const DataSet &set : data_sets(file))
     if (set.kind == "58b")
       set.refuse(0, "is binary; write the file in ASCII");

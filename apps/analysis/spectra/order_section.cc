@@ -11,9 +11,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_signals = 8;    ///< that are drawn; the table has all
-constexpr double      tallest      = 0.25; ///< spectrum, beside the range of the speeds
-constexpr double      seen         = 1e-2; ///< of the largest amplitude of a signal, that an order has to reach
+constexpr double seen = 1e-2; ///< of the largest amplitude of a signal, that an order has to reach
 
 double largest(const std::vector<double> &amplitudes)
 {
@@ -84,12 +82,13 @@ Chart waterfall_chart(const Waterfall &spectra, const std::vector<coupling::Mode
   chart.height           = 420.;
   chart.title            = spectra.name + ": spectra over the speed";
   chart.note = "the highest is " + short_text(most * unit.factor) + " " + unit.unit + "; dashed: orders of the speed";
-  chart.x.label = "frequency [Hz]";
-  chart.y.label = "speed [1/min]";
-  chart.x.begin = 0.;
-  chart.x.end   = highest_seen(spectra, most);
-  chart.y.begin = spectra.speed_rpm.front() - 0.05 * span;
-  chart.y.end   = fastest + tallest * span;
+  chart.x.label            = "frequency [Hz]";
+  chart.y.label            = "speed [1/min]";
+  chart.x.begin            = 0.;
+  chart.x.end              = highest_seen(spectra, most);
+  chart.y.begin            = spectra.speed_rpm.front() - 0.05 * span;
+  constexpr double tallest = 0.25; // spectrum, beside the range of the speeds
+  chart.y.end              = fastest + tallest * span;
   for (std::size_t i = spectra.amplitudes.size(); i-- > 0;) // the lowest in front
   {
     Curve curve;
@@ -130,6 +129,7 @@ Section order_section(const Result &result, const OrderTracking &tracking)
   {
     if (!(largest(signal) > 0.))
       continue;
+    constexpr std::size_t most_signals = 8; // that are drawn; the table has all
     if (++drawn <= most_signals)
       section.parts.push_back(Section::Drawing{"orders-" + std::to_string(drawn), order_chart(tracking, signal),
                                                over_speed(tracking) ? ChartLink::none : ChartLink::time});

@@ -13,10 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int    window_turns = 4, least_turns = 16, most_orders = 8, samples_of_turn = 64;
-constexpr double samples_of_order = 3.;
-constexpr int    most_windows     = 400;
-constexpr double most_turns       = 1e9; ///< that whole numbers count
+constexpr int window_turns = 4, least_turns = 16, most_orders = 8, samples_of_turn = 64;
 
 /// A table of values y over x ascending, by the cubic through four neighbours.
 double interpolated(const std::vector<double> &x, const std::vector<double> &y, double at)
@@ -138,7 +135,8 @@ Eigen::MatrixXd order_fit(int n_orders)
 /// Instants at equal angles, by windows.
 std::vector<std::vector<double>> windows_of(const Turning &history, int turns)
 {
-  const int                        hop = std::max(1, turns / most_windows);
+  constexpr int                    most_windows = 400; // points of a curve that is 640 pixels wide
+  const int                        hop          = std::max(1, turns / most_windows);
   std::vector<std::vector<double>> windows;
   for (int first = 0; first + window_turns <= turns; first += hop)
   {
@@ -197,11 +195,14 @@ std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::
   const auto reference = reference_of(scene, run);
   if (!reference)
     return std::nullopt;
-  const Turning history = turning(run, *reference);
-  const double  turns   = history.angle.empty() ? 0. : history.angle.back() / two_pi;
+  const Turning    history    = turning(run, *reference);
+  const double     turns      = history.angle.empty() ? 0. : history.angle.back() / two_pi;
+  constexpr double most_turns = 1e9; // that an int counts
   if (!(turns >= least_turns) || turns > most_turns || history.t.size() < 4)
     return std::nullopt;
-  const int n_orders = std::min(most_orders, int(rows_of_turn(history) / samples_of_order));
+  // rows of a period: two are the limit of sampling, the third keeps off aliases
+  constexpr double samples_of_order = 3.;
+  const int        n_orders         = std::min(most_orders, int(rows_of_turn(history) / samples_of_order));
   if (n_orders < 1)
     return std::nullopt;
 

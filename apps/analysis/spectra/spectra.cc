@@ -15,9 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t fewest_rows = 256, most_lines = 8192, most_spectra = 6;
-constexpr double      even = 1e-6; ///< of the distance of rows, to where they lie on a grid
-
 /// Whether a transform of that length is fast.
 bool is_fast(std::size_t n)
 {
@@ -42,7 +39,9 @@ struct SpectrumWindow
 std::size_t even_rows(const HistoryRows &rows)
 {
   const double h = (rows.t(rows.size() - 2) - rows.t(0)) / static_cast<double>(rows.size() - 2);
-  std::size_t  i = 1;
+  // of the distance of rows: output times are multiples of it but for rounding, events lie anywhere
+  constexpr double even = 1e-6;
+  std::size_t      i    = 1;
   while (i < rows.size() && std::abs(rows.t(i) - rows.t(0) - static_cast<double>(i) * h) <= even * h)
     ++i;
   return i;
@@ -92,6 +91,7 @@ std::vector<std::size_t> chosen_columns(const coupling::RunResult &run)
     (shakes(run.units[j]) ? chosen : others).push_back(j);
   if (chosen.empty())
     chosen = others;
+  constexpr std::size_t most_spectra = 6; // colours of a chart but one
   chosen.resize(std::min(chosen.size(), most_spectra));
   return chosen;
 }
@@ -123,7 +123,9 @@ std::vector<double> hann_amplitudes(std::vector<double> samples)
 
 std::optional<Spectra> spectra(const coupling::RunResult &run, double from)
 {
-  const HistoryRows rows(run, from);
+  const HistoryRows     rows(run, from);
+  constexpr std::size_t fewest_rows = 256;  // 128 lines: fewer show no spectrum
+  constexpr std::size_t most_lines  = 8192; // twelve for each pixel of a chart
   if (rows.size() < fewest_rows || !run.failure.empty() || !(rows.t(rows.size() - 1) > rows.t(0)))
     return std::nullopt;
   const SpectrumWindow window = window_of(rows);

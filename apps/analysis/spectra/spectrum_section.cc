@@ -12,11 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double least_shown   = 1e-4; ///< of the largest amplitude, where the axis begins
-constexpr double shown_share   = 1e-3; ///< of the largest amplitude of a signal, to where frequencies are shown
-constexpr int    marked_orders = 8;
-constexpr double steady        = 1.02; ///< ratio of largest and smallest speed of a drive whose orders are lines
-
 double most_of(const SignalSpectrum &spectrum)
 {
   return *std::max_element(spectrum.amplitudes.begin(), spectrum.amplitudes.end());
@@ -26,6 +21,8 @@ double most_of(const SignalSpectrum &spectrum)
 double highest_shown(const Spectra &spectra, const std::vector<const SignalSpectrum *> &shown)
 {
   std::size_t last = 8;
+  // of the largest amplitude of a signal, 60 dB: the axis of frequencies ends there
+  constexpr double shown_share = 1e-3;
   for (const SignalSpectrum *spectrum : shown)
     for (std::size_t k = last; k < spectrum->amplitudes.size(); ++k)
       if (spectrum->amplitudes[k] > shown_share * most_of(*spectrum))
@@ -40,6 +37,8 @@ double drive_hz(const std::optional<OrderTracking> &orders)
   if (!orders || orders->speed_rpm.empty())
     return 0.;
   const auto [low, high] = std::minmax_element(orders->speed_rpm.begin(), orders->speed_rpm.end());
+  // largest to smallest speed: the 8th order is smeared by 16 % of the speed at most
+  constexpr double steady = 1.02;
   return *low > 0. && *high <= steady * *low ? 0.5 * (*low + *high) / 60. : 0.;
 }
 
@@ -50,7 +49,8 @@ void add_marks(const Result &result, const std::optional<OrderTracking> &orders,
     if (++number; mode.frequency_hz > 0. && mode.frequency_hz < chart.x.end)
       chart.marks.push_back(
           {mode.frequency_hz, "mode " + std::to_string(number) + ": " + short_text(mode.frequency_hz) + " Hz", number});
-  const double drive = drive_hz(orders);
+  const double  drive         = drive_hz(orders);
+  constexpr int marked_orders = 8; // further ones lie closer than their labels
   for (int order = 1; order <= marked_orders && drive > 0. && order * drive < chart.x.end; ++order)
     chart.marks.push_back(
         {order * drive,
@@ -70,7 +70,9 @@ Chart spectrum_chart(const Result &result, const RunSpectra &found, const std::v
   chart.title  = "Spectrum";
   for (const SignalSpectrum *spectrum : shown)
     chart.title += (spectrum == shown.front() ? ": " : ", ") + spectrum->name;
-  chart.x       = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
+  chart.x = {"frequency [Hz]", 0., highest_shown(spectra, shown)};
+  // of the largest amplitude: 80 dB, what the window leaves beside a line some bins away
+  constexpr double least_shown = 1e-4;
   chart.y       = {"amplitude [" + unit.unit + "]", least_shown * most * unit.factor, 2. * most * unit.factor};
   chart.y.scale = Scale::logarithmic;
   for (const SignalSpectrum *spectrum : shown)

@@ -12,9 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int    n_windows = 30, n_frequencies = 240, fewest_samples = 1024, most_samples = 1 << 16;
-constexpr double below_nyquist = 0.8; ///< of half the rate of rows or samples
-constexpr double least_change = 0.2, window_share = 1. / 12., fewest_turns = 6.;
+constexpr int n_windows = 30, n_frequencies = 240, fewest_samples = 1024, most_samples = 1 << 16;
 
 double linear(const std::vector<double> &x, const std::vector<double> &y, double at)
 {
@@ -81,16 +79,20 @@ Waterfall waterfall(const std::string &name, const std::string &unit, const Turn
                     const std::vector<double> &y, double highest)
 {
   Waterfall result;
-  result.name            = name;
-  result.unit            = unit;
-  const auto [low, high] = std::minmax_element(history.speed_rpm.begin(), history.speed_rpm.end());
+  result.name                   = name;
+  result.unit                   = unit;
+  const auto [low, high]        = std::minmax_element(history.speed_rpm.begin(), history.speed_rpm.end());
+  constexpr double least_change = 0.2;      // of the highest speed: within less, orders do not cross frequencies
+  constexpr double window_share = 1. / 12.; // of the run: a window in which speeds differ little
+  constexpr double fewest_turns = 6.; // at the highest speed: the window tells its first order from its neighbours
   if (!(*high > 0.) || *high - *low < least_change * *high)
     return result;
-  const double length   = std::max(window_share * (history.t.back() - history.t.front()), fewest_turns * 60. / *high);
-  const double row_step = (history.t.back() - history.t.front()) / double(history.t.size() - 1);
-  const int    n        = samples_of_window(row_step, length);
-  const double rate     = std::min(1. / row_step, n / length); ///< [Hz] what tells the signal: rows or samples
-  const double step     = std::min(highest, 0.5 * below_nyquist * rate) / n_frequencies;
+  const double     length = std::max(window_share * (history.t.back() - history.t.front()), fewest_turns * 60. / *high);
+  const double     row_step      = (history.t.back() - history.t.front()) / double(history.t.size() - 1);
+  const int        n             = samples_of_window(row_step, length);
+  const double     rate          = std::min(1. / row_step, n / length); ///< [Hz] what tells the signal: rows or samples
+  constexpr double below_nyquist = 0.8; // of half the rate: linear interpolation between rows damps what is above
+  const double     step          = std::min(highest, 0.5 * below_nyquist * rate) / n_frequencies;
   for (int k = 1; k <= n_frequencies; ++k)
     result.frequencies_hz.push_back(k * step);
   for (const double t : instants(history, *low, *high, length))

@@ -16,9 +16,6 @@ using coupling::MethodOptions;
 using peers::PeerKind;
 using peers::PeerSolver;
 
-/// Beyond this size a dense Jacobian takes minutes and shows nothing new.
-constexpr int largest_dense = 120;
-
 ChartMethod own(const IntegrationMethod &kind, const ChartSetting &setting)
 {
   ChartMethod method;
@@ -120,8 +117,9 @@ std::vector<ChartMethod> choose_methods(const std::vector<std::string> &keys, Pe
       wanted = wanted || matches(method.key, key);
     if (keys.empty())
     {
-      const bool dense = method.peer && method.peer->solver == PeerSolver::dense && n_coordinates > largest_dense;
-      wanted           = !method.on_request && !dense && !(method.peer && with_peers == PeerChoice::without);
+      constexpr int largest_dense = 120; // Beyond this size a dense Jacobian takes minutes and shows nothing new.
+      const bool    dense = method.peer && method.peer->solver == PeerSolver::dense && n_coordinates > largest_dense;
+      wanted              = !method.on_request && !dense && !(method.peer && with_peers == PeerChoice::without);
     }
     if (wanted)
       chosen.push_back(method);

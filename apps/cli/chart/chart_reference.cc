@@ -11,9 +11,6 @@ namespace
 
 using coupling::MethodOptions;
 
-/// Runs of a reference are worth this many times the limit of a run in the chart.
-constexpr double patience = 20.;
-
 std::string number(double x)
 {
   char text[32];
@@ -50,7 +47,8 @@ struct Candidate
 /// An empty reference if a run failed; `why` then tells.
 Reference attempt(const WorkProblem &problem, const Candidate &candidate, std::string &why)
 {
-  WorkProblem patient = problem;
+  WorkProblem      patient  = problem;
+  constexpr double patience = 20.; // Runs of a reference are worth this many times the limit of a run in the chart.
   patient.cpu_limit *= patience;
   patient.repeat_s = 0.;
   Reference  reference;

@@ -15,8 +15,6 @@ namespace
 /// What rounding may leave of the last step, relative to the run.
 constexpr double rounding = 1e-12;
 
-constexpr int most_repeats = 5;
-
 /// Takes the samples of a run from the dense output of each step.
 class Sampler : public coupling::RunObserver
 {
@@ -133,7 +131,8 @@ WorkRun run_once(const WorkProblem &problem, const coupling::MethodOptions &meth
 template <typename Once>
 void time_unsampled(const WorkProblem &problem, WorkRun &run, const Once &once)
 {
-  double spent = 0.;
+  double        spent        = 0.;
+  constexpr int most_repeats = 5; // other programs disturb the shortest of some times least
   for (int k = 0; k < most_repeats && run.failure.empty() && spent < problem.repeat_s; ++k)
   {
     const WorkRun again = once();

@@ -14,10 +14,6 @@ namespace
 
 constexpr double left_margin = 68., right_margin = 18., bottom_margin = 44.;
 constexpr double title_height = 28., note_height = 18., panel_title_height = 20., legend_row = 17.;
-constexpr double letter_width = 6.5; ///< of the 12 px letters, on average
-
-constexpr double      close      = 8.;   ///< px between lines of events
-constexpr std::size_t long_curve = 2000; ///< points, beyond which it is thinned
 
 /// The drawing area of a panel with its axes.
 struct Area
@@ -123,6 +119,7 @@ std::string marks(const Chart &chart, const Area &area)
     const double      x      = area.x.at(mark.x);
     const std::string number = std::to_string(mark.number);
     const double      half   = 3.2 * static_cast<double>(number.size());
+    constexpr double  close  = 8.; // px between lines of events
     std::string       line   = mark.number > 0
                                    ? svg_line("event", x, area.top, x, x < last_line + close ? area.top + 7. : area.bottom)
                                    : svg_line("line s" + colour_class(mark.colour), x, area.bottom - 14., x, area.bottom);
@@ -233,9 +230,10 @@ std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
   const auto drawn = [&](std::size_t i)
   { return chart.x.has_place(curve.x[i]) && chart.y.has_place(curve.y[i]) && is_near(chart, curve, i); };
 
-  const bool  is_long = curve.x.size() > long_curve;
-  std::string path;
-  bool        pen_down = false;
+  constexpr std::size_t long_curve = 2000; // points: two for each pixel and more
+  const bool            is_long    = curve.x.size() > long_curve;
+  std::string           path;
+  bool                  pen_down = false;
   for (std::size_t i = 0; i < curve.x.size();)
   {
     if (!drawn(i))
@@ -311,7 +309,8 @@ std::vector<LegendEntry> legend_entries(const Chart &chart, const Panel &panel)
   {
     if (curve.name.empty())
       continue;
-    const double length = 37. + letter_width * static_cast<double>(n_letters(curve.name));
+    constexpr double letter_width = 6.5; // of the 12 px letters, on average
+    const double     length       = 37. + letter_width * static_cast<double>(n_letters(curve.name));
     if (chart.legend_column > 0. && !entries.empty())
       y += legend_row + (entries.back().curve->colour == curve.colour ? 0. : 8.);
     else if (x > 0. && x + length - 8. > width)

@@ -11,8 +11,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_bars = 10;
-
 struct Bar
 {
   std::string name;
@@ -120,7 +118,8 @@ std::string shape_svg(const Result &result, const std::string &title, const coup
     bars.push_back({k < result.coordinate_names.size() ? result.coordinate_names[k] : "q" + std::to_string(i),
                     mode.shape(i) * (angle ? length : 1.), angle ? 1 : 0});
   }
-  const auto larger = [](const Bar &a, const Bar &b) { return std::abs(a.value) > std::abs(b.value); };
+  const auto            larger    = [](const Bar &a, const Bar &b) { return std::abs(a.value) > std::abs(b.value); };
+  constexpr std::size_t most_bars = 10; // of a group: the names of more do not fit
   if (bars.size() > most_bars)
   {
     std::stable_sort(bars.begin(), bars.end(), larger);

@@ -14,12 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      readable_ratio  = 15.;
-constexpr std::size_t most_per_chart  = 7;
-constexpr std::size_t fewest_for_zoom = 200; ///< rows
-/// A shock lasts no longer than this part of the run; what is slower is a vibration.
-constexpr std::size_t shock_share = 200;
-
 std::vector<double> column(const coupling::RunResult &run, std::size_t j)
 {
   const std::size_t   width = run.columns.size(), n = run.rows.size() / width;
@@ -132,8 +126,10 @@ std::string file_name(std::string text)
 std::pair<double, double> hardest_change(const coupling::RunResult &run, std::size_t j)
 {
   const std::vector<double> t = column(run, 0), y = column(run, j);
-  const std::size_t         reach = std::max<std::size_t>(1, y.size() / shock_share);
-  double                    at = t.front(), change = 0.;
+  // A shock lasts no longer than this part of the run; what is slower is a vibration.
+  constexpr std::size_t shock_share = 200;
+  const std::size_t     reach       = std::max<std::size_t>(1, y.size() / shock_share);
+  double                at = t.front(), change = 0.;
   for (std::size_t i = 0; i + reach < y.size(); ++i)
     if (std::abs(y[i + reach] - y[i]) > change)
     {
@@ -174,6 +170,8 @@ std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
     double widest = -1.;
     for (const auto &[span, j] : by_span)
     {
+      constexpr double readable_ratio = 15.;    // of the widest span, 280 pixels high: narrower curves look like lines
+      constexpr std::size_t most_per_chart = 7; // colours of a chart
       if (widest < 0. || span * readable_ratio < widest || groups.back().columns.size() == most_per_chart)
       {
         groups.push_back({unit, {}});
@@ -189,7 +187,8 @@ std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
 
 std::pair<double, double> main_shock(const coupling::RunResult &run)
 {
-  const std::size_t width = run.columns.size(), n = width > 0 ? run.rows.size() / width : 0;
+  const std::size_t     width = run.columns.size(), n = width > 0 ? run.rows.size() / width : 0;
+  constexpr std::size_t fewest_for_zoom = 200; // rows: a shock lasts a 200th of them, one row at least
   if (n < fewest_for_zoom || width < 2)
     return {0., 0.};
 

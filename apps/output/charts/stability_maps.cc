@@ -17,8 +17,6 @@ using coupling::options_of;
 using coupling::Spring;
 
 constexpr double lowest = 1e-2, highest = 1e3; // omega h of the maps
-constexpr int    points_per_decade = 100;
-constexpr double highest_seen      = 3.141592653589793; // two steps in a period: beyond it, no root follows the motion
 
 MappedMethod bdf(int order)
 {
@@ -116,6 +114,7 @@ std::vector<MethodFamily> method_families()
 
 std::vector<StabilityMap> stability_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas)
 {
+  constexpr int             points_per_decade = 100; // five decades, a point for each pixel or two
   const int                 n = static_cast<int>(std::lround(points_per_decade * std::log10(highest / lowest)));
   std::vector<StabilityMap> maps;
   for (const double zeta : zetas)
@@ -198,7 +197,9 @@ std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families
       for (std::size_t i = 0; i < map->omega_h.size(); ++i)
       {
         rho.push_back(map->step[i].spectral_radius);
-        const bool seen = map->omega_h[i] < highest_seen;
+        // two steps in a period: beyond it, no root follows the motion
+        constexpr double highest_seen = 3.141592653589793;
+        const bool       seen         = map->omega_h[i] < highest_seen;
         elongation.push_back(seen ? map->step[i].period_elongation : nan);
         ratio.push_back(seen ? map->step[i].numerical_damping : nan);
         peak.push_back(std::max(map->displaced[i].displacement, map->displaced[i].velocity));

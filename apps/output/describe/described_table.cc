@@ -23,11 +23,10 @@ std::string cell_text(const DescribedTable::Cell &cell, std::string (*number)(do
   return std::get<std::string>(cell);
 }
 
-constexpr double near_one = 0.01; ///< farther away, five digits leave three of the distance
-
 /// Five digits; eight of a number near one, as a growth per step, which is read by its distance from one.
 std::string short_number(double x)
 {
+  constexpr double near_one = 0.01; // farther away, five digits leave three of the distance
   return std::isnan(x) ? "–" : short_text(x, std::abs(x - 1.) < near_one ? 8 : 5);
 }
 

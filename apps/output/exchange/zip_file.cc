@@ -15,9 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t piece = std::size_t(1) << 30; ///< bytes that minizip takes at once, as an unsigned
-constexpr std::size_t plain = 0xffffffff;           ///< size from which an entry is one of zip64
-
 [[noreturn]] void fail_archive(const std::string &path)
 {
   throw coupling::WriteFailure(path, std::error_code(errno != 0 ? errno : EIO, std::generic_category()));
@@ -46,10 +43,12 @@ ZipFile::~ZipFile()
 void ZipFile::add(const std::string &name, const std::string &bytes)
 {
   zip_fileinfo about{};
-  about.tmz_date.tm_year = 1980; // the first one an archive knows: contents alone count
-  about.tmz_date.tm_mday = 1;
+  about.tmz_date.tm_year      = 1980; // the first one an archive knows: contents alone count
+  about.tmz_date.tm_mday      = 1;
+  constexpr std::size_t plain = 0xffffffff; // size from which an entry is one of zip64
   bool written = zipOpenNewFileInZip64(zip_, name.c_str(), &about, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
                                        Z_DEFAULT_COMPRESSION, bytes.size() >= plain) == ZIP_OK;
+  constexpr std::size_t piece = std::size_t(1) << 30; // bytes that minizip takes at once, as an unsigned
   for (std::size_t at = 0; written && at < bytes.size(); at += piece)
     written = zipWriteInFileInZip(zip_, bytes.data() + at, unsigned(std::min(piece, bytes.size() - at))) == ZIP_OK;
   if (!written || zipCloseFileInZip(zip_) != ZIP_OK)

@@ -22,8 +22,6 @@ using coupling::MeshReport;
 using coupling::SurfaceReport;
 using Triple = std::array<double, 3>;
 
-constexpr std::size_t most_triangles = 55000; ///< four numbers of four bytes each, in base64 1.2 MB of the page
-
 /// "(0, -520, 2560) mm"; OpenCASCADE widens boxes by 1e-7 m, which is not shown.
 std::string place(const Triple &x, const coupling::LengthUnit &unit)
 {
@@ -124,6 +122,7 @@ Json list_of(const MeshReport &report)
 /// drawn together where there are more.
 coupling::FacePicture light_picture(const coupling::FacePicture &picture)
 {
+  constexpr std::size_t most_triangles = 55000; // four numbers of four bytes each, in base64 1.2 MB of the page
   if (picture.triangles.size() <= most_triangles)
     return picture;
   Skin skin;

@@ -14,8 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_rows = 2000, fewest_buckets = 250;
-
 /// Part of the axis, with the rows just outside of it.
 std::pair<std::size_t, std::size_t> window_of(const ChartAxis &axis, const std::vector<double> &x)
 {
@@ -77,10 +75,12 @@ void add_curves(Json &data, const Chart &chart)
   std::vector<Curve> seen;
   for (const Curve &curve : curves)
     seen.push_back({"", {}, part(curve.y, first, last)});
-  const std::vector<double> x       = part(curves.front().x, first, last);
-  const std::size_t         buckets = std::max(fewest_buckets, most_rows / (2 * curves.size() + 1));
-  const auto                rows    = telling_rows(x, seen, chart.marks, buckets);
-  data["x"]                         = base64(chosen(curves.front().x, rows, first));
+  const std::vector<double> x              = part(curves.front().x, first, last);
+  constexpr std::size_t     most_rows      = 2000; // of all curves: two for each pixel of a chart
+  constexpr std::size_t     fewest_buckets = 250;  // of each curve, however many there are
+  const std::size_t         buckets        = std::max(fewest_buckets, most_rows / (2 * curves.size() + 1));
+  const auto                rows           = telling_rows(x, seen, chart.marks, buckets);
+  data["x"]                                = base64(chosen(curves.front().x, rows, first));
   for (const Curve &curve : curves)
   {
     Json one = curve_json(curve);

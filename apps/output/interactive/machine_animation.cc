@@ -12,10 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_frame_triangles = 6500, most_body_triangles = 3000;
-constexpr double      dense_swings = 3.;  ///< half swings on either side of the main peak whose pictures all stay
-constexpr int         most_columns = 400; ///< coordinates of a reduced frame
-
 CoarseMesh coarse(const Skin &skin, std::size_t most)
 {
   double     edge = skin.size() / 150.;
@@ -28,6 +24,7 @@ CoarseMesh coarse(const Skin &skin, std::size_t most)
 /// A CAD body on fewer triangles; shapes of our own have few.
 void lighten(DrawnPart &part)
 {
+  constexpr std::size_t most_body_triangles = 3000; // bodies move as rigid ones: less detail than the frame
   if (part.triangles.size() <= most_body_triangles)
     return;
   Skin skin;
@@ -72,10 +69,11 @@ void add_instant(AnimationInstants &seen, double t, const Eigen::VectorXd &q)
 
 AnimationInstants animation_instants(const Result &result, std::size_t most)
 {
-  const auto &times  = result.run->picture_times;
-  const auto &states = result.run->picture_states;
-  const auto &peak   = result.peak;
-  const auto  dense  = [&](double t)
+  const auto      &times        = result.run->picture_times;
+  const auto      &states       = result.run->picture_states;
+  const auto      &peak         = result.peak;
+  constexpr double dense_swings = 3.; // on either side of the main peak: the blow and its first echoes
+  const auto       dense        = [&](double t)
   { return peak && peak->half_swing > 0. && std::abs(t - peak->t) <= dense_swings * peak->half_swing; };
   const std::size_t around = std::min(std::size_t(std::count_if(times.begin(), times.end(), dense)), most / 2);
   const std::size_t every  = (states.size() - around + most - around - 1) / (most - around);
@@ -104,14 +102,16 @@ MachineAnimation::MachineAnimation(const Result &result)
     lighten(part);
   if (scenery_.has_skin())
   {
-    const Skin skin = skin_of(scenery_, Eigen::VectorXd::Zero(scenery_.n_frame));
-    CoarseMesh mesh = coarse(skin, most_frame_triangles);
-    Shape      frame{"frame", {}, {}, mesh.triangles};
+    const Skin            skin                 = skin_of(scenery_, Eigen::VectorXd::Zero(scenery_.n_frame));
+    constexpr std::size_t most_frame_triangles = 6500; // displacements of their corners fill most of the page
+    CoarseMesh            mesh                 = coarse(skin, most_frame_triangles);
+    Shape                 frame{"frame", {}, {}, mesh.triangles};
     chosen_ = mesh.points;
     for (const int i : chosen_)
       frame.points.push_back(skin.points[static_cast<std::size_t>(i)]);
     frame.displacement.resize(frame.points.size(), Eigen::Vector3d::Zero());
     parts_.push_back(frame);
+    constexpr int most_columns = 400; // of a reduced frame: displacements of each point for each of them
     if (scenery_.n_frame <= most_columns)
       displacements_ = displacements_of_coordinates();
   }

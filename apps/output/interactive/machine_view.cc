@@ -19,11 +19,8 @@ namespace
 {
 
 constexpr std::size_t most_instants = 200, most_modes = 9;
-constexpr double      edge_degrees = 35.;
-constexpr double      mode_size    = 0.05; ///< largest displacement of a mode as drawn, of the machine's size
-constexpr double      motion_size  = 0.02; ///< the same of the motion, if that enlarges it
-constexpr double      exactness    = 1e-4; ///< of the drawn positions, of the machine's size
-constexpr double      smooth_turn  = 0.1;  ///< way off the straight line between neighbours, of a part's own size
+constexpr double      motion_size = 0.02; ///< the same of the motion, if that enlarges it
+constexpr double      exactness   = 1e-4; ///< of the drawn positions, of the machine's size
 
 /// Parts of a thing at rest.
 Json parts_json(const MachineAnimation &machine)
@@ -37,6 +34,7 @@ Json parts_json(const MachineAnimation &machine)
       points.insert(points.end(), {float(x[0]), float(x[1]), float(x[2])});
     for (const auto &t : part.triangles)
       triangles.insert(triangles.end(), t.begin(), t.end());
+    constexpr double edge_degrees = 35.; // between the facets of round parts lie 15 degrees at most, between walls 90
     for (const auto &e : sharp_edges({part.points, part.displacement, part.triangles}, edge_degrees))
       edges.insert(edges.end(), e.begin(), e.end());
     parts.push_back(
@@ -79,7 +77,8 @@ bool is_smooth(const std::vector<PartMotion> &motions, const std::vector<double>
 {
   for (std::size_t i = 0; i < motions.size(); ++i)
   {
-    const Shape &part = machine.parts()[i];
+    const Shape     &part        = machine.parts()[i];
+    constexpr double smooth_turn = 0.1; // way off the straight line between neighbours, of a part's own size
     if (!is_straight(motions[i].ideal, times, smooth_turn * Skin{part.points, part.displacement, {}}.size()))
       return false;
   }
@@ -222,7 +221,9 @@ Json shows_json(const MachineAnimation &machine, const Result &result)
   Json shows = Json::array();
   if (result.run && !result.run->picture_states.empty())
     shows.push_back(motion_json(machine, result));
-  const double size = mode_size * machine.size();
+  // of the machine's size: large enough to see, small enough that walls do not cross
+  constexpr double mode_size = 0.05;
+  const double     size      = mode_size * machine.size();
   for (std::size_t j = 0; j < std::min(result.coupled_modes.size(), most_modes); ++j)
     shows.push_back(still_json("mode", "coupled-" + std::to_string(j + 1),
                                mode_name("coupled", j, result.coupled_modes[j]),

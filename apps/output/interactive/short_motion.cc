@@ -9,8 +9,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double largest_whole = 32767.;
-
 /// Columns by weights, how far the worst is off.
 double worst(const Eigen::MatrixXd &motion, const Eigen::MatrixXd &basis, const Eigen::MatrixXd &weights)
 {
@@ -35,7 +33,8 @@ ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance)
   Eigen::MatrixXf scaled = weights.cast<float>();
   for (Eigen::Index r = 0; r < rank; ++r)
   {
-    const double              unit = basis.col(r).cwiseAbs().maxCoeff() / largest_whole;
+    constexpr double          largest_whole = 32767.; // largest 16 bit integer
+    const double              unit          = basis.col(r).cwiseAbs().maxCoeff() / largest_whole;
     std::vector<std::int16_t> shape(static_cast<std::size_t>(basis.rows()));
     for (Eigen::Index i = 0; i < basis.rows() && unit > 0.; ++i)
       shape[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(std::lround(basis(i, r) / unit));

@@ -12,12 +12,8 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double disc_width  = 0.25; ///< of its radius
-constexpr double rod_breadth = 0.08; ///< of its length
-
 // parts of the machine's size
 constexpr double plate_radius = 0.012, bar_radius = 0.005, point_radius = 0.02, bar_of_body = 0.01;
-constexpr double pin_radius = 0.6; ///< of that of a plate
 
 /// Roundness of what is drawn: of many bodies each has fewer corners, so that pictures and page stay light.
 struct Roundness
@@ -117,7 +113,8 @@ Shape rotor_shape(const Scenery &scenery, const coupling::Body &rotor, const Eig
   const double    r      = rotor.radius;
 
   Shape shape;
-  shape.name = rotor.name;
+  shape.name                  = rotor.name;
+  constexpr double disc_width = 0.25; // of its radius
   add_disc(shape, centre, pose.pin, pose.axis, r, 0.5 * disc_width * r);
   // The rib stands out on both sides of the disc, shows the angle and reaches a joint beyond the rim.
   add_box(shape, centre + 0.5 * pose.reach * pose.pin, 0.5 * pose.reach * pose.pin, 0.09 * r * pose.ahead,
@@ -147,7 +144,8 @@ Shape rod_shape(const Scenery &scenery, const coupling::DrawnRod &rod, const cou
   const Vector3d   small_end = centre + (rod.length - rod.crank_radius + slid.ideal) * slid.axis;
   const Vector3d   half = 0.5 * (small_end - big_end), along = half.normalized();
   const Vector3d   side = across(along, turned.axis), front = along.cross(side);
-  const double     breadth = 0.5 * rod_breadth * rod.length;
+  constexpr double rod_breadth = 0.08; // of its length
+  const double     breadth     = 0.5 * rod_breadth * rod.length;
 
   Shape shape;
   shape.name = rod.name;
@@ -265,7 +263,8 @@ Shape pins_shape(const Scenery &scenery, double radius, const Split &split, cons
   shape.name = "joints";
   for (const coupling::DrawnPin &pin : scenery.pins)
   {
-    const Vector3d at = position(pin.at, split.bodies), axis = direction(pin.at, vector(pin.axis), split.bodies);
+    const Vector3d   at = position(pin.at, split.bodies), axis = direction(pin.at, vector(pin.axis), split.bodies);
+    constexpr double pin_radius = 0.6; // of that of a plate
     add_disc(shape, at, axis.unitOrthogonal(), axis, pin_radius * radius, 1.4 * radius);
     shape.displacement.resize(shape.points.size(), position(pin.at, q) - at);
   }

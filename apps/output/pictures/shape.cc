@@ -14,9 +14,7 @@ namespace
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double pi       = 3.14159265358979323846;
-constexpr int    n_rim    = 36; ///< corners of a disc
-constexpr int    n_corner = 24; ///< of a full circle around a corner of a plate
+constexpr double pi = 3.14159265358979323846;
 
 Vector3d on_circle(const Vector3d &e1, const Vector3d &e2, int i, int n)
 {
@@ -98,6 +96,7 @@ void add_disc(Shape &shape, const Vector3d &centre, const Vector3d &e1, const Ve
               double half_width)
 {
   std::vector<Vector3d> rim;
+  constexpr int         n_rim = 36; // corners of a disc
   for (int i = 0; i < n_rim; ++i)
     rim.push_back(centre + radius * on_circle(e1, axis.cross(e1), i, n_rim));
   add_prism(shape, rim, half_width * axis);
@@ -146,8 +145,9 @@ void add_plate(Shape &shape, const std::vector<Vector3d> &points, const Vector3d
   double                low = points.front().dot(n), high = low;
   for (const Vector3d &x : points)
   {
-    low  = std::min(low, x.dot(n));
-    high = std::max(high, x.dot(n));
+    low                    = std::min(low, x.dot(n));
+    high                   = std::max(high, x.dot(n));
+    constexpr int n_corner = 24; // of a full circle around a corner of a plate
     for (int i = 0; i < n_corner; ++i)
     {
       const Vector3d corner = x + radius * on_circle(e1, e2, i, n_corner);

@@ -10,9 +10,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      rounding     = 1e-11; // of the energies that cancel in a rigid motion
-constexpr std::size_t parts_listed = 20;
-
 /// Zeros that are only rounding are said to be zero.
 std::string triple(const Eigen::Vector3d &x, double scale)
 {
@@ -24,7 +21,8 @@ std::string triple(const Eigen::Vector3d &x, double scale)
 
 std::string mass_line(const fem::FrameFacts &frame)
 {
-  std::string line = "mass " + short_text(frame.whole.mass, 6) + " kg";
+  std::string           line         = "mass " + short_text(frame.whole.mass, 6) + " kg";
+  constexpr std::size_t parts_listed = 20; // two lines of a terminal
   for (std::size_t i = 0; i < std::min(frame.parts.size(), parts_listed); ++i)
   {
     const auto &[name, material, mass] = frame.parts[i];
@@ -93,6 +91,7 @@ std::vector<std::string> frame_text(const ModelFacts &model)
   }
   else if (model.frame_mass > 0.)
     lines.push_back("mass " + short_text(model.frame_mass, 6) + " kg");
+  constexpr double rounding = 1e-11; // of the energies that cancel in a rigid motion
   if (const double share = model.frame.rigid_energy; !std::isnan(share))
     lines.push_back("rigid motions of the frame without supports cost " + short_text(share, 2) +
                     " of the elastic energies that cancel in them" +

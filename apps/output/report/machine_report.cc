@@ -15,8 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double seen_motion = 0.02; ///< of the machine's size: a way that is seen in a picture of some 400 pixels
-
 /// Whether bodies move so far that a second pose tells something.
 bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after, double machine_size)
 {
@@ -24,6 +22,7 @@ bool far_apart(const std::vector<Shape> &before, const std::vector<Shape> &after
   for (std::size_t i = 0; i < before.size(); ++i)
     for (std::size_t j = 0; j < std::min(before[i].points.size(), after[i].points.size()); ++j)
       way = std::max(way, (after[i].points[j] - before[i].points[j]).norm());
+  constexpr double seen_motion = 0.02; // of the machine's size: a way that is seen in a picture of some 400 pixels
   return way > seen_motion * machine_size;
 }
 

@@ -17,10 +17,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      widest_chart = 3., least_span = 0.1; ///< highest to lowest frequency; of the height, relative
-constexpr double      seen_change = 0.02;                  ///< of a frequency, from which on shapes are drawn
-constexpr std::size_t most_lines = 7, most_shapes = 4;
-
 using coupling::ModesAlong;
 using coupling::ModesAt;
 
@@ -68,7 +64,9 @@ std::vector<std::vector<std::size_t>> groups(const ModesAlong &modes)
   bool                                  lost   = false;
   for (const std::size_t i : lines)
   {
-    const LineExtremes own = line_extremes(modes, i);
+    const LineExtremes    own          = line_extremes(modes, i);
+    constexpr double      widest_chart = 3.; // highest to lowest frequency: bends of lower ones stay a third as high
+    constexpr std::size_t most_lines   = 7;  // colours of a chart
     if (all.empty() || own.max > widest_chart * lowest || std::exchange(lost, own.min == 0.) != (own.min == 0.) ||
         all.back().size() == most_lines)
     {
@@ -134,7 +132,8 @@ void set_height(const AlongResult &along, const std::vector<std::size_t> &lines,
       low  = std::min(low, k * f_0);
       high = std::max(high, k * f_0);
     }
-  const double middle = 0.5 * (low + high), half = std::max(0.55 * (high - low), 0.5 * least_span * middle);
+  constexpr double least_span = 0.1; // of the height, relative: what changes less is drawn as level as it is
+  const double     middle = 0.5 * (low + high), half = std::max(0.55 * (high - low), 0.5 * least_span * middle);
   chart.y.begin = std::max(0., middle - half);
   chart.y.end   = middle + half;
 }
@@ -191,10 +190,12 @@ std::string extreme_shapes(const Result &result, Pictures &pictures)
     const LineExtremes own = line_extremes(modes, i);
     return own.min > 0. ? own.max / own.min - 1. : 0.;
   };
+  constexpr double seen_change = 0.02; // of a frequency, from which on shapes are drawn
   for (std::size_t i = 0; i < modes.free.size(); ++i)
     if (change(i) > seen_change)
       lines.push_back(i);
   std::stable_sort(lines.begin(), lines.end(), [&](std::size_t a, std::size_t b) { return change(a) > change(b); });
+  constexpr std::size_t most_shapes = 4; // a row of pictures each
   lines.resize(std::min(lines.size(), most_shapes));
   std::string html;
   for (const std::size_t i : lines)

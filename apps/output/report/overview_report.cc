@@ -15,8 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_peaks = 3;
-
 struct KeyNumber
 {
   std::string value, meaning;
@@ -51,6 +49,7 @@ std::vector<Peak> main_peaks(const coupling::RunResult &run)
     if (std::none_of(peaks.begin(), peaks.end(), same))
       peaks.push_back(peak_of(signal));
   }
+  constexpr std::size_t most_peaks = 3; // the others are in the table of extremes
   peaks.resize(std::min(peaks.size(), most_peaks));
   return peaks;
 }

@@ -13,13 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int         circle_points    = 180;
-constexpr std::size_t most_barred      = 4;    ///< signals
-constexpr double      bars_of_harmonic = 0.8;  ///< width of all bars of a harmonic
-constexpr double      cell_overlap     = 0.05; ///< of a cell, over which the next one is drawn: no gaps
-constexpr double      all_but_one      = 1e-3; ///< span of values, of their size
-constexpr double      nan_here         = std::numeric_limits<double>::quiet_NaN();
-
 void square_plane(Chart &chart)
 {
   chart.width  = 372.;
@@ -34,9 +27,11 @@ std::string with_unit(const std::string &name, const std::string &unit)
 /// The axis with room about the values; of those that are all but one, a thousandth of it.
 ChartAxis axis_about(const std::string &label, double low, double high)
 {
-  const double least = all_but_one * std::max(std::abs(low), std::abs(high));
-  const double more  = 0.5 * std::max(0., least - (high - low));
-  ChartAxis    axis;
+  // span of values, of their size: rounding of a constant value fills no chart
+  constexpr double all_but_one = 1e-3;
+  const double     least       = all_but_one * std::max(std::abs(low), std::abs(high));
+  const double     more        = 0.5 * std::max(0., least - (high - low));
+  ChartAxis        axis;
   axis.label = label;
   return fitted(axis, low - more, high + more, 0.05);
 }
@@ -90,7 +85,8 @@ std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
     if (!shares.back().empty())
       left.push_back(shares.size() - 1);
   }
-  const auto distance = [&](std::size_t i)
+  constexpr std::size_t most_barred = 4; // signals whose bars of one harmonic are told apart
+  const auto            distance    = [&](std::size_t i)
   {
     if (taken.empty())
       return std::accumulate(shares[i].begin(), shares[i].end(), 0.);
@@ -119,8 +115,9 @@ Curve branch_curve(const PeriodicResult &result, bool stable, const std::functio
   const PeriodicEntry *before = nullptr;
   for (const PeriodicEntry &entry : result.entries)
   {
-    const bool goes_on = before && before->branch == entry.branch;
-    const bool here = entry.solution.stable() == stable, was = goes_on && before->solution.stable() == stable;
+    const bool       goes_on = before && before->branch == entry.branch;
+    const bool       here = entry.solution.stable() == stable, was = goes_on && before->solution.stable() == stable;
+    constexpr double nan_here = std::numeric_limits<double>::quiet_NaN();
     if (!here && !was)
       curve.add(entry.parameter, nan_here);
     else
@@ -176,7 +173,8 @@ Chart multiplier_chart(const std::vector<PeriodicEntry> &entries, std::size_t mo
   chart.x.label = "real part";
   chart.y.label = "imaginary part";
   Curve circle;
-  circle.colour = 6;
+  circle.colour               = 6;
+  constexpr int circle_points = 180; // a chord is 2e-4 of the radius off its arc, less than a pixel
   for (int k = 0; k <= circle_points; ++k)
     circle.add(std::cos(2. * M_PI * k / circle_points), std::sin(2. * M_PI * k / circle_points));
   chart.panels[0].curves.push_back(circle);
@@ -203,17 +201,18 @@ Chart harmonics_chart(const PeriodicEntry &entry, std::size_t number)
 {
   const std::vector<std::size_t> barred = most_different(entry.signals);
   Chart                          chart;
-  chart.title              = "Harmonics of solution " + std::to_string(number);
-  chart.note               = "amplitudes, each signal against its largest one";
-  chart.width              = 480.;
-  chart.height             = 320.;
-  chart.x.label            = "multiple of the drive's frequency";
-  chart.y.label            = "share of the largest";
-  chart.x.begin            = 0.5;
-  chart.y.begin            = 0.;
-  chart.y.end              = 1.05;
-  std::size_t  n_harmonics = 1;
-  const double width       = bars_of_harmonic / double(std::max<std::size_t>(barred.size(), 1));
+  chart.title                       = "Harmonics of solution " + std::to_string(number);
+  chart.note                        = "amplitudes, each signal against its largest one";
+  chart.width                       = 480.;
+  chart.height                      = 320.;
+  chart.x.label                     = "multiple of the drive's frequency";
+  chart.y.label                     = "share of the largest";
+  chart.x.begin                     = 0.5;
+  chart.y.begin                     = 0.;
+  chart.y.end                       = 1.05;
+  std::size_t      n_harmonics      = 1;
+  constexpr double bars_of_harmonic = 0.8; // width of all bars of a harmonic
+  const double     width            = bars_of_harmonic / double(std::max<std::size_t>(barred.size(), 1));
   for (std::size_t j = 0; j < barred.size(); ++j)
   {
     const SignalOrbit        &signal = entry.signals[barred[j]];
@@ -302,6 +301,7 @@ Chart basins_chart(const BasinMap &map)
       for (end = i + 1; end < plane.points && basins.motion(end, j) == motion; ++end)
       {
       }
+      constexpr double cell_overlap = 0.05; // of a cell, over which the next one is drawn: no gaps
       if (motion > 0)
         chart.panels[0].tiles.push_back({plane.x_begin + i * width, plane.x_begin + (end + cell_overlap) * width,
                                          plane.y_begin + j * height, plane.y_begin + (j + 1 + cell_overlap) * height,

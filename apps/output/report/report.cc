@@ -32,9 +32,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_mode_pictures = 9, most_coupled_pictures = 6; ///< rows of three on paper
-constexpr std::size_t most_accuracy_rows = 40;
-
 /// A table of two columns for facts; those without a value are left out.
 class Facts
 {
@@ -225,6 +222,7 @@ std::string pole_table(const std::vector<coupling::Pole> &poles)
 
 std::string modes_section(const Result &result, bool has_view, Pictures &pictures)
 {
+  constexpr std::size_t most_mode_pictures = 9, most_coupled_pictures = 6; // rows of three on paper
   const auto bars = [&](const std::vector<coupling::Mode> &modes, const std::string &name, const std::string &words)
   {
     std::string html;
@@ -258,6 +256,7 @@ std::string accuracy_table(const coupling::RunResult &run)
   if (run.accuracy.empty())
     return "";
   std::vector<coupling::ModeAccuracy> shown;
+  constexpr std::size_t               most_accuracy_rows = 40; // a screen; the file has all
   for (const coupling::ModeAccuracy &mode : run.accuracy)
     if (shown.size() < most_accuracy_rows || mode.unstable)
       shown.push_back(mode);

@@ -15,9 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_charts = 8, most_bars = 10, most_named = 5;
-constexpr double      bar_half = 0.3; ///< height, of the place a bar has
-
 std::string signed_percent(double change)
 {
   return (change > 0. ? "+" : "") + short_text(change, 3) + " %";
@@ -37,8 +34,9 @@ bool ends_with(const std::string &text, const std::string &end)
 
 Chart tornado(const SensitivityResult &found, const SensitivityOutput &output, const std::vector<Eigen::Index> &keys)
 {
-  const std::size_t n = std::min(keys.size(), most_bars);
-  Chart             chart;
+  constexpr std::size_t most_bars = 10; // keys of a chart; the table has all
+  const std::size_t     n         = std::min(keys.size(), most_bars);
+  Chart                 chart;
   chart.title       = "1 % more changes " + output.output;
   chart.note        = output.output + " = " + short_text(output.value, 5) + " " + output.unit;
   chart.width       = 460.;
@@ -55,7 +53,8 @@ Chart tornado(const SensitivityResult &found, const SensitivityOutput &output, c
   {
     const SensitivityKey &key    = found.keys[std::size_t(keys[i])];
     const double          change = output.percent(key, keys[i]), y = double(n - i) - 0.4;
-    const std::string     name = short_key(key.key) + " " + signed_percent(change);
+    const std::string     name     = short_key(key.key) + " " + signed_percent(change);
+    constexpr double      bar_half = 0.3; // height, of the place a bar has
     chart.panels[0].tiles.push_back(
         {std::min(0., change), std::max(0., change), y - bar_half, y + bar_half, change > 0. ? 0 : 1, name});
     chart.levels.push_back({y, name});
@@ -65,8 +64,9 @@ Chart tornado(const SensitivityResult &found, const SensitivityOutput &output, c
 
 std::string named_changes(const SensitivityResult &found, const SensitivityOutput &output)
 {
-  const auto  keys = by_influence(found, output);
-  std::string text;
+  const auto            keys = by_influence(found, output);
+  std::string           text;
+  constexpr std::size_t most_named = 5; // keys of a line of text
   for (std::size_t i = 0; i < std::min(keys.size(), most_named); ++i)
   {
     const SensitivityKey &key = found.keys[std::size_t(keys[i])];
@@ -114,7 +114,8 @@ std::string sensitivity_section(const Result &result, Pictures &pictures)
       continue;
     const std::string note = output.note.empty() ? "" : " (" + output.note + ")";
     table.add({output.output + note, short_text(output.value, 6), output.unit, named_changes(found, output)});
-    const bool peak = ends_with(output.output, ".max") || ends_with(output.output, ".min");
+    const bool            peak        = ends_with(output.output, ".max") || ends_with(output.output, ".min");
+    constexpr std::size_t most_charts = 8; // outputs; the table has all
     if (!peak || n_charts >= most_charts)
       continue;
     if (n_charts == 0)

@@ -13,12 +13,11 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_rows = 40; ///< of modes in a terminal
-
 /// The first rows, and all modes that grow.
 std::vector<coupling::ModeAccuracy> listed_modes(const StabilityStudy &study)
 {
   std::vector<coupling::ModeAccuracy> listed;
+  constexpr std::size_t               most_rows = 40; // of modes in a terminal
   for (const coupling::ModeAccuracy &mode : study.modes)
     if (listed.size() < most_rows || mode.unstable)
       listed.push_back(mode);

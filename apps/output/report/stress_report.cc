@@ -12,8 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_pictures = 4;
-
 std::string time_text(double t)
 {
   return short_text(t, 6) + " s";
@@ -76,7 +74,8 @@ std::string stress_section(const Result &result, bool has_view)
     largest = std::max(largest, top_of(at));
   const DisplayUnit unit = display_unit("Pa", largest);
 
-  std::string html = statement(stress) + table_html(stress, unit) + "<div class=\"modes\">";
+  std::string           html          = statement(stress) + table_html(stress, unit) + "<div class=\"modes\">";
+  constexpr std::size_t most_pictures = 4; // instants, a picture of the frame each
   for (std::size_t k = 0; k < std::min(stress.instants.size(), most_pictures) && has_view; ++k)
     html += machine_picture({"stress-" + std::to_string(k + 1)},
                             escape_xml(stress.instants[k].label.empty() ? "" : stress.instants[k].label + ", ") +

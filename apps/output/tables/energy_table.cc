@@ -13,9 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      least_named = 0.01; ///< share of the energy from which on an element or body is named
-constexpr std::size_t most_parts  = 4;
-
 std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &shares, std::size_t mode)
 {
   const Eigen::VectorXd own = shares.col(Eigen::Index(mode));
@@ -25,7 +22,9 @@ std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &
   std::iota(order.begin(), order.end(), 0);
   const auto size = [&](std::size_t i) { return std::abs(own[Eigen::Index(i)]); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
-  std::string text;
+  std::string           text;
+  constexpr double      least_named = 0.01; // share of the energy from which on an element or body is named
+  constexpr std::size_t most_parts  = 4;    // what fits one cell of a table
   for (std::size_t k = 0; k < std::min(order.size(), most_parts); ++k)
     if (size(order[k]) >= least_named) // not nan
       text +=

@@ -8,7 +8,6 @@ namespace gestell::apps
 
 namespace
 {
-constexpr double noise_share = 1e-9;
 }
 
 void Noise::see(const std::string &unit, double value)
@@ -19,7 +18,8 @@ void Noise::see(const std::string &unit, double value)
 
 double Noise::without(const std::string &unit, double value) const
 {
-  const auto found = largest_.find(unit);
+  const auto       found       = largest_.find(unit);
+  constexpr double noise_share = 1e-9; // of the largest value of a unit: below what tolerances of runs reach
   return found != largest_.end() && std::abs(value) < noise_share * found->second ? 0. : value;
 }
 

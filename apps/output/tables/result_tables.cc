@@ -13,8 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t longest_place = 1000; ///< letters: std::regex takes some of the stack for each
-
 void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
 {
   int number = 0;
@@ -36,9 +34,10 @@ coupling::Finding of_the_scene(const std::string &warning)
 {
   static const std::regex begins(R"(^[^:\n]+:[0-9]+: ([A-Za-z_][^:\n]*): )");
   std::smatch             found;
-  const std::string       head         = warning.substr(0, longest_place);
-  const std::string       place        = std::regex_search(head, found, begins) ? found[1].str() : "";
-  const bool              of_magnitude = warning.find("; expected: ") != std::string::npos;
+  constexpr std::size_t   longest_place = 1000; // letters: std::regex takes some of the stack for each
+  const std::string       head          = warning.substr(0, longest_place);
+  const std::string       place         = std::regex_search(head, found, begins) ? found[1].str() : "";
+  const bool              of_magnitude  = warning.find("; expected: ") != std::string::npos;
   return {coupling::Severity::warning, of_magnitude ? "magnitude" : place.empty() ? "" : "scene", place, warning};
 }
 

@@ -14,9 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      no_change   = 1e-9; ///< [%] that is rounding
-constexpr std::size_t most_listed = 3;    ///< keys of an output in a terminal
-
 /// Why there is no derivative, or how the frame's share was found.
 std::string note_of(const SensitivityOutput &output, const SensitivityKey &key, Eigen::Index k)
 {
@@ -41,7 +38,8 @@ std::string derivative_unit(const SensitivityOutput &output, const SensitivityKe
 std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const SensitivityOutput &output)
 {
   std::vector<Eigen::Index> order;
-  const auto change = [&](Eigen::Index k) { return std::abs(output.percent(result.keys[std::size_t(k)], k)); };
+  const auto       change    = [&](Eigen::Index k) { return std::abs(output.percent(result.keys[std::size_t(k)], k)); };
+  constexpr double no_change = 1e-9; // [%] that is rounding
   for (Eigen::Index k = 0; k < Eigen::Index(result.keys.size()); ++k)
     if (const double size = change(k); std::isfinite(size) && size > no_change)
       order.push_back(k);
@@ -76,6 +74,7 @@ std::string sensitivities_text(const SensitivityResult &result)
     if (!peak || keys.empty())
       continue;
     text << "  " << std::left << std::setw(14) << name;
+    constexpr std::size_t most_listed = 3; // keys of an output in a terminal
     for (std::size_t i = 0; i < std::min(most_listed, keys.size()); ++i)
     {
       const SensitivityKey &key    = result.keys[std::size_t(keys[i])];

@@ -9,7 +9,6 @@ namespace gestell::apps
 
 namespace
 {
-constexpr double the_same = 1e-9; ///< rounding
 }
 
 std::string change_text(double here, double there)
@@ -22,7 +21,8 @@ std::string change_text(double here, double there)
     return "";
   if (here * there < 0.)
     return "of the other sign";
-  const double more = there / here - 1.;
+  const double     more     = there / here - 1.;
+  constexpr double the_same = 1e-9; // rounding
   if (std::abs(more) < the_same)
     return "the same";
   return short_text(100. * std::abs(more), 3) + (more > 0. ? " % larger" : " % smaller");

@@ -5,13 +5,6 @@
 namespace gestell::apps
 {
 
-namespace
-{
-
-constexpr double no_damping_ratio = 1e-12; ///< what rounding leaves
-
-} // namespace
-
 LineExtremes line_extremes(const coupling::ModesAlong &along, std::size_t line)
 {
   LineExtremes own;
@@ -36,9 +29,10 @@ LineExtremes line_extremes(const coupling::ModesAlong &along, std::size_t line)
       own.growth   = mode.growth;
       own.x_growth = at.x;
     }
-    const double damping = std::abs(mode.damping_ratio) < no_damping_ratio ? 0. : mode.damping_ratio;
-    own.least_damping    = std::fmin(own.least_damping, damping); // nan gives way
-    own.largest_damping  = std::fmax(own.largest_damping, damping);
+    constexpr double no_damping_ratio = 1e-12; // what rounding leaves
+    const double     damping          = std::abs(mode.damping_ratio) < no_damping_ratio ? 0. : mode.damping_ratio;
+    own.least_damping                 = std::fmin(own.least_damping, damping); // nan gives way
+    own.largest_damping               = std::fmax(own.largest_damping, damping);
     if (line < at.assurance.size())
       own.least_assurance = std::fmin(own.least_assurance, at.assurance[line]);
   }

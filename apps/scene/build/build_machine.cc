@@ -180,8 +180,6 @@ void attach_unbalance(coupling::MachineModel &machine, const BodyRequest &rotor,
       {{{machine.body(rotor.name).coordinate, 1.}}, moved_along(e_1, carrier, arm), moved_along(e_2, carrier, arm)});
 }
 
-constexpr Eigen::Index largest_dense_frame = 500; // coordinates; above, sparse solves win
-
 /// Heads what the machine says against a name with the place in the scene.
 template <typename Make>
 auto placed(const std::string &place, Make make)
@@ -287,6 +285,7 @@ FramePath frame_path(const Scene &scene)
   case FrameSource::matrices:
     break;
   }
+  constexpr Eigen::Index largest_dense_frame = 500; // coordinates; above, sparse solves win
   return reduce                                                 ? FramePath::reduce
          : scene.frame.matrices.M.rows() <= largest_dense_frame ? FramePath::dense
                                                                 : FramePath::sparse;

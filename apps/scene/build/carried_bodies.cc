@@ -13,9 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double on_axis  = 1e-9; ///< share of the places' distances, or of a unit vector
-constexpr double far_away = 0.1;  ///< share of the size of the machine
-
 /// The carrier if it is a body that turns by any angle about an axis of its own.
 const coupling::Body *turning_carrier(const coupling::MachineModel &machine, const std::string &name)
 {
@@ -47,12 +44,14 @@ void check_carrier(const coupling::MachineModel &machine, const BodyRequest &bod
   const coupling::Body *carrier = turning_carrier(machine, body.carrier);
   if (!carrier)
     return;
-  const Eigen::Vector3d n          = vector(carrier->axis).normalized();
-  const Eigen::Vector3d arm        = vector(body.position) - vector(carrier->centre);
-  const double          size       = vector(body.position).norm() + vector(carrier->centre).norm();
-  const bool            off        = body.position != Vector3{} && n.cross(arm).norm() > on_axis * size;
-  const bool            turns_axis = n.cross(vector(body.axis).normalized()).norm() > on_axis;
-  const bool            slider     = body.kind == coupling::BodyKind::slider;
+  const Eigen::Vector3d n    = vector(carrier->axis).normalized();
+  const Eigen::Vector3d arm  = vector(body.position) - vector(carrier->centre);
+  const double          size = vector(body.position).norm() + vector(carrier->centre).norm();
+  // share of the places' distances, or of a unit vector: what ten written digits leave
+  constexpr double on_axis    = 1e-9;
+  const bool       off        = body.position != Vector3{} && n.cross(arm).norm() > on_axis * size;
+  const bool       turns_axis = n.cross(vector(body.axis).normalized()).norm() > on_axis;
+  const bool       slider     = body.kind == coupling::BodyKind::slider;
   if (!off && !turns_axis)
     return;
   throw std::invalid_argument((slider ? "slider \"" : "rotor \"") + body.name + "\": its " +
@@ -77,6 +76,7 @@ std::vector<std::string> carried_warnings(const Scene &scene, const coupling::Ma
       continue;
     const Eigen::Vector3d arm      = vector(body.position) - vector(machine.position(body.carrier));
     const double          distance = left_out(machine.marker(body.carrier), body, arm);
+    constexpr double      far_away = 0.1; // share of the size of the machine
     if (distance > far_away * box.diagonal().norm())
     {
       std::ostringstream text;

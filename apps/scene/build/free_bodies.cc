@@ -14,11 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double takes_part = 0.01; ///< of the kinetic energy of a motion
-/// Of the highest frequency of the frame or the machine: below it a frequency is zero, for eigenvalues are known to
-/// 1e-15 of the largest.
-constexpr double rounding = 1e-6;
-
 /// Coordinates that elements, joints, springs, dampers and loads move by.
 std::set<int> coordinates_in_use(const Scene &scene, const coupling::MachineModel &machine)
 {
@@ -141,7 +136,11 @@ std::string free_frame(const Scene &scene, const coupling::MachineModel &machine
                                   modes.empty() ? 0. : modes.back().frequency_hz);
   const auto frees = [&](const coupling::Mode &mode)
   {
-    const auto q = mode.shape.head(n);
+    const auto       q          = mode.shape.head(n);
+    constexpr double takes_part = 0.01; // of the kinetic energy of a motion: the rest follows it through springs
+    // Of the highest frequency of the frame or the machine: below it a frequency is zero, for eigenvalues are known to
+    // 1e-15 of the largest.
+    constexpr double rounding = 1e-6;
     return mode.frequency_hz <= rounding * highest && mode.growth <= rounding * highest &&
            q.dot(frame->M * q) > takes_part;
   };

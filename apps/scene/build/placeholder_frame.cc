@@ -18,9 +18,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-constexpr double elastic_hz = 1000.; ///< far above what elements make of the masses of a machine
-/// Of the energies that cancel in a free motion, as fem::free_motions() has it.
-constexpr double free_share    = 1e-13;
 constexpr double one_direction = 1e-9; ///< directions that differ by less are one
 
 coupling::ReducedFrame without_physics(std::vector<fem::Interface> interfaces, const std::vector<std::string> &outputs)
@@ -153,7 +150,9 @@ MatrixXd free_directions(const Scene &scene)
   {
     const Eigen::VectorXd t       = frame.translations.col(d);
     const double          cancels = t.cwiseAbs().dot(frame.C.cwiseAbs() * t.cwiseAbs());
-    held(d, d)                    = t.isZero() || t.dot(frame.C * t) > free_share * cancels;
+    // Of the energies that cancel in a free motion, as fem::free_motions() has it.
+    constexpr double free_share = 1e-13;
+    held(d, d)                  = t.isZero() || t.dot(frame.C * t) > free_share * cancels;
   }
   return free_directions(held);
 }
@@ -235,9 +234,10 @@ coupling::ReducedFrame rigid_stand_in(const Scene &scene)
     const Eigen::ColPivHouseholderQR<MatrixXd> qr(free);
     Q = qr.householderQ() * MatrixXd::Identity(R.rows(), qr.rank());
   }
-  const double omega   = two_pi * elastic_hz;
-  frame.C              = omega * omega * (frame.M - Q * Q.transpose());
-  frame.frequencies_hz = Eigen::VectorXd::Constant(R.rows(), elastic_hz);
+  constexpr double elastic_hz = 1000.; // far above what elements make of the masses of a machine
+  const double     omega      = two_pi * elastic_hz;
+  frame.C                     = omega * omega * (frame.M - Q * Q.transpose());
+  frame.frequencies_hz        = Eigen::VectorXd::Constant(R.rows(), elastic_hz);
   frame.frequencies_hz.head(Q.cols()).setZero();
   return frame;
 }

@@ -24,8 +24,6 @@ double period_of_loads(const coupling::Machine &machine)
   return omega.empty() ? 0. : coupling::common_period(omega);
 }
 
-constexpr double equal_speeds = 0.01; ///< mean and start of a run: a window of a revolution, but for 4 degrees
-
 /// The slowest rotor that completes a revolution in the run at the speed it starts with.
 struct Revolution
 {
@@ -108,8 +106,9 @@ void check_window(const Scene &scene, const coupling::Machine &machine, const co
   if (!scene.run.last_period || period_of_loads(machine) > 0. || !slowest.rotor || !run.failure.empty() ||
       run.interrupted || run.end_state.size() != machine.size())
     return;
-  const int    i    = slowest.rotor->coordinate;
-  const double mean = (run.end_state[i] - initial.q[i]) / length;
+  const int        i            = slowest.rotor->coordinate;
+  const double     mean         = (run.end_state[i] - initial.q[i]) / length;
+  constexpr double equal_speeds = 0.01; // mean and start of a run: a window of a revolution, but for 4 degrees
   if (std::abs(mean - slowest.speed) <= equal_speeds * std::abs(slowest.speed))
     return;
   run.warn("result-window", "output.from",

@@ -25,17 +25,6 @@ using mechanism::JournalBearing;
 using mechanism::KlossMotor;
 using mechanism::PointContact;
 
-constexpr double most_play_of_crank = 0.03;                 ///< of the crank radius: worn pins have some 0.01
-constexpr double most_play_of_pin   = 0.2;                  ///< of its radius: bearings have 0.001, worn ones some 0.05
-constexpr double most_play          = 0.1;                  ///< of the machine: more is a way to travel, not a play
-constexpr double farthest_stop      = 1.;                   ///< of the machine
-constexpr double least_gyration = 0.01, most_gyration = 1.; ///< of a body's extent, of the machine; a rod has 0.29
-constexpr double highest_hz  = 50e3;                        ///< structure-borne sound of machines ends at some 20 kHz
-constexpr double most_damped = 10.;                ///< spring-dampers have ratios up to 1; with 10 nothing swings
-constexpr double quickest = 5e-3, slowest = 1000.; ///< [s] bare servo motors take some 10 ms, centrifuges some minutes
-constexpr double most_frame_damping = 0.7;         ///< with 1 a frame does not vibrate
-constexpr double hardest_push       = 1e4;         ///< [m/s^2] valve springs accelerate their valves by up to 5000
-
 using Warnings = std::vector<UnexpectedValue>;
 
 std::string size_text(double metres)
@@ -64,6 +53,8 @@ void judge_play(const Scene &scene, const ElementRequest &element, const std::st
 
 void judge_plays(const Scene &scene, double size, Warnings &warnings)
 {
+  constexpr double most_play_of_crank = 0.03; // of the crank radius: worn pins have some 0.01
+  constexpr double most_play          = 0.1;  // of the machine: more is a way to travel, not a play
   for (const ElementRequest &element : scene.elements)
     if (element.kind == coupling::MeasureKind::angle)
       continue;
@@ -72,15 +63,17 @@ void judge_plays(const Scene &scene, double size, Warnings &warnings)
                  rod->parameters().crank_radius, "the crank radius", warnings);
     else if (const auto *journal = law_of<JournalBearing>(element))
     {
-      const bool pin = journal->parameters().radius > 0.;
+      const bool       pin              = journal->parameters().radius > 0.;
+      constexpr double most_play_of_pin = 0.2; // of its radius: bearings have 0.001, worn ones some 0.05
       judge_play(scene, element, "clearance", journal->parameters().clearance, pin ? most_play_of_pin : most_play,
                  pin ? journal->parameters().radius : size, pin ? "the journal's radius" : "the machine's size",
                  warnings);
     }
     else
     {
-      const auto *point   = law_of<PointContact>(element);
-      const auto *contact = point ? &point->normal() : law_of<Clearance>(element);
+      const auto      *point         = law_of<PointContact>(element);
+      const auto      *contact       = point ? &point->normal() : law_of<Clearance>(element);
+      constexpr double farthest_stop = 1.; // of the machine
       if (contact)
         judge_play(scene, element, "gap", contact->parameters().gap,
                    contact->parameters().stops == Clearance::Stops::both ? most_play : farthest_stop, size,
@@ -105,8 +98,10 @@ void judge_bodies(const Scene &scene, const coupling::MachineModel &machine, dou
     const bool   reported = arm < 1e-4 || arm > 20.; // warn_of_implausible_numbers() has one then
     if (!reported && body.kind == coupling::BodyKind::planar)
     {
-      const double own    = extent_of(machine.body(body.name));
-      const double excess = std::max(least_gyration * own / arm, size > 0. ? arm / (most_gyration * size) : 0.);
+      const double own = extent_of(machine.body(body.name));
+      // of a body's extent, of the machine; a rod has 0.29
+      constexpr double least_gyration = 0.01, most_gyration = 1.;
+      const double     excess = std::max(least_gyration * own / arm, size > 0. ? arm / (most_gyration * size) : 0.);
       if (excess > 1.)
         warnings.push_back({body.place + ".inertia",
                             "with its mass gives a radius of gyration of " + size_text(arm) + "; expected: " +
@@ -138,12 +133,14 @@ void judge_elements(const Scene &scene, const coupling::Machine &machine, Warnin
 {
   for (const coupling::ElementScale &scale : all_scales(scene, machine))
   {
+    constexpr double highest_hz = 50e3; // structure-borne sound of machines ends at some 20 kHz
     if (scale.frequency_hz() > highest_hz)
       warnings.push_back({key_place(scene, scale.name, "stiffness"),
                           "with the masses it acts on alone vibrates at " + short_text(scale.frequency_hz()) +
                               " Hz; expected: at most " + short_text(highest_hz) +
                               " Hz, as parts of machines vibrate below 20 kHz; check the units of stiffness and masses",
                           scale.frequency_hz() / highest_hz});
+    constexpr double most_damped = 10.; // spring-dampers have ratios up to 1; with 10 nothing swings
     if (scale.ratio() > most_damped)
       warnings.push_back({key_place(scene, scale.name, "damping"),
                           "with the stiffness and the masses gives a damping ratio of " + short_text(scale.ratio()) +
@@ -166,6 +163,7 @@ void judge_springs(const Scene &scene, const coupling::Machine &machine, double 
     const double      mass   = coupling::mass_on(machine, measure_of(spring.u, machine.model()));
     if (motion.rotation || !(mass > 0.))
       continue;
+    constexpr double hardest_push = 1e4; // [m/s^2] valve springs accelerate their valves by up to 5000
     if (const double push = std::abs(spring.preload) / mass; push > hardest_push)
       warnings.push_back({key_place(scene, spring.name, "preload"),
                           "accelerates the " + short_text(mass) + " kg that it acts on by " + short_text(push) +
@@ -199,6 +197,8 @@ void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings
         const auto  &own  = motor->parameters();
         const double J    = coupling::mass_on(machine, placement.measures.front());
         const double time = J * std::abs(own.synchronous_speed) / (own.ratio * own.ratio * own.breakdown_torque);
+        // [s] bare servo motors take some 10 ms, centrifuges some minutes
+        constexpr double quickest = 5e-3, slowest = 1000.;
         if (J > 0. && ((time < quickest && !coupling::has_joints(machine)) || time > slowest))
           warnings.push_back(
               {key_place(scene, element.name, "breakdown_torque"),
@@ -295,7 +295,8 @@ std::vector<UnexpectedValue> scene_magnitudes(const Scene &scene, const coupling
 
 std::vector<UnexpectedValue> magnitudes_of_modes(const Scene &scene, const std::vector<coupling::Mode> &of_frame)
 {
-  Warnings warnings;
+  Warnings         warnings;
+  constexpr double most_frame_damping = 0.7; // with 1 a frame does not vibrate
   for (const coupling::Mode &mode : of_frame)
     if (mode.frequency_hz > 0. && !(mode.damping_ratio < most_frame_damping)) // nan: it does not vibrate
     {

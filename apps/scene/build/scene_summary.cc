@@ -18,8 +18,6 @@ namespace
 
 using Words = std::vector<std::string>;
 
-constexpr int most_coordinates = 600; ///< of a machine whose freedoms are counted, which takes their cube
-
 std::string joined(const Words &words)
 {
   std::string line;
@@ -195,6 +193,7 @@ std::string coordinates_text(const Scene &scene, coupling::Machine &machine)
   if (n_rows == 0)
     return text;
   text += "; " + count_text(std::size_t(n_rows), "equation") + " of joints and rigid bodies";
+  constexpr int most_coordinates = 600; // of a machine whose freedoms are counted, which takes their cube
   if (places_known(scene) && machine.size() <= most_coordinates)
     text += "; on a frame at rest the mechanism has " + count_text(std::size_t(freedoms(machine)), "freedom");
   return text;

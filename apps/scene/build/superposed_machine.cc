@@ -15,11 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double kept_off_limit = 0.95; ///< share of 2 / omega_max
-constexpr double step_by_itself = 0.25; ///< of it: the period of the highest mode is right to 1 %
-constexpr double worth_a_note   = 0.02; ///< share of the energy of a start
-constexpr double many_steps     = 1e7;
-
 Eigen::MatrixXd mass_projection(const coupling::Machine &machine, const Eigen::MatrixXd &V)
 {
   Eigen::MatrixXd projection(V.cols(), V.rows());
@@ -48,6 +43,7 @@ std::pair<double, double> largest_steps(const coupling::Machine &machine)
 /// What the modes do not carry of an energy of the start; empty: little.
 std::string lost(const std::string &energy, double whole, double in_modes)
 {
+  constexpr double worth_a_note = 0.02; // share of the energy of a start
   if (!(whole - in_modes > worth_a_note * whole))
     return "";
   std::ostringstream text;
@@ -123,13 +119,16 @@ std::string keep_stable_step(double largest, double decay, RunRequest &run)
   std::ostringstream text;
   if (!run.step_given)
   {
-    method.step        = std::min(step_by_itself * largest, decay);
-    const double steps = (run.options.end - run.options.begin) / method.step;
+    constexpr double step_by_itself = 0.25; // of it: the period of the highest mode is right to 1 %
+    method.step                     = std::min(step_by_itself * largest, decay);
+    const double     steps          = (run.options.end - run.options.begin) / method.step;
+    constexpr double many_steps     = 1e7; // minutes of steps even of small machines: no wish, but stiff modes
     if (steps > many_steps)
       text << "central differences take " << steps << " steps of " << method.step << " s, as the fastest motion of the "
            << "modes kept asks for; keep fewer modes, or take method = \"exact\"";
     return text.str();
   }
+  constexpr double kept_off_limit = 0.95; // share of 2 / omega_max, at which explicit steps lose their stability
   if (method.step > kept_off_limit * largest)
   {
     text << "run.step is " << method.step << " s, but central differences are stable up to 2 / omega_max = " << largest

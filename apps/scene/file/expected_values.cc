@@ -78,8 +78,6 @@ std::string unexpected_words(const std::string &key, const Kind &kind, double va
 namespace
 {
 
-constexpr std::size_t most_named = 5;
-
 /// Without the line of the scene.
 std::string key_of(const UnexpectedValue &value)
 {
@@ -95,7 +93,8 @@ std::string others(const std::vector<UnexpectedValue> &values, const std::string
     if (const std::string key = key_of(value);
         warning.find(key) == std::string::npos && std::find(keys.begin(), keys.end(), key) == keys.end())
       keys.push_back(key);
-  std::string text;
+  std::string           text;
+  constexpr std::size_t most_named = 5; // keys of a line of text
   for (std::size_t i = 0; i < std::min(keys.size(), most_named); ++i)
     text += (text.empty() ? "; unexpected, too, perhaps by the same mistake: " : ", ") + keys[i];
   if (keys.size() > most_named)

@@ -19,8 +19,6 @@ namespace
   throw std::invalid_argument(value.place.text() + ": parameters." + written_key(name) + ": " + what);
 }
 
-constexpr std::size_t longest_chain = 500; ///< of parameters that need each other; each takes some of the stack
-
 void check_name(const SceneNode &value, const std::string &name)
 {
   if (!is_identifier(name))
@@ -80,6 +78,7 @@ Quantity Parameters::evaluate_entry(const Table &table, const std::string &name,
       circle += *i + " -> ";
     fail(value, name, "depends on itself: " + circle + name);
   }
+  constexpr std::size_t longest_chain = 500; // of parameters that need each other; each takes some of the stack
   if (open.size() >= longest_chain)
     fail(value, name,
          "is needed at the end of a chain of " + std::to_string(longest_chain) +

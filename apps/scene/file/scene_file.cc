@@ -17,8 +17,6 @@ namespace
 
 using Type = SceneNode::Type;
 
-constexpr std::size_t most_extended = 50; ///< of scenes that extend each other: each takes some of the stack
-
 /// Entries of `own` over those of `base`.
 void merge(SceneNode &base, const SceneNode &own)
 {
@@ -100,6 +98,7 @@ SceneNode with_base(SceneNode own, const std::string &path, std::vector<std::str
     extends->place.fail("extends = \"" + extends->text + "\": there is no file " + next);
   if (std::count(files.begin(), files.end(), std::filesystem::weakly_canonical(next).string()))
     extends->place.fail("extends = \"" + extends->text + "\": the scenes extend each other in a circle");
+  constexpr std::size_t most_extended = 50; // of scenes that extend each other: each takes some of the stack
   if (files.size() > most_extended)
     extends->place.fail("extends = \"" + extends->text + "\": more than " + std::to_string(most_extended) +
                         " scenes extend each other; write what they say in common into one");

@@ -14,8 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t deepest_key = 50; ///< tables in each other, as in a file: each takes some of the stack
-
 SceneNode override_value(const std::string &text, const Place &place)
 {
   const auto folder = std::filesystem::current_path().string();
@@ -68,6 +66,7 @@ std::vector<std::string> key_segments(const std::string &path, const Place &plac
       end = std::min(path.find('.', i), path.size());
       result.push_back(path.substr(i, end - i));
     }
+    constexpr std::size_t deepest_key = 50; // tables in each other, as in a file: each takes some of the stack
     if (result.size() > deepest_key)
       place.fail("the key goes more than " + std::to_string(deepest_key) + " tables deep; a scene has six at most");
     if (result.back().empty() || (end < path.size() && path[end] != '.'))

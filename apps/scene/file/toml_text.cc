@@ -47,8 +47,7 @@ std::string line_of(const std::string &text, std::size_t number)
   return line;
 }
 
-constexpr std::size_t largest_text = 64000000; ///< bytes
-constexpr int         deepest      = 50; ///< tables and arrays in each other; parsers take some of the stack for each
+constexpr int deepest = 50; ///< tables and arrays in each other; parsers take some of the stack for each
 
 /// Past a string that begins at i: to its closing quotes, or the end of the text.
 std::size_t behind_string(const std::string &text, std::size_t i)
@@ -245,7 +244,8 @@ SceneNode parse_toml_file(const std::string &path)
   std::ifstream in(path, std::ios::binary);
   if (!in)
     fail("cannot be read; check its permissions");
-  std::string text, part(1 << 16, '\0'); // of a pipe no length is known
+  constexpr std::size_t largest_text = 64000000;   // bytes
+  std::string           text, part(1 << 16, '\0'); // of a pipe no length is known
   while (text.size() <= largest_text && in.read(part.data(), std::streamsize(part.size())).gcount() > 0)
     text.append(part, 0, std::size_t(in.gcount()));
   if (in.bad())

@@ -21,11 +21,6 @@ using mechanism::RelativeMeasure;
 using mechanism::Vector3d;
 using Form = RelativeMeasure::Form;
 
-constexpr double parallel = 1e-12; ///< 1 - cosine: rounding of unit vectors, enlarged by bodies of some hundred metres
-constexpr double closed   = 1e-10; ///< share of the numbers of its places by which the assembly leaves a joint open
-/// Sine of the angle between directions from which one is told across the other; less would enlarge rounding as much.
-constexpr double apart = 1e-3;
-
 std::string axis_name(const Vector3d &a, int number)
 {
   for (int d = 0; d < 3; ++d)
@@ -41,6 +36,8 @@ std::vector<Vector3d> global_axes()
 
 bool are_parallel(const Vector3d &a, const Vector3d &b)
 {
+  // 1 - cosine: rounding of unit vectors, enlarged by bodies of some hundred metres
+  constexpr double parallel = 1e-12;
   return std::abs(a.dot(b)) > 1. - parallel;
 }
 
@@ -57,6 +54,9 @@ std::vector<Vector3d> across(const Vector3d &axis, const std::vector<Vector3d> &
   for (const Vector3d &a : directions)
   {
     Vector3d side = a - a.dot(axis) * axis;
+    // Sine of the angle between directions from which one is told across the other; less would enlarge rounding as
+    // much.
+    constexpr double apart = 1e-3;
     if (side.norm() < apart || found.size() == at_most ||
         (found.size() == 1 && side.cross(found[0]).norm() < apart * side.norm()))
       continue;
@@ -231,6 +231,7 @@ void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string
 /// What no motion can close must be closed as described.
 void JointEquations::require_closed(const Vector3d &a, double gap) const
 {
+  constexpr double closed = 1e-10; // share of the numbers of its places by which the assembly leaves a joint open
   if (std::abs(gap) <= closed * pair_.size())
     return;
   std::ostringstream message;

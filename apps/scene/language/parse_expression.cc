@@ -15,8 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t longest_text = 1000; // keeps the recursion far from the end of the stack
-
 const std::map<std::string, mechanism::Relation> relations = {{">", mechanism::Relation::above},
                                                               {">=", mechanism::Relation::not_below},
                                                               {"<", mechanism::Relation::below},
@@ -422,6 +420,7 @@ bool makes_sense(Parser &parser, const Kind *kind, const std::string &text)
 Expression parse_expression(const std::string &text, const std::vector<Variable> &variables,
                             const NameLookup &parameters, const std::vector<std::string> &names, const Kind *kind)
 {
+  constexpr std::size_t longest_text = 1000; // keeps the recursion far from the end of the stack
   if (text.size() > longest_text)
     throw std::invalid_argument("\"" + text.substr(0, 40) + "...\" is longer than " + std::to_string(longest_text) +
                                 " characters; split it into parameters");

@@ -7,9 +7,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double pi           = 3.14159265358979323846;
-constexpr double weight_of_kg = 9.80665;    // [N] at standard gravity
-constexpr double pound        = 0.45359237; // [kg]
+constexpr double pi = 3.14159265358979323846;
 
 std::map<std::string, Quantity> make_units()
 {
@@ -26,10 +24,12 @@ std::map<std::string, Quantity> make_units()
       none);
   add({3, 0, 0}, {{"l", 1e-3}, {"ml", 1e-6}}, none);
   add({1, 0, 0}, {{"in", 0.0254}, {"ft", 0.3048}}, none);
+  constexpr double pound = 0.45359237; // [kg]
   add({0, 1, 0}, {{"kg", 1.}, {"g", 1e-3}, {"mg", 1e-6}, {"t", 1e3}, {"lb", pound}}, none);
   add({0, 0, 1}, {{"s", 1.}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}}, none);
   add({0, 0, 1}, {{"min", 60.}, {"h", 3600.}}, Counts::minutes);
   add({1, 1, -2}, {{"N", 1.}, {"mN", 1e-3}, {"daN", 10.}, {"kN", 1e3}, {"MN", 1e6}}, none);
+  constexpr double weight_of_kg = 9.80665; // [N] at standard gravity
   add({1, 1, -2}, {{"kp", weight_of_kg}, {"kgf", weight_of_kg}, {"lbf", pound * weight_of_kg}}, none);
   add({2, 1, -2}, {{"Nm", 1.}, {"kNm", 1e3}, {"J", 1.}, {"kJ", 1e3}, {"MJ", 1e6}}, none);
   add({1, 1, -1}, {{"Ns", 1.}, {"kNs", 1e3}}, none);

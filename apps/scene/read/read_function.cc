@@ -17,8 +17,6 @@ using mechanism::PositionFunction;
 namespace
 {
 
-constexpr double seen_overshoot = 0.05; // of a spline beyond its rows, by the steps between rows beside it
-
 /**
  * A spline through rows that rise after a level stretch, or have a wrong value among them, swings beyond them.  It may
  * do so only at an extreme, where the steps between rows change their sign.
@@ -53,6 +51,7 @@ void warn_of_overshoot(const SceneTable &table, const std::vector<mechanism::Cub
         worst = beyond / scale, at = x, by = beyond;
     }
   }
+  constexpr double seen_overshoot = 0.05; // of a spline beyond its rows, by the steps between rows beside it
   if (worst <= seen_overshoot)
     return;
   std::ostringstream text;
@@ -87,14 +86,13 @@ std::vector<Key> position_function_keys()
 namespace
 {
 
-constexpr double as_written = 1e-9; ///< of the period and of the values: what few digits leave of a table that closes
-
 /// The last row has the value of the first one and `rise`; where it is left out it is added.
 void close(const SceneTable &table, const PositionFunction::Period &period,
            std::vector<mechanism::CubicSpline::Point> &points)
 {
-  const auto   first = points.front(), last = points.back();
-  const double end = first.x + period.length, value = first.f + period.rise;
+  const auto       first = points.front(), last = points.back();
+  const double     end = first.x + period.length, value = first.f + period.rise;
+  constexpr double as_written = 1e-9; // of the period and of the values: what few digits leave of a table that closes
   if (last.x > end + as_written * period.length)
     throw table.error("table", "goes further than one period; give the rows of one, from the first on");
   if (last.x >= end - as_written * period.length)

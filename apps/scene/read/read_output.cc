@@ -14,8 +14,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int most_ringing_modes = 12;
-
 std::vector<std::string> stage_names(const SceneTable &stages, std::size_t n_borders)
 {
   std::vector<std::string> names;
@@ -76,6 +74,7 @@ void read_stages(const SceneTable &output, Scene &scene)
   if (stages.has("ringing"))
     scene.stages.ringing = stages.texts("ringing");
   require_signals(stages, scene);
+  constexpr int most_ringing_modes = 12; // the pencil of noisy rows tells no more apart
   if (scene.stages.modes < 1 || scene.stages.modes > most_ringing_modes)
     throw stages.error("modes", "needs a number between 1 and " + std::to_string(most_ringing_modes));
 }
@@ -83,8 +82,7 @@ void read_stages(const SceneTable &output, Scene &scene)
 namespace
 {
 
-constexpr const char *the_stress  = "stress"; ///< itself, beside the names of signals
-constexpr double      most_states = 5000.;    ///< by default
+constexpr const char *the_stress = "stress"; ///< itself, beside the names of signals
 
 void require_stresses(const SceneTable &stress, const Scene &scene)
 {
@@ -184,7 +182,8 @@ void read_stress(const SceneTable &output, Scene &scene)
   read_extremes(stress, "smallest", scene);
   if (scene.stress.instants.empty())
     scene.stress.instants.push_back({"largest stress", StressInstant::largest_stress, 0});
-  coupling::RunOptions &run = scene.run.options;
+  coupling::RunOptions &run         = scene.run.options;
+  constexpr double      most_states = 5000.; // by default: some per pixel of a chart, 40 MB at 1000 coordinates
   const double step = std::max(scene.run.given ? coupling::output_step(run) : 0., (run.end - run.begin) / most_states);
   const double chosen = stress.value_or("step", step);
   const bool   search = std::any_of(scene.stress.instants.begin(), scene.stress.instants.end(),

@@ -18,8 +18,6 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double seen_eccentricity = 1e-3; // of a rotor, by its radius of gyration
-
 Vector3d vector(const Vector3 &x)
 {
   return Vector3d(x.data());
@@ -126,6 +124,7 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
   body.position             = table.vector_or("position", body.position);
   const double eccentricity = axis.cross(centre - vector(body.position)).norm();
   body.inertia += body.mass * eccentricity * eccentricity;
+  constexpr double seen_eccentricity = 1e-3; // of a rotor, by its radius of gyration
   if (body.unbalance || eccentricity < seen_eccentricity * std::sqrt(body.inertia / body.mass))
     return;
   std::ostringstream text;

@@ -15,8 +15,7 @@ using coupling::IntegrationMethod;
 using coupling::MethodOptions;
 using coupling::MethodParameter;
 
-constexpr auto   method_in_modes  = "central-difference"; ///< of a superposition, unless another is given
-constexpr double provisional_step = 1e-6;                 ///< of the run, until the modes are known
+constexpr auto method_in_modes = "central-difference"; ///< of a superposition, unless another is given
 
 /// Keys that not every method has.
 std::vector<std::string> own_keys(const IntegrationMethod &method)
@@ -117,6 +116,7 @@ MethodOptions read_method_options(const SceneTable &run, bool in_modes)
   const IntegrationMethod &method = read_method(run, in_modes);
   o.method                        = method.name();
   refuse_keys_of_other_methods(run, method);
+  constexpr double provisional_step = 1e-6; // of the run, until the modes are known
   if (in_modes && !run.has("step") && !run.has("tolerance") && !method.can_control_error())
     o.step = provisional_step * (run.value("end") - run.value("begin"));
   else

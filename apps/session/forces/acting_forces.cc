@@ -16,8 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double full = 1e-9; ///< relative size of a pivot
-
 /// Force and torque about a place [N, N m], and how many translations of it the coordinates know.
 struct Wrench
 {
@@ -97,6 +95,7 @@ Wrench wrench_on(const ForceSide &side, const VectorXd &q, const VectorXd &Q, do
   MatrixXd moves = motions(side.at, w) * dw_dq;   // [6 x own]
   moves.bottomRows(3) *= size;                    // torques over it, in N
   Eigen::ColPivHouseholderQR<MatrixXd> translations(moves.topRows(3));
+  constexpr double                     full = 1e-9; // relative size of a pivot
   translations.setThreshold(full);
   const VectorXd solution = MatrixXd(moves.transpose()).completeOrthogonalDecomposition().solve(own);
   return {solution.head<3>(), size * solution.tail<3>(), int(translations.rank())};

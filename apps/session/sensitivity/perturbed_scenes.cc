@@ -19,9 +19,6 @@ namespace gestell::apps
 
 namespace
 {
-constexpr double of_matrices = 1e-3; ///< of a value, by which frames on equal meshes are apart from the scene's
-constexpr double of_meshes   = 5e-2; ///< of frames meshed anew: what meshes scatter is smaller beside it
-constexpr double rough       = 0.05; ///< of a difference of frames: what it may be wrong by is told
 
 /// What a machine needs of its frame, without what is only drawn or told.
 coupling::ReducedFrame without_pictures(const coupling::ReducedFrame &frame)
@@ -117,9 +114,11 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
   const auto near = varied.at(1.);
   if (!reduces(scene) || same_frame(*near, scene))
     return {};
-  VariedKey   &key   = varied.key();
-  const bool   anew  = meshed_anew(*near, scene);
-  const double steps = (anew ? of_meshes : of_matrices) * std::abs(key.reported.value) / key.step;
+  VariedKey       &key         = varied.key();
+  const bool       anew        = meshed_anew(*near, scene);
+  constexpr double of_matrices = 1e-3; // of a value, by which frames on equal meshes are apart from the scene's
+  constexpr double of_meshes   = 5e-2; // of frames meshed anew: what meshes scatter is smaller beside it
+  const double     steps       = (anew ? of_meshes : of_matrices) * std::abs(key.reported.value) / key.step;
   try
   {
     const auto below = frame_with_modes_of(frame, std::move(*varied.at(-steps)), progress),
@@ -130,6 +129,7 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
                                               : coupling::frame_derivative(frame, below, above, steps * key.step);
     key.reported.frame = "differences of two reductions at " + percent(anew ? of_meshes : of_matrices) +
                          (anew ? " more and less, each meshed anew" : " more and less");
+    constexpr double rough = 0.05; // of a difference of frames: what it may be wrong by is told
     if (derivative.curvature > rough)
       warning = "derivatives by " + key.reported.key + " come from " + key.reported.frame +
                 "; these differ from the frame between them by " + percent(derivative.curvature, 2) +

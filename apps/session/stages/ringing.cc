@@ -21,13 +21,7 @@ using coupling::DampedOscillation;
 using coupling::Event;
 using coupling::RunResult;
 
-constexpr int     most_modes        = 60;  ///< of the linearised machine that are looked at
-constexpr double  most_samples      = 300; ///< of the pencil, whose cost grows with their cube
-constexpr long    least_samples     = 40;
-constexpr double  periods_of_window = 2.;
-constexpr double  near              = 0.25;  ///< relative distance of frequencies beyond which modes are no pair
-constexpr double  combined          = 0.015; ///< relative distance of poles within which one is a combination
-const char *const contacts[]        = {"lift_off", "touch_down", "closes", "opens"};
+const char *const contacts[] = {"lift_off", "touch_down", "closes", "opens"};
 
 /// From the last event of a contact on.
 double ringing_begin(const RunResult &run, const Stage &last)
@@ -42,7 +36,8 @@ double ringing_begin(const RunResult &run, const Stage &last)
 /// Samples at equal times; rows beside the grid, as at events, are left out.
 Eigen::MatrixXd samples_of(const HistoryRows &rows, double output_step, Ringing &ringing)
 {
-  const double every = std::max(1., std::floor((ringing.end - ringing.begin) / output_step / most_samples));
+  constexpr double most_samples = 300; // of the pencil, whose cost grows with their cube
+  const double     every        = std::max(1., std::floor((ringing.end - ringing.begin) / output_step / most_samples));
   std::vector<std::vector<double>> taken(ringing.signals.size());
   ringing.step = every * output_step;
   double next  = std::ceil(ringing.begin / output_step + 1e-6) * output_step;
@@ -81,13 +76,15 @@ std::vector<coupling::Mode> modes_at_rest(PreparedMachine &prepared, const Eigen
   const Eigen::VectorXd q = coupling::held_equilibrium(machine, known).q;
   machine.gather(t, q, known.state.v, known.state.v, local);
   machine.events().start(local);
+  constexpr int most_modes = 60; // of the linearised machine that are looked at
   return coupling::coupled_modes(machine, q, {}, most_modes);
 }
 
 /// The nearest of those that move what rings.
 void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
 {
-  double least = near;
+  constexpr double near  = 0.25; // relative distance of frequencies beyond which modes are no pair
+  double           least = near;
   for (std::size_t j = 0; j < modes.size(); ++j)
     if (modes[j].damped_frequency_hz > 0.)
       if (const double away = std::abs(modes[j].damped_frequency_hz / mode.frequency_hz - 1.); away < least)
@@ -100,8 +97,9 @@ void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
 /// Of stronger ones; empty: of none.
 std::string combination(const DampedOscillation &own, const std::vector<DampedOscillation> &stronger)
 {
-  const auto is = [&](std::complex<double> s) { return std::abs(own.s - s) < combined * std::abs(own.s); };
-  const auto hz = [](const DampedOscillation &any) { return short_text(any.frequency_hz()); };
+  constexpr double combined = 0.015; // relative distance of poles within which one is a combination
+  const auto       is       = [&](std::complex<double> s) { return std::abs(own.s - s) < combined * std::abs(own.s); };
+  const auto       hz       = [](const DampedOscillation &any) { return short_text(any.frequency_hz()); };
   for (const DampedOscillation &any : stronger)
     for (int k = 2; k <= 4; ++k)
       if (is(double(k) * any.s))
@@ -130,8 +128,9 @@ RingingMode ringing_mode(const DampedOscillation &found, const std::vector<std::
 /// A window shorter than two periods does not tell a frequency from a drift.  @return what is to be said of it
 std::string leave_out_slow(std::vector<DampedOscillation> &found, const Ringing &ringing)
 {
-  const double window = ringing.end - ringing.begin;
-  const auto   slow =
+  const double     window            = ringing.end - ringing.begin;
+  constexpr double periods_of_window = 2.; // fewer leave frequency and decay undecided between modes
+  const auto       slow =
       std::remove_if(found.begin(), found.end(),
                      [&](const DampedOscillation &own) { return own.frequency_hz() * window < periods_of_window; });
   if (slow == found.end())
@@ -173,7 +172,8 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
   ringing.signals           = scene.stages.ringing;
   for (const std::string &signal : ringing.signals)
     ringing.units.push_back(rows.unit(rows.column(signal)));
-  const Eigen::MatrixXd samples = samples_of(rows, coupling::output_step(scene.run.options), ringing);
+  const Eigen::MatrixXd samples       = samples_of(rows, coupling::output_step(scene.run.options), ringing);
+  constexpr long        least_samples = 40; // twice the poles of ten modes
   if (samples.rows() < least_samples)
   {
     result.ringing.note = "too few rows of the history lie behind the last contact, at " + rounded(ringing.begin) +

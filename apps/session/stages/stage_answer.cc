@@ -18,8 +18,6 @@ namespace
 using coupling::Event;
 using coupling::RunResult;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 bool is_border(const Event &event, const std::string &border)
 {
   return event.name == border || event.name + "." + event.kind == border;
@@ -28,6 +26,7 @@ bool is_border(const Event &event, const std::string &border)
 StageExtremes extremes_of(const HistoryRows &rows, const std::string &signal, const Stage &stage)
 {
   const std::size_t column = rows.column(signal);
+  constexpr double  nan    = std::numeric_limits<double>::quiet_NaN();
   StageExtremes     found{signal, rows.unit(column), nan, nan, nan, nan};
   for (std::size_t i = 0; i < rows.size(); ++i)
   {

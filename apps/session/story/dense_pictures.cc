@@ -13,11 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double of_period = 1. / 16.; ///< distance of pictures
-constexpr double periods   = 1.5;      ///< on either side of the peak
-constexpr double not_again = 0.3;      ///< of their distance: there is a picture already
-constexpr double uneven    = 0.02;     ///< of it, that the states lie beside their grid
-
 void insert_picture(const coupling::KeptState &state, coupling::RunResult &run)
 {
   const auto n =
@@ -56,14 +51,18 @@ void add_dense_pictures(coupling::RunResult &run, PeakState &peak)
   if (!(peak.half_swing > 0.) || run.states.around.size() < 2 || run.picture_times.empty() ||
       run.picture_velocities.size() != run.picture_times.size())
     return;
-  const bool   largest = peak.value >= 0.;
-  const double period = 2. * peak.half_swing, step = of_period * period;
-  double       last = -std::numeric_limits<double>::infinity();
+  const bool       largest   = peak.value >= 0.;
+  constexpr double of_period = 1. / 16.; // distance of pictures
+  const double     period = 2. * peak.half_swing, step = of_period * period;
+  double           last = -std::numeric_limits<double>::infinity();
   for (const coupling::KeptState &state : run.states.around[largest ? 0 : 1])
   {
+    constexpr double periods = 1.5;  // on either side of the peak
+    constexpr double uneven  = 0.02; // of it, that the states lie beside their grid
     if (std::abs(state.t - peak.t) > periods * period || state.t < last + (1. - uneven) * step)
       continue;
-    last = state.t;
+    last                       = state.t;
+    constexpr double not_again = 0.3; // of their distance: there is a picture already
     if (!has_picture_near(run, state.t, not_again * step))
       insert_picture(state, run);
   }

@@ -12,10 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double      acts = 0.01, high = 0.9, low = 0.1; ///< of the peak
-constexpr double      short_gap = 0.1;                    ///< of the duration behind it
-constexpr double      slow = 100., fast = 4.; ///< modes: periods up to so many durations, so many within the fall
-constexpr std::size_t most_modes = 12;
+constexpr double acts = 0.01, high = 0.9, low = 0.1; ///< of the peak
 
 /// Whether |F| reaches a share of the peak.
 class Above
@@ -46,6 +43,7 @@ std::size_t begin_of_load(const Above &above, const std::vector<double> &t, std:
     std::size_t before = begin;
     while (before > 0 && !above(before - 1, acts))
       --before;
+    constexpr double short_gap = 0.1; // of the duration after it: a chattering contact is one load
     if (before == 0 || t[begin] - t[before - 1] > short_gap * (end - t[begin]))
       return begin;
     begin = first_of_piece(above, before - 1);
@@ -83,9 +81,12 @@ LoadOnMode on_mode(const LoadDuration &load, const coupling::ElementPlacement &p
 
 void add_modes(const coupling::ElementPlacement &placement, const LocalModes &there, int most, LoadDuration &load)
 {
-  load.t_modes = there.t;
-  load.place   = there.place;
-  load.unknown = there.unknown;
+  load.t_modes                     = there.t;
+  load.place                       = there.place;
+  load.unknown                     = there.unknown;
+  constexpr double      slow       = 100.; // periods up to so many durations: slower modes see an impulse
+  constexpr double      fast       = 4.;   // periods within the fall: its factor is below 0.1 beyond
+  constexpr std::size_t most_modes = 12;   // rows of a table
   for (std::size_t j = 0; j < std::min(there.modes.size(), std::size_t(most)) && load.modes.size() < most_modes; ++j)
     if (const double f = there.modes[j].frequency_hz;
         f * slow * (load.t_fall - load.begin) > 1. && f * load.fall < fast)

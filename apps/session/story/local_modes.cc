@@ -13,9 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double same_shape  = 0.8;
-constexpr double most_work   = 2e9; ///< states times n^3
-constexpr int    most_places = 3;
+constexpr double most_work = 2e9; ///< states times n^3
 
 std::string place_of(const coupling::Machine &machine, const Eigen::VectorXd &q)
 {
@@ -23,7 +21,8 @@ std::string place_of(const coupling::Machine &machine, const Eigen::VectorXd &q)
   int         reported = 0;
   for (const coupling::Body &body : machine.model().bodies())
   {
-    const bool turns = body.kind == coupling::BodyKind::rotor;
+    const bool    turns       = body.kind == coupling::BodyKind::rotor;
+    constexpr int most_places = 3; // bodies of a line of text
     if ((!turns && body.kind != coupling::BodyKind::slider) || ++reported > most_places)
       continue;
     const double x = q[body.coordinate];
@@ -43,6 +42,8 @@ std::vector<int> numbers_of(const coupling::Machine &machine, const std::vector<
   for (std::size_t j = 0; j < numbered.size(); ++j)
   {
     const Eigen::VectorXd moved = M * numbered[j].shape;
+    // squared cosine in the metric of mass: above half, at most one mode can be the same
+    constexpr double same_shape = 0.8;
     for (std::size_t i = 0; i < modes.size(); ++i)
       if (std::pow(modes[i].shape.dot(moved), 2) >= same_shape)
         numbers[i] = int(j);

@@ -17,14 +17,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_cycles    = 8;
-constexpr double      mostly_open    = 0.3;  ///< kappa below which the motion is far from harmonic
-constexpr double      decays         = 0.3;  ///< share of the amplitude lost until the next cycle
-constexpr double      same_place     = 0.1;  ///< of the range of a cycle
-constexpr double      coarsest_cycle = 0.05; ///< distance of rows, of a cycle
-constexpr double      bent           = 0.05; ///< of its way, that a deflection may deviate from a straight one
-constexpr double      step           = 1e-7; ///< [m, rad] of a difference quotient
-
 /// An element with play, where the modes are found.
 struct PlayedElement
 {
@@ -85,9 +77,11 @@ double deflection(const PlayedElement &played, const coupling::Signal &signal, c
 double deflection_rate(const PlayedElement &played, const coupling::Signal &signal, const Eigen::VectorXd &u,
                        const Eigen::VectorXd &d, double amplitude)
 {
-  const double at = deflection(played, signal, u), x = step / d.norm();
-  const double rate = (deflection(played, signal, u + x * d) - at) / x, far = amplitude / std::abs(rate);
+  constexpr double step = 1e-7; // [m, rad] of a difference quotient
+  const double     at = deflection(played, signal, u), x = step / d.norm();
+  const double     rate = (deflection(played, signal, u + x * d) - at) / x, far = amplitude / std::abs(rate);
   const double up = deflection(played, signal, u + far * d) - at, down = deflection(played, signal, u - far * d) - at;
+  constexpr double bent = 0.05; // of its way, that a deflection may deviate from a straight one
   return std::abs(up + down) <= bent * std::abs(up - down) ? rate : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -146,6 +140,7 @@ bool fine_rows(const HistoryRows &rows, double begin, double end)
   for (std::size_t i = 1; i < rows.size(); ++i)
     if (rows.t(i) > begin && rows.t(i - 1) < end)
       widest = std::max(widest, rows.t(i) - rows.t(i - 1));
+  constexpr double coarsest_cycle = 0.05; // distance of rows, of a cycle
   return widest <= coarsest_cycle * (end - begin);
 }
 
@@ -176,7 +171,8 @@ double deflection_at(const HistoryRows &rows, std::size_t signal, double t)
 /// play.
 bool same_side(const HistoryRows &rows, std::size_t signal, double begin, double end)
 {
-  const double moved = deflection_at(rows, signal, end) - deflection_at(rows, signal, begin);
+  const double     moved      = deflection_at(rows, signal, end) - deflection_at(rows, signal, begin);
+  constexpr double same_place = 0.1; // of the range of a cycle
   return std::abs(moved) < same_place * range_between(rows, signal, begin, end);
 }
 
@@ -198,6 +194,7 @@ std::vector<PlayEstimate> cycles_of(const coupling::RunResult &run, const Played
   double                    before = std::numeric_limits<double>::quiet_NaN();
   for (const coupling::Event &event : run.events)
   {
+    constexpr std::size_t most_cycles = 8; // rows of a table; the first ones tell the frequency after the blow
     if (cycles.size() == most_cycles || event.name != played.placement->name || event.kind != kind)
       continue;
     if (before < event.t && !same_side(rows, played.signal, before, event.t))
@@ -219,9 +216,11 @@ std::vector<PlayEstimate> cycles_of(const coupling::RunResult &run, const Played
 
 std::string limits_of(const PlayEstimate &cycle, const PlayEstimate *next)
 {
-  std::string limits;
+  std::string      limits;
+  constexpr double mostly_open = 0.3; // kappa below which the motion is far from harmonic
   if (cycle.stiffness_share < mostly_open)
     limits = "mostly open, far from harmonic";
+  constexpr double decays = 0.3; // share of the amplitude lost until the next cycle
   if (next && next->amplitude < (1. - decays) * cycle.amplitude)
     limits += (limits.empty() ? "" : "; ") + std::string("the amplitude falls fast");
   return limits;

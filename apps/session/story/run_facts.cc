@@ -18,8 +18,6 @@ namespace
 
 constexpr double one_instant = 1e-9; ///< of the run: its rounding
 constexpr double coarsest    = 0.1;  ///< distance of rows, of the time they are summed over: trapezoids within 1 %
-constexpr double of_swing    = 0.05; ///< distance of rows, of half a swing: its ends lie within 0.3 % of its amplitude
-constexpr double beside_it   = 0.1;  ///< of the largest amount: a turning point so far from an extreme is another one
 
 bool is_force(const coupling::Signal &signal)
 {
@@ -178,6 +176,10 @@ std::vector<ExtremeSwing> extreme_swings(const std::vector<coupling::Signal> &si
       const Swing  swing = swing_at(time, y, extreme.t);
       const auto   value = [&](double t) { return y[row_before(rows, t)]; };
       const double size  = std::max(std::abs(own.min), std::abs(own.max));
+      // distance of rows, of half a swing: its ends lie within 0.3 % of its amplitude
+      constexpr double of_swing = 0.05;
+      // of the largest amount: a turning point so far from an extreme is another one
+      constexpr double beside_it = 0.1;
       if (!(swing.half > 0.) || std::abs(value(swing.turn) - extreme.value) > beside_it * size ||
           !fine_between(rows, extreme.t - 0.5 * swing.half, extreme.t + 0.5 * swing.half, of_swing))
         continue;

@@ -12,9 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double most_memory = 64e6, kept_states = 600.; ///< bytes; states around an extreme
-constexpr long   most_parts = 32;                        ///< of a swing
-
 /// F at q with the velocities half way between two states, by the motion alone.
 class ForceBetween
 {
@@ -61,7 +58,8 @@ std::vector<coupling::SignalExtreme> swing_extremes(const std::vector<coupling::
   for (int s = 0; s < int(signals.size()); ++s)
     if (s != main && (signals[std::size_t(s)].unit == "N" || signals[std::size_t(s)].unit == "N m"))
       add(s);
-  const double of_one = kept_states * 3. * sizeof(double) * std::max(1, n);
+  constexpr double most_memory = 64e6, kept_states = 600.; // bytes; states around an extreme
+  const double     of_one = kept_states * 3. * sizeof(double) * std::max(1, n);
   extremes.resize(std::min(extremes.size(), std::size_t(most_memory / of_one)));
   return extremes;
 }
@@ -82,6 +80,7 @@ std::vector<const coupling::KeptState *> states_of_swing(const std::vector<coupl
              *last  = state_near(states, std::max(from, to), reach);
   if (!first || !last || last <= first)
     return {};
+  constexpr long                           most_parts = 32; // of a swing
   const auto                               n = last - first, stride = (n + most_parts - 1) / most_parts;
   std::vector<const coupling::KeptState *> path;
   for (const auto *state = first; state < last; state += stride)

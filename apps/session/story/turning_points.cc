@@ -10,8 +10,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double small_turn = 0.2; ///< of the range
-
 /// Instants at which y turns by more than a threshold, each at its extreme.
 std::vector<double> turning_points(const std::vector<double> &t, const std::vector<double> &y, double threshold)
 {
@@ -44,8 +42,9 @@ Swing swing_at(const std::vector<double> &t, const std::vector<double> &y, doubl
 {
   if (y.size() < 3)
     return {};
-  const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  const auto turns       = turning_points(t, y, small_turn * (*high - *low));
+  const auto [low, high]      = std::minmax_element(y.begin(), y.end());
+  constexpr double small_turn = 0.2; // of the range
+  const auto       turns      = turning_points(t, y, small_turn * (*high - *low));
   if (turns.empty())
     return {};
   const auto nearest = std::min_element(turns.begin(), turns.end(),

@@ -11,8 +11,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int most_composite = 12; ///< variables: 4096 corners
-
 using Blocks = std::vector<std::vector<int>>;
 
 /// Every pair of k variables.
@@ -112,6 +110,7 @@ double star_distance(Star star, int n_variables, int centre_points)
 Design central_composite(int n_variables, double alpha, int centre_points)
 {
   check_centre_points(centre_points, "central composite");
+  constexpr int most_composite = 12; // variables: 4096 corners
   if (n_variables < 1 || n_variables > most_composite)
     throw std::invalid_argument("study: a central composite design of " + std::to_string(n_variables) +
                                 " variables; it takes 1 to 12. For more take a Latin hypercube or Sobol points");

@@ -19,9 +19,6 @@ namespace
 using Generator =
     boost::random::mt19937_64; ///< its numbers are the same everywhere, those of std's distributions are not
 
-constexpr double work_of_exchanges = 3e8; ///< differences of two levels, some tenths of a second
-constexpr int    most_exchanges    = 100000;
-
 int random_below(int n, Generator &generator)
 {
   return boost::random::uniform_int_distribution<int>(0, n - 1)(generator);
@@ -106,9 +103,11 @@ Design random_latin_hypercube(int n_variables, int n_runs, std::uint64_t seed)
 Design latin_hypercube(int n_variables, int n_runs, std::uint64_t seed)
 {
   check_hypercube(n_variables, n_runs);
-  Generator       generator(seed);
-  Eigen::MatrixXd cells     = random_cells(n_variables, n_runs, generator);
-  const int       exchanges = static_cast<int>(
+  Generator        generator(seed);
+  Eigen::MatrixXd  cells             = random_cells(n_variables, n_runs, generator);
+  constexpr double work_of_exchanges = 3e8;    // differences of two levels, some tenths of a second
+  constexpr int    most_exchanges    = 100000; // bounds small designs, in which exchanges soon find nothing better
+  const int        exchanges         = static_cast<int>(
       std::min<double>(most_exchanges, work_of_exchanges / (4. * n_runs * static_cast<double>(n_variables))));
   if (n_variables > 1 && n_runs > 2)
     for (int i = 0; i < exchanges; ++i)

@@ -12,8 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int searched_runs = 60, drawn_runs = 100;
-
 int at_least(const SceneTable &table, const std::string &key, int least, int otherwise)
 {
   const int value = table.has(key) ? table.whole(key) : otherwise;
@@ -111,9 +109,10 @@ void read_limits(const StudyFile &study, const SceneTable &table, std::vector<Li
 RobustRequest read_robust(const StudyFile &study, const SceneTable &table)
 {
   RobustRequest request;
-  request.on    = table.choice("on") == "runs" ? AnalysisOn::runs : AnalysisOn::surface;
-  request.draws = at_least(table, "draws", 2, request.on == AnalysisOn::runs ? drawn_runs : request.draws);
-  request.seed  = std::uint64_t(at_least(table, "seed", 0, 1));
+  request.on               = table.choice("on") == "runs" ? AnalysisOn::runs : AnalysisOn::surface;
+  constexpr int drawn_runs = 100; // standard deviation to 7 %, 1 / sqrt(2 n)
+  request.draws            = at_least(table, "draws", 2, request.on == AnalysisOn::runs ? drawn_runs : request.draws);
+  request.seed             = std::uint64_t(at_least(table, "seed", 0, 1));
   if (std::none_of(study.variables.begin(), study.variables.end(),
                    [](const VariableRequest &variable) { return variable.variable.scatter != Scatter::none; }))
     throw table.error("no variable scatters; give one scatter = \"normal\" and its width");
@@ -129,15 +128,16 @@ OptimiseRequest read_optimise(const StudyFile &study, const SceneTable &table, O
   request.task.high = Eigen::VectorXd::Constant(n, 1.);
   read_goals(study, table, request.task.goals, claims);
   read_limits(study, table, request.task.limits, claims);
-  OptimumOptions &options  = request.options;
-  const bool      runs     = request.on == AnalysisOn::runs;
-  options.method           = search_method(table.choice("method"));
-  options.starts           = at_least(table, "starts", 1, options.starts);
-  options.seed             = std::uint64_t(at_least(table, "seed", 0, 1));
-  options.most_evaluations = at_least(table, "most_runs", 2, runs ? searched_runs : options.most_evaluations);
-  options.tolerance        = runs ? 1e-3 : options.tolerance;
-  request.verify           = table.truth("verify");
-  request.pareto           = table.has("pareto") ? at_least(table, "pareto", 2, 0) : 0;
+  OptimumOptions &options     = request.options;
+  const bool      runs        = request.on == AnalysisOn::runs;
+  options.method              = search_method(table.choice("method"));
+  options.starts              = at_least(table, "starts", 1, options.starts);
+  options.seed                = std::uint64_t(at_least(table, "seed", 0, 1));
+  constexpr int searched_runs = 60; // a search with a few variables ends within so many
+  options.most_evaluations    = at_least(table, "most_runs", 2, runs ? searched_runs : options.most_evaluations);
+  options.tolerance           = runs ? 1e-3 : options.tolerance;
+  request.verify              = table.truth("verify");
+  request.pareto              = table.has("pareto") ? at_least(table, "pareto", 2, 0) : 0;
   if (request.pareto > 0 && request.task.goals.size() < 2)
     throw table.error("pareto", "a front needs two goals or more");
   if (const auto robust = table.optional_table("robust"))

@@ -17,9 +17,6 @@ namespace
 
 const std::vector<std::string> method_words = {"gradient", "derivative-free"}; ///< as SearchMethod
 
-constexpr double constraint_tolerance = 1e-9; ///< of F_i <= 0, which are of the size of one
-constexpr double first_simplex        = 0.25; ///< of the box' width
-
 /// What NLopt calls back, for one search.
 struct Talk
 {
@@ -110,6 +107,7 @@ nlopt_algorithm algorithm_of(SearchMethod method, Eigen::Index n_variables, int 
 
 void set_limits(nlopt_opt optimiser, const LocalSearch &search)
 {
+  constexpr double      first_simplex = 0.25; // of the box' width
   const Eigen::VectorXd width = search.high - search.low, step = first_simplex * width,
                         tolerance = search.tolerance * width;
   nlopt_set_lower_bounds(optimiser, search.low.data());
@@ -145,6 +143,7 @@ SearchEnd local_search(const OutputModel &functions, int n_constraints, const Ei
   for (int row = 0; row <= n_constraints; ++row)
     rows.push_back({&talk, row});
   nlopt_set_min_objective(optimiser.get(), call, &rows[0]);
+  constexpr double constraint_tolerance = 1e-9; // of F_i <= 0, which are of the size of one
   for (int row = 1; row <= n_constraints; ++row)
     nlopt_add_inequality_constraint(optimiser.get(), call, &rows[row], constraint_tolerance);
 

@@ -4,13 +4,6 @@
 
 namespace gestell::apps
 {
-namespace
-{
-
-constexpr double remembered_point = 1e-9; ///< of coded values: walls that searches reach but for rounding
-
-} // namespace
-
 OutputModel model_of(std::vector<ResponseSurface> surfaces)
 {
   return [surfaces = std::move(surfaces)](const Eigen::VectorXd &xi, Derivatives derivatives)
@@ -31,7 +24,8 @@ OutputModel model_of(std::vector<ResponseSurface> surfaces)
 
 RememberedModel::PointKey RememberedModel::key_of(const Eigen::VectorXd &xi)
 {
-  PointKey key;
+  PointKey         key;
+  constexpr double remembered_point = 1e-9; // of coded values: walls that searches reach but for rounding
   for (const double x : xi)
     key.push_back(std::llround(x / remembered_point));
   return key;

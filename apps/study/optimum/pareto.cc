@@ -13,11 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int    most_corners     = 10;   ///< variables
-constexpr double least_weight     = 1e-3; ///< of a goal, so that the front's ends are not weakly dominated
-constexpr double same_goals       = 1e-5; ///< of the ranges of the goals on the front
-constexpr double weight_of_others = 1e-4;
-constexpr double kept_limits      = 1e-6;
+constexpr double kept_limits = 1e-6;
 
 /// Goals as values to minimise, [rows x goals].
 Eigen::MatrixXd to_minimise(Eigen::MatrixXd values, const std::vector<Sense> &senses)
@@ -55,7 +51,8 @@ void add_weights(int goal, int left, int n, Eigen::VectorXd &weights, std::vecto
 {
   if (goal + 1 == weights.size())
   {
-    weights(goal) = left;
+    weights(goal)                 = left;
+    constexpr double least_weight = 1e-3; // of a goal, so that the front's ends are not weakly dominated
     all.push_back((weights / (n - 1)).cwiseMax(least_weight));
     return;
   }
@@ -130,6 +127,7 @@ Samples samples_of(const OutputModel &model, const OptimumTask &task, const Pare
   const int k = static_cast<int>(task.low.size());
   Samples   samples;
   add_samples(model, task, sobol_points(k, options.samples, options.seed).points, samples.points);
+  constexpr int most_corners = 10; // variables
   if (k <= most_corners)
     add_samples(model, task, full_factorial(std::vector<std::vector<double>>(k, {-1., 1.})).points, samples.points);
   samples.goals = goals_of(samples.points, task);
@@ -156,6 +154,7 @@ FrontScale scale_of(const Eigen::MatrixXd &front)
 /// Whether two rows differ by what searches leave.
 bool is_same(const Eigen::MatrixXd &goals, int a, int b, const Eigen::VectorXd &range)
 {
+  constexpr double same_goals = 1e-5; // of the ranges of the goals on the front
   return (goals.row(a) - goals.row(b)).transpose().cwiseQuotient(range).cwiseAbs().maxCoeff() < same_goals;
 }
 
@@ -179,8 +178,10 @@ void add_ends(const OutputModel &model, const OptimumTask &task, Samples &sample
     OptimumTask end = task;
     for (std::size_t i = 0; i < task.goals.size(); ++i)
     {
-      end.goals[i].weight = i == alone ? 1. : weight_of_others;
-      end.goals[i].scale  = scale.range(static_cast<Eigen::Index>(i));
+      // enough to choose among equally good points, too little to move the best one visibly
+      constexpr double weight_of_others = 1e-4;
+      end.goals[i].weight               = i == alone ? 1. : weight_of_others;
+      end.goals[i].scale                = scale.range(static_cast<Eigen::Index>(i));
     }
     if (const Optimum optimum = find_optimum(model, end); optimum.feasible)
       samples.points.push_back({optimum.coded, optimum.values});

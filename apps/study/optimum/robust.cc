@@ -14,19 +14,16 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double infinity    = std::numeric_limits<double>::infinity();
-constexpr double normal_95   = 1.959963984540054; ///< quantile 0.975 of the standard normal distribution
-constexpr double shares[]    = {0.01, 0.05, 0.5, 0.95, 0.99};
-constexpr double inside_edge = 1. + 1e-9;
-
 /// Order statistics r and s with r = np - z sqrt(np(1-p)), s = np + z sqrt(np(1-p)), rounded up, counted from 1.
 Quantile quantile_of(const std::vector<double> &sorted, double p)
 {
-  const double n = static_cast<double>(sorted.size()), spread = normal_95 * std::sqrt(n * p * (1. - p));
-  const double r = std::ceil(n * p - spread), s = std::ceil(n * p + spread);
-  const double place = p * (n - 1.);
-  const auto   below = static_cast<std::size_t>(place);
-  const auto   above = std::min(below + 1, sorted.size() - 1);
+  constexpr double normal_95 = 1.959963984540054; // quantile 0.975 of the standard normal distribution
+  const double     n = static_cast<double>(sorted.size()), spread = normal_95 * std::sqrt(n * p * (1. - p));
+  const double     r = std::ceil(n * p - spread), s = std::ceil(n * p + spread);
+  const double     place    = p * (n - 1.);
+  const auto       below    = static_cast<std::size_t>(place);
+  const auto       above    = std::min(below + 1, sorted.size() - 1);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   return {p, sorted[below] + (place - std::floor(place)) * (sorted[above] - sorted[below]),
           r >= 1. ? sorted[static_cast<std::size_t>(r) - 1] : -infinity,
           s <= n ? sorted[static_cast<std::size_t>(s) - 1] : infinity};
@@ -49,6 +46,7 @@ RobustFigures figures_of(const StudyOutput &output, const Eigen::VectorXd &value
   figures.deviation_error = s2 > 0. ? std::sqrt(std::max(0., m4 - s2 * s2 * (n - 3.) / (n - 1.)) / n / (4. * s2)) : 0.;
   figures.min             = sorted.front();
   figures.max             = sorted.back();
+  constexpr double shares[] = {0.01, 0.05, 0.5, 0.95, 0.99}; // median, 90 % and 98 % between two
   for (const double share : shares)
     figures.quantiles.push_back(quantile_of(sorted, share));
   return figures;
@@ -61,6 +59,7 @@ bool scatters(const StudyVariable &variable)
 
 double share_outside(const Eigen::MatrixXd &points)
 {
+  constexpr double inside_edge = 1. + 1e-9; // edge of the box, 1 in coded variables, but for rounding
   return static_cast<double>((points.cwiseAbs().rowwise().maxCoeff().array() > inside_edge).count()) /
          static_cast<double>(points.rows());
 }

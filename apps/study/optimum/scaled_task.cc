@@ -8,9 +8,6 @@ namespace gestell::apps
 namespace
 {
 
-/// In half widths of the box, of the steepest variable: flatter ones reach its walls, too.
-constexpr double first_step = 100.;
-
 double positive_or_one(double x)
 {
   return std::isfinite(x) && x > 0. ? x : 1.;
@@ -56,7 +53,9 @@ ScaledTask::ScaledTask(const OptimumTask &task, const OutputPoint &start, Search
   {
     const Eigen::VectorXd half_width = 0.5 * (task.high - task.low);
     const Eigen::VectorXd slope      = objective_gradient(task.goals, start.derivatives);
-    sigma_ = positive_or_one(slope.cwiseQuotient(half_width).cwiseAbs().maxCoeff() / first_step);
+    // In half widths of the box, of the steepest variable: flatter ones reach its walls, too.
+    constexpr double first_step = 100.;
+    sigma_                      = positive_or_one(slope.cwiseQuotient(half_width).cwiseAbs().maxCoeff() / first_step);
   }
 }
 

@@ -14,12 +14,9 @@ namespace
 {
 
 constexpr double contour_left = 66., contour_top = 30., contour_side = 260., contour_width = 340.,
-                 contour_height     = 340.;
-constexpr int         contour_cells = 52; ///< along a side
-constexpr int         contour_count = 7;  ///< levels, about
-constexpr double      lightest = 0.04, darkest = 0.62;
-constexpr double      flat       = 1e-9; ///< of the values: below it they differ by rounding
-constexpr std::size_t most_rings = 80;
+                 contour_height = 340.;
+constexpr int    contour_cells  = 52; ///< along a side
+constexpr double lightest = 0.04, darkest = 0.62;
 
 struct Point2
 {
@@ -217,10 +214,11 @@ std::string frame_svg(const std::vector<StudyVariable> &variables, const Surface
 
 std::string marks_svg(const Eigen::MatrixXd &runs, const SurfaceCut &cut)
 {
-  const auto   x = [](double xi) { return ContourGrid::x(0.5 * (xi + 1.) * contour_cells); };
-  const auto   y = [](double xi) { return ContourGrid::y(0.5 * (xi + 1.) * contour_cells); };
-  std::string  svg;
-  Eigen::Index n = 0;
+  const auto            x = [](double xi) { return ContourGrid::x(0.5 * (xi + 1.) * contour_cells); };
+  const auto            y = [](double xi) { return ContourGrid::y(0.5 * (xi + 1.) * contour_cells); };
+  std::string           svg;
+  Eigen::Index          n          = 0;
+  constexpr std::size_t most_rings = 80; // runs of a picture that stay apart
   for (Eigen::Index run = 0; run < runs.rows() && n < static_cast<Eigen::Index>(most_rings); ++run)
     if (std::max(std::abs(runs(run, cut.first)), std::abs(runs(run, cut.second))) <= 1. + 1e-9)
     {
@@ -243,9 +241,11 @@ std::string contour_picture(const ResponseSurface &surface, const std::vector<St
   const ShownAxis           axis = shown_axis(surface.output, magnitude_of(surface.computed));
   const ContourGrid         grid = grid_of(surface, cut, axis);
   const double              low = grid.values.minCoeff(), high = grid.values.maxCoeff();
-  const bool                varies = high - low > flat * std::max(std::abs(low), std::abs(high));
-  const std::vector<double> levels = varies ? nice_ticks(low, high, contour_count) : std::vector<double>();
-  const std::string         title  = axis.head();
+  constexpr double          flat          = 1e-9; // of the values: below it they differ by rounding
+  const bool                varies        = high - low > flat * std::max(std::abs(low), std::abs(high));
+  constexpr int             contour_count = 7; // levels, about
+  const std::vector<double> levels        = varies ? nice_ticks(low, high, contour_count) : std::vector<double>();
+  const std::string         title         = axis.head();
   return svg_head(contour_width, contour_height,
                   title + " over " + variables[cut.first].name + " and " + variables[cut.second].name) +
          svg_text(contour_left, 19., varies ? title : title + ": does not change", "title") + shading(grid, levels) +

@@ -12,8 +12,6 @@ namespace
 {
 
 constexpr double tornado_width = 640., tornado_row = 22., tornado_top = 62., name_width = 170., numbers_width = 130.;
-constexpr std::size_t most_bars        = 12;
-constexpr double      least_of_largest = 0.005; ///< narrower bars are not drawn
 
 /// A row of the tornado: changes from the value in the middle.
 struct EffectBar
@@ -47,9 +45,11 @@ std::vector<EffectBar> bars_of(const ResponseSurface &surface)
 /// Those wide enough to be seen.
 std::vector<EffectBar> widest(std::vector<EffectBar> bars)
 {
-  const double least = bars.empty() ? 0. : least_of_largest * bars.front().width();
-  const auto   end = std::find_if(bars.begin(), bars.end(), [&](const EffectBar &bar) { return bar.width() < least; });
+  constexpr double least_of_largest = 0.005; // narrower bars are not drawn
+  const double     least            = bars.empty() ? 0. : least_of_largest * bars.front().width();
+  const auto end = std::find_if(bars.begin(), bars.end(), [&](const EffectBar &bar) { return bar.width() < least; });
   bars.erase(end, bars.end());
+  constexpr std::size_t most_bars = 12; // the table has all
   bars.resize(std::min(bars.size(), most_bars), EffectBar());
   return bars;
 }

@@ -12,8 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double at_a_wall = 1e-6; ///< coded
-
 std::string signed_percent(double share)
 {
   if (std::abs(share) < 1e-9) // rounding
@@ -54,7 +52,8 @@ std::string limits_text(const OptimumTask &task, const StudyTable &table)
 /// Where a wall of the box holds the optimum.
 std::string wall_text(const StudyOptimum &optimum, Eigen::Index j)
 {
-  const double xi = optimum.found.coded(j);
+  const double     xi        = optimum.found.coded(j);
+  constexpr double at_a_wall = 1e-6; // coded
   if (xi - optimum.task.low(j) < at_a_wall)
     return "at its lower end";
   return optimum.task.high(j) - xi < at_a_wall ? "at its upper end" : "";

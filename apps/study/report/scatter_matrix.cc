@@ -12,7 +12,6 @@ namespace
 {
 
 constexpr double scatter_cell = 92., scatter_gap = 6., scatter_edge = 10., scatter_head = 30.;
-constexpr int    most_dots = 400; ///< of a picture in the matrix
 
 struct ScatterColumn
 {
@@ -117,7 +116,8 @@ std::string dots_svg(const ScatterColumn &x, const ScatterColumn &y, const std::
 /// Runs that are drawn: all of few, evenly chosen ones of many, always those of the front.
 std::vector<int> drawn_rows(int n_runs, const std::vector<bool> &on_front)
 {
-  const int        stride = (n_runs + most_dots - 1) / most_dots;
+  constexpr int    most_dots = 400; // of a picture in the matrix
+  const int        stride    = (n_runs + most_dots - 1) / most_dots;
   std::vector<int> rows;
   for (int row = 0; row < n_runs; ++row)
     if (row % stride == 0 || on_front[row])

@@ -13,7 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int         slice_points       = 40;
 constexpr std::size_t most_rings_of_runs = 400;
 
 double t_quantile(const ResponseSurface &surface)
@@ -36,6 +35,7 @@ Slice slice_through(const ResponseSurface &surface, const ShownAxis &axis, Eigen
   Slice        slice;
   slice.middle.colour = slice.low.colour = slice.high.colour = colour;
   slice.low.line = slice.high.line = LineStyle::dotted;
+  constexpr int slice_points       = 40; // of a curve of degree two or three
   for (int n = 0; n <= slice_points; ++n)
   {
     xi(i)          = -1. + 2. * n / slice_points;

@@ -16,8 +16,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int most_rows_of_runs = 500;
-
 std::string design_text(const Design &design)
 {
   std::string text = design.type;
@@ -112,7 +110,8 @@ std::string runs_section(const StudyFindings &findings)
                              .head()));
   titles.insert(titles.end(), {"#CPU [s]", "status"});
 
-  HtmlTable rows(titles);
+  HtmlTable     rows(titles);
+  constexpr int most_rows_of_runs = 500; // some screens; runs.csv has all
   for (int run = 0; run < std::min(table.n_runs(), most_rows_of_runs); ++run)
   {
     std::vector<HtmlTable::Cell> row = {run_cell(table, run)};

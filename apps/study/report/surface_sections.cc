@@ -16,13 +16,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_outputs   = 12; ///< with pictures
-constexpr std::size_t most_contours  = 6;  ///< of an output
-constexpr int         most_residuals = 300;
-constexpr double      high_leverage  = 2.;   ///< times the mean p / n
-constexpr double      nearly_one     = 0.95; ///< leverage beyond which a run stands alone
-constexpr double      least_weight   = 1e-3; ///< of the variance, for a picture
-constexpr double      poor_r2        = 0.9;  ///< of what is predicted
+constexpr std::size_t most_outputs = 12; ///< with pictures
 
 std::string number_or_dash(double x, int digits = 4)
 {
@@ -97,8 +91,9 @@ std::string quality_table(const StudyFindings &findings)
       table.add_note(surface.output.name + " does not change over the runs");
       continue;
     }
-    const FitQuality &q    = surface.quality;
-    const ShownAxis   axis = shown_axis(surface.output, q.standard_error);
+    const FitQuality &q       = surface.quality;
+    const ShownAxis   axis    = shown_axis(surface.output, q.standard_error);
+    constexpr double  poor_r2 = 0.9; // of what is predicted
     table.add({surface.output.name, std::to_string(q.n_runs), std::to_string(q.n_coefficients), number_or_dash(q.r2, 5),
                number_or_dash(q.adjusted_r2, 5), peak(number_or_dash(q.predicted_r2, 5), q.predicted_r2 < poor_r2),
                std::isnan(q.standard_error) ? "–" : axis.text_with_unit(q.standard_error),
@@ -135,11 +130,13 @@ std::vector<std::pair<int, int>> pairs_by_weight(const ResponseSurface &surface)
       weight[i * k + j] += own[i] + own[j];
       pairs.emplace_back(i, j);
     }
-  const auto slight = [&](const auto &pair) { return weight[pair.first * k + pair.second] < least_weight; };
+  constexpr double least_weight = 1e-3; // of the variance, for a picture
+  const auto       slight       = [&](const auto &pair) { return weight[pair.first * k + pair.second] < least_weight; };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), slight), pairs.end());
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto &a, const auto &b)
                    { return weight[a.first * k + a.second] > weight[b.first * k + b.second]; });
+  constexpr std::size_t most_contours = 6; // of an output
   pairs.resize(std::min(pairs.size(), most_contours));
   return pairs;
 }
@@ -191,11 +188,14 @@ std::string coefficients_table(const ResponseSurface &surface)
 
 std::string residuals_table(const ResponseSurface &surface, const std::vector<int> &run_numbers)
 {
-  const ShownAxis axis = shown_axis(surface.output, magnitude_of(surface.computed));
-  const double    mean = static_cast<double>(surface.quality.n_coefficients) / surface.quality.n_runs;
-  const double    high = std::min(high_leverage * mean, nearly_one);
-  HtmlTable       table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",
-                         "#residual", "#of the other runs", "#leverage"});
+  const ShownAxis  axis          = shown_axis(surface.output, magnitude_of(surface.computed));
+  const double     mean          = static_cast<double>(surface.quality.n_coefficients) / surface.quality.n_runs;
+  constexpr double high_leverage = 2.;   // times the mean p / n
+  constexpr double nearly_one    = 0.95; // leverage beyond which a run stands alone
+  const double     high          = std::min(high_leverage * mean, nearly_one);
+  HtmlTable        table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",
+                          "#residual", "#of the other runs", "#leverage"});
+  constexpr int    most_residuals = 300; // dots of a chart
   for (Eigen::Index run = 0; run < std::min<Eigen::Index>(surface.computed.size(), most_residuals); ++run)
     table.add({std::to_string(run_numbers[static_cast<std::size_t>(run)] + 1), axis.text(surface.computed(run), 6),
                axis.text(surface.fitted(run), 6), axis.text(surface.computed(run) - surface.fitted(run), 3),

@@ -15,8 +15,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double quotient_step = 0.01; ///< of coded variables, for differences of runs
-
 /// The user does not want to wait for the rest.
 struct StudyInterrupted : std::runtime_error
 {
@@ -167,7 +165,8 @@ OutputPoint StudyAnalysis::run_at(const Eigen::VectorXd &xi, Derivatives derivat
   point.derivatives.resize(point.values.size(), xi.size());
   for (Eigen::Index i = 0; i < xi.size(); ++i)
   {
-    Eigen::VectorXd nearby = xi;
+    Eigen::VectorXd  nearby        = xi;
+    constexpr double quotient_step = 0.01; // of coded variables, for differences of runs
     nearby[i] += xi[i] > 0. ? -quotient_step : quotient_step;
     point.derivatives.col(i) = (values_at(nearby, nullptr) - point.values) / (nearby[i] - xi[i]);
   }

@@ -17,8 +17,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_kept = 3;
-
 /// Holds the lock while it lives; where its file cannot be made, processes do not wait for each other.
 class FileLock
 {
@@ -109,6 +107,7 @@ std::shared_ptr<const coupling::ReducedFrame> ReducedFrameStore::frame(const Sce
     kept_.emplace_front(key, shared(std::move(frame), drawn));
     n_reduced_ += !from_cache;
   }
+  constexpr std::size_t most_kept = 3; // frames: each has hundreds of megabytes, and studies vary few
   if (kept_.size() > most_kept)
     kept_.pop_back();
   return kept_.front().second;

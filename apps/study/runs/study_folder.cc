@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr std::size_t most_listed = 5;
-
 /// Rows below the head.
 std::size_t n_lines(const fs::path &file)
 {
@@ -112,7 +110,8 @@ void StudyFolder::refuse_changes() const
   const auto changes = differences(*before, record_);
   if (changes.empty())
     return;
-  std::string text;
+  std::string           text;
+  constexpr std::size_t most_listed = 5; // lines of a message
   for (std::size_t i = 0; i < std::min(most_listed, changes.size()); ++i)
     text += "\n  " + changes[i];
   if (changes.size() > most_listed)

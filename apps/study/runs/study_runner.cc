@@ -21,8 +21,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double formula_step = 1e-6; ///< of the range of a variable, for quotients of formulas
-
 /// SI per unit of the variable.
 double factor_of(const StudyVariable &variable)
 {
@@ -98,16 +96,14 @@ Eigen::MatrixXd output_derivatives(const OutputFormulas &outputs, const Result &
   Eigen::MatrixXd derivatives;
   for (Eigen::Index i = 0; i < levels.size(); ++i)
   {
-    const double          step   = formula_step * variables[std::size_t(i)].variable.half_range();
-    const Eigen::VectorXd column = (values_beside(i, step) - values_beside(i, -step)) / (2. * step);
+    constexpr double      formula_step = 1e-6; // of the range of a variable, for quotients of formulas
+    const double          step         = formula_step * variables[std::size_t(i)].variable.half_range();
+    const Eigen::VectorXd column       = (values_beside(i, step) - values_beside(i, -step)) / (2. * step);
     derivatives.conservativeResize(column.size(), levels.size());
     derivatives.col(i) = column;
   }
   return derivatives;
 }
-
-constexpr int    most_attempts = 5;    ///< to find what a run tells of its own parameters
-constexpr double settled_to    = 1e-9; ///< of such a parameter
 
 /// [s] of the processor that this process took so far.
 double cpu_of_process()
@@ -171,7 +167,8 @@ bool StudyRunner::measure(const Result &result, const Eigen::VectorXd &levels)
     AnswerValue  reported = answer_entry::value(key_segments(measure.entry, measure.place), result);
     if (!std::isfinite(reported.value))
       reported.value = 2. * used;
-    settled = settled && std::abs(reported.value - used) <= settled_to * std::abs(reported.value);
+    constexpr double settled_to = 1e-9; // of such a parameter
+    settled                     = settled && std::abs(reported.value - used) <= settled_to * std::abs(reported.value);
     variants_.set_measured(measure, reported.value, reported.unit);
   }
   return settled;
@@ -186,6 +183,7 @@ Result StudyRunner::settled_result(const Eigen::VectorXd &levels, const std::ato
     Result result = single_result(levels, stop, sensitivities);
     if (measures_.empty() || result.run->interrupted || !result.run->failure.empty() || measure(result, levels))
       return result;
+    constexpr int most_attempts = 5; // to find what a run tells of its own parameters
     if (attempt == most_attempts)
       throw std::invalid_argument(
           measures_.front().place.text() + ": scene.measure: after " + std::to_string(most_attempts) +

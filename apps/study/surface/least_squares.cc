@@ -10,9 +10,6 @@ namespace gestell::apps
 namespace
 {
 
-/// Below it a pivot of a column of length 1 is rounding: designs are coded, their columns of the size of one.
-constexpr double smallest_pivot = 1e-9;
-
 /// Lengths of the columns, inverted; 1 for a column of zeros.
 Eigen::VectorXd inverse_lengths(const Eigen::MatrixXd &X)
 {
@@ -63,6 +60,8 @@ LeastSquares::LeastSquares(const Eigen::MatrixXd &X, const std::vector<std::stri
   if (n < p)
     throw std::invalid_argument("study: " + count_text(n, "run") + " for " + count_text(p, "coefficient") +
                                 " of the surface; make more runs, or take a surface of lower order");
+  // Below it a pivot of a column of length 1 is rounding: designs are coded, their columns of the size of one.
+  constexpr double smallest_pivot = 1e-9;
   qr_.setThreshold(smallest_pivot);
   qr_.compute(X * scale_.asDiagonal());
   if (qr_.rank() < p)

@@ -16,11 +16,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double not_a_number    = std::numeric_limits<double>::quiet_NaN();
-constexpr double same_level      = 1e-9;  ///< coded levels nearer than this are the same
-constexpr double rounding        = 1e-9;  ///< of the largest value
-constexpr double full_leverage   = 1e-10; ///< 1 - h_ii below it is rounding
-constexpr double exact_repeating = 1e-24; ///< of the sum of squares: repeated runs that differ by rounding alone
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 double quotient_or_nan(double a, double b)
 {
@@ -42,6 +38,7 @@ std::map<std::vector<long long>, std::vector<Eigen::Index>> runs_by_point(const 
   for (Eigen::Index run = 0; run < coded.rows(); ++run)
   {
     std::vector<long long> point;
+    constexpr double       same_level = 1e-9; // coded levels nearer than this are the same
     for (Eigen::Index j = 0; j < coded.cols(); ++j)
       point.push_back(std::llround(coded(run, j) / same_level));
     points[point].push_back(run);
@@ -57,6 +54,7 @@ void add_pure_error(const Eigen::MatrixXd &coded, const Eigen::VectorXd &y, FitQ
     quality.pure_error += (repeated.array() - repeated.mean()).square().sum();
     quality.pure_error_dof += static_cast<int>(runs.size()) - 1;
   }
+  constexpr double exact_repeating = 1e-24; // of the sum of squares: repeated runs that differ by rounding alone
   if (quality.pure_error <= exact_repeating * y.squaredNorm())
     quality.pure_error = 0.;
 }
@@ -81,7 +79,8 @@ void judge_lack_of_fit(double sse, FitQuality &quality)
 /// What the surface of all other runs says at each run: y_i - e_i / (1 - h_ii).
 Eigen::VectorXd leave_one_out(const Eigen::VectorXd &y, const Eigen::VectorXd &fitted, const Eigen::VectorXd &leverage)
 {
-  Eigen::VectorXd left_out(y.size());
+  Eigen::VectorXd  left_out(y.size());
+  constexpr double full_leverage = 1e-10; // 1 - h_ii below it is rounding
   for (Eigen::Index i = 0; i < y.size(); ++i)
     left_out(i) = 1. - leverage(i) > full_leverage ? y(i) - (y(i) - fitted(i)) / (1. - leverage(i)) : not_a_number;
   return left_out;
@@ -182,6 +181,7 @@ std::string missing_text(const StudyTable &table, std::size_t n_with)
 
 bool ResponseSurface::changes() const
 {
+  constexpr double rounding = 1e-9; // of the largest value
   return computed.size() > 0 && computed.maxCoeff() - computed.minCoeff() > rounding * computed.cwiseAbs().maxCoeff();
 }
 

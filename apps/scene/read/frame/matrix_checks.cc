@@ -15,12 +15,6 @@ namespace
 using coupling::RowLabel;
 using Sparse = Eigen::SparseMatrix<double>;
 
-constexpr double symmetry_tolerance = 1e-9; // of the largest entry: files written with 10 digits pass
-constexpr double worst_rounding     = 5e-5; // of 5 digits, those of Nastran's small fields
-constexpr double beyond_doubt       = 100.; // times what rounding explains: its own program had fewer digits, no more
-constexpr double largest_entry      = 1e100;
-constexpr double vanishing_mass     = 1e-30; // of the largest
-
 std::string number_text(double x)
 {
   return rounded(x, 6);
@@ -104,6 +98,7 @@ void check_symmetry(const SceneTable &frame, const std::string &key, const Spars
         row    = int(a.row());
         column = j;
       }
+  constexpr double symmetry_tolerance = 1e-9; // of the largest entry: files written with 10 digits pass
   if (skew <= symmetry_tolerance * size)
     return;
   if (has_one_triangle_only(A))
@@ -136,6 +131,7 @@ double rounding_of(const Sparse &A)
     for (Sparse::InnerIterator a(A, j); a; ++a)
       if (most = std::max(most, digits_of(a.value())); most >= 10)
         return least_rounding;
+  constexpr double worst_rounding = 5e-5; // of 5 digits, those of Nastran's small fields
   return std::min(0.5 * std::pow(10., 1 - most), worst_rounding);
 }
 
@@ -147,6 +143,8 @@ void check_semidefinite(const SceneTable &frame, const std::string &key, const S
   const double explained = rounding * std::max(largest_row_sum(A), 1.);
   if (is_semidefinite(A, explained))
     return;
+  // times what rounding explains: its own program had fewer digits, no more
+  constexpr double beyond_doubt = 100.;
   if (is_semidefinite(A, beyond_doubt * explained))
     frame.warn(key,
                "has a motion of slightly negative energy, beyond " + number_text(explained) +
@@ -163,6 +161,7 @@ void check_mass(const SceneTable &frame, const Sparse &M, double rounding, const
   if (M.diagonal().maxCoeff() == 0.)
     throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
   const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows
+  constexpr double      vanishing_mass = 1e-30;                        // of the largest
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (mass[i] == 0. && stiffness[i] == 0.)
       throw frame.error("mass", row_text(i, rows) + " has neither mass nor stiffness, so that nothing says how "
@@ -176,7 +175,8 @@ void check_mass(const SceneTable &frame, const Sparse &M, double rounding, const
 
 void check_magnitude(const SceneTable &frame, const std::string &key, const Sparse &A)
 {
-  const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.;
+  const double     largest       = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.;
+  constexpr double largest_entry = 1e100; // products of three entries stay finite, and their inverses above zero
   if (largest > largest_entry || (largest > 0. && largest < 1. / largest_entry))
     throw frame.error(key, "has " + number_text(largest) +
                                " as its largest entry, which no frame has in kg, m, N and "

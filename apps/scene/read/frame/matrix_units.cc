@@ -11,14 +11,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double air = 1.2, heaviest_metal = 22600.;              // [kg/m^3]
-constexpr double largest_frame   = 1e3;                           // [m]
-constexpr double longest_bending = 100., shortest_bending = 1e-4; // [m]
-constexpr double thinnest     = 1. / 20.;                         // of the longest side
-constexpr double slowest      = 0.1;                              // [Hz]
-constexpr double fastest_wave = 6.5e3, fastest_of_nodes = 6e4;    // [m/s]
-constexpr double highest_of_small = 2e4;                          // [Hz]
-
 /// Sides of the box of all nodes, or of all interfaces where there are no others [m].
 std::array<double, 3> box_of(std::vector<std::array<double, 3>> points, const std::vector<fem::Interface> &interfaces)
 {
@@ -112,6 +104,8 @@ std::string suspect_frequency(const coupling::ReducedFrame &frame)
   {
     if (!(f > 0.))
       continue;
+    constexpr double fastest_wave     = 6.5e3; // [m/s]
+    constexpr double highest_of_small = 2e4;   // [Hz] of a frame without size: the end of structure-borne sound
     if (size > 0. ? f * size > fastest_wave : f > highest_of_small)
       return text_of({"the lowest elastic frequency of the frame is ",
                       std::string(" Hz, which no frame ") + (size > 0. ? "of its size" : "of a machine") +
@@ -125,12 +119,15 @@ std::string suspect_frequency(const coupling::ReducedFrame &frame)
 std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const std::vector<fem::Interface> &nodes)
 {
   std::vector<std::string> suspicions;
+  constexpr double         slowest = 0.1; // [Hz] buildings have some tenths
   if (const double f = fastest_coordinate(frame) / (2. * M_PI); f < slowest)
     suspicions.push_back(text_of({"no coordinate of the frame vibrates faster than ",
                                   " Hz by itself, and no frame is so slow: are mass and stiffness exchanged?"},
                                  f));
-  const auto   sides = box_of(frame.picture.points, frame.interfaces);
-  const double size  = *std::max_element(sides.begin(), sides.end());
+  const auto       sides            = box_of(frame.picture.points, frame.interfaces);
+  const double     size             = *std::max_element(sides.begin(), sides.end());
+  constexpr double largest_frame    = 1e3; // [m] positions in millimetres are above, every machine is below
+  constexpr double fastest_of_nodes = 6e4; // [m/s]
   if (const double speed = wave_speed(frame, nodes); speed > fastest_of_nodes && size <= largest_frame)
     suspicions.push_back(
         text_of({"waves run from node to node with ",
@@ -143,9 +140,12 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
                                  size));
   else if (size > 0. && frame.mass > 0.)
   {
-    double volume = 1.;
+    double           volume   = 1.;
+    constexpr double thinnest = 1. / 20.; // of the longest side: plane frames, and bars
     for (const double side : sides)
       volume *= std::max(side, thinnest * size);
+    constexpr double air            = 1.2; // [kg/m^3] of the box of a frame: nothing is lighter than what surrounds it
+    constexpr double heaviest_metal = 22600.; // [kg/m^3] osmium
     if (const double density = frame.mass / volume; density < air)
       suspicions.push_back(text_of({"the frame is lighter than the air in its box, ",
                                     " kg/m^3: are masses in tonnes? They must be in kg, so that stiffness in N/m fits"},
@@ -156,6 +156,8 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
                                     " kg/m^3: check the units of mass (kg) and of positions (m)"},
                                    density));
   }
+  constexpr double longest_bending  = 100.; // [m] a thousandth or less of what millimetres make of it
+  constexpr double shortest_bending = 1e-4; // [m]
   for (const auto &interface : frame.interfaces)
     if (const double length = bending_length(frame, interface);
         length > longest_bending || (length > 0. && length < shortest_bending))

@@ -23,8 +23,6 @@ namespace
 using coupling::place_text;
 using Owners = std::map<int, std::string>; ///< "top.uz" by rows from 1
 
-constexpr double one_place = 1e-6; ///< of the extent of the nodes
-
 const std::vector<std::string> motion_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
 /// rows = { "-uz" = 1 }: row 1 of q is the displacement against z.
@@ -63,6 +61,7 @@ double tolerance_of(const FrameNodes &nodes)
   double extent = 0.;
   for (const TableNode &node : nodes.all)
     extent = std::max(extent, distance(node.motions.position, nodes.all.front().motions.position));
+  constexpr double one_place = 1e-6; // of the extent of the nodes
   return one_place * extent;
 }
 

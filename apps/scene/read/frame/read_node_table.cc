@@ -20,9 +20,7 @@ namespace
 
 const std::vector<std::string> columns{"name", "x", "y", "z", "ux", "uy", "uz", "rx", "ry", "rz", "node"};
 constexpr std::size_t          first_position = 1, first_motion = 4, number_column = 10;
-constexpr double               rounded_field = 1e-6; // of a number: long fields pass, short ones where nodes lie apart
-constexpr double               same_place    = 1e-3; // of the extent of the nodes: Nastran's short fields pass
-constexpr double               same_axes     = 1e-4; // likewise, of unit vectors
+constexpr double               same_place = 1e-3; // of the extent of the nodes: Nastran's short fields pass
 
 /// Where each of `columns` stands in the table, and the length that positions are in.
 struct Layout
@@ -227,6 +225,7 @@ double extent_of(const coupling::NodePlaces &places)
       extent   = std::max(extent, std::abs(x[d] - places.begin()->second[d]));
       farthest = std::max(farthest, std::abs(x[d]));
     }
+  constexpr double rounded_field = 1e-6; // of a number: long fields pass, short ones where nodes lie apart
   return std::max(extent, rounded_field / same_place * farthest);
 }
 
@@ -248,6 +247,7 @@ void require_same_axes(const FrameNodes &nodes, const coupling::ModelNodes &mode
 {
   const auto axes_in = [](const std::map<long, Eigen::Matrix3d> &axes, long number) -> Eigen::Matrix3d
   { return axes.count(number) > 0 ? axes.at(number) : Eigen::Matrix3d::Identity(); };
+  constexpr double same_axes = 1e-4; // likewise, of unit vectors
   for (const auto &[number, x] : model.places)
     if (nodes.places.count(number) > 0 &&
         (axes_in(nodes.axes, number) - axes_in(model.axes, number)).cwiseAbs().maxCoeff() > same_axes)
