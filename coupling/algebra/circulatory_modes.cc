@@ -19,14 +19,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// As in dense_modes().
-constexpr double no_mass    = 1e-13; ///< mu relative to the largest, below which a mode has no mass
-constexpr double surely     = 1e3;   ///< times what rounding leaves: a rigid motion is not said to grow
-constexpr double rest_share = 1e-28; ///< of the greatest |C_ii| |v|^2: what v, rounded to 1e-14, leaves
-
-constexpr double meet = 1e-9; ///< |Im lambda| of |lambda| + s: two real ones that meet part by the root of rounding
-constexpr double most_sensitive = 1e3; ///< condition of lambda, |left| |v|: beyond it rounding moves what would mend it
-
 using Complex = std::complex<double>;
 
 /// z^H M z = 1 and, of the phase left over, Re z at right angles to Im z and no shorter.
@@ -49,14 +41,18 @@ void set_real(const MatrixXd &C, const MatrixXd &M, double lambda, const VectorX
               CirculatoryModes &found)
 {
   const VectorXd v = z / std::sqrt(z.dot(M * z)), left = w / w.dot(M * v);
+  // condition of lambda, |left| |v|: beyond it rounding moves what would mend it
+  constexpr double most_sensitive = 1e3;
   if (left.dot(M * left) < most_sensitive * most_sensitive)
-    lambda = left.dot(C * v); // stationary, so that it has more digits than its vectors
-  const double rest     = rest_share * C.diagonal().cwiseAbs().maxCoeff() * v.cwiseAbs().dot(left.cwiseAbs());
-  const double rounding = std::max(cancelled_by_rounding * left.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), rest);
-  found.modes.V.col(j)  = v;
-  found.left.col(j)     = left;
-  found.modes.omega(j)  = lambda > rounding ? std::sqrt(lambda) : 0.;
-  found.modes.growth(j) = -lambda > surely * rounding ? std::sqrt(-lambda) : 0.;
+    lambda = left.dot(C * v);          // stationary, so that it has more digits than its vectors
+  constexpr double rest_share = 1e-28; // of the greatest |C_ii| |v|^2: what v, rounded to 1e-14, leaves
+  const double     rest       = rest_share * C.diagonal().cwiseAbs().maxCoeff() * v.cwiseAbs().dot(left.cwiseAbs());
+  const double     rounding = std::max(cancelled_by_rounding * left.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), rest);
+  found.modes.V.col(j)      = v;
+  found.left.col(j)         = left;
+  found.modes.omega(j)      = lambda > rounding ? std::sqrt(lambda) : 0.;
+  constexpr double surely   = 1e3; // times what rounding leaves: a rigid motion is not said to grow
+  found.modes.growth(j)     = -lambda > surely * rounding ? std::sqrt(-lambda) : 0.;
 }
 
 /// lambda and its conjugate: columns j and j + 1.
@@ -117,8 +113,10 @@ CirculatoryModes circulatory_modes(const MatrixXd &C, const MatrixXd &M)
       solver.eigenvectors().partialPivLu().solve(lu_solution(scaled, MatrixXd(scale.asDiagonal())).cast<Complex>());
   const double largest = m.cwiseAbs().maxCoeff();
   const auto   n       = m.size();
-  const auto   moves   = [&](Eigen::Index i) { return std::abs(m[i]) > no_mass * largest; };
-  Eigen::Index p       = 0;
+  // mu relative to the largest, below which a mode has no mass, as in dense_modes()
+  constexpr double no_mass = 1e-13;
+  const auto       moves   = [&](Eigen::Index i) { return std::abs(m[i]) > no_mass * largest; };
+  Eigen::Index     p       = 0;
   for (Eigen::Index i = 0; i < n; ++i)
     p += moves(i) ? 1 : 0;
   CirculatoryModes found{{VectorXd::Zero(p), MatrixXd::Zero(n, p), VectorXd::Zero(p)}, MatrixXd::Zero(n, p)};
@@ -132,6 +130,8 @@ CirculatoryModes circulatory_modes(const MatrixXd &C, const MatrixXd &M)
       set_real(C, M, lambda.real(), Z.col(i).real(), rows.row(i).real().transpose(), j++, found);
     else
     {
+      // |Im lambda| of |lambda| + s: two real ones that meet part by the root of rounding
+      constexpr double meet = 1e-9;
       set_pair(M, lambda, std::abs(lambda.imag()) > meet * (std::abs(lambda) + s), Z.col(i), rows.row(i).transpose(), j,
                found);
       j += 2;

@@ -18,13 +18,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double massless    = 1e-13; // mu relative to the largest, below which a mode has no mass
-constexpr int    most_shifts = 20;    // times ten each
-constexpr double near        = 1e-8;  // omega^2 over s, below which s is too large to tell modes apart
-constexpr double certain     = 1e3;   ///< times what rounding leaves: a rigid motion is not said to grow
-constexpr double at_rest     = 1e-28; // of the greatest C_ii |v|^2: what v, rounded to 1e-14, leaves of v^T C v
-constexpr double rigid = 1e-11; // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
-
 /// 1 / sqrt of the diagonal, 1 where it is zero: makes metres and radians comparable.
 VectorXd unit_diagonal(const MatrixXd &A)
 {
@@ -62,6 +55,8 @@ Stiffness stiffness_of(const MatrixXd &C)
   const VectorXd             d = unit_diagonal(C);
   const SymmetricEigenSolver scaled(d.asDiagonal() * C * d.asDiagonal(), WithVectors::no);
   const VectorXd            &values = scaled.eigenvalues();
+  // smallest eigenvalue of C scaled to unit diagonal, below which C counts as singular
+  constexpr double rigid = 1e-11;
   return values.minCoeff() > rigid                                   ? Stiffness::regular
          : values.minCoeff() < -rigid * values.cwiseAbs().maxCoeff() ? Stiffness::unstable
                                                                      : Stiffness::singular;
@@ -118,7 +113,9 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
   MatrixXd       V;
   const VectorXd mu = shifted.solve(M, V);
   const int      n  = int(mu.size());
-  int            p  = 0;
+  // mu relative to the largest, below which a mode has no mass: rounding of some hundred terms
+  constexpr double massless = 1e-13;
+  int              p        = 0;
   while (p < n && mu(n - 1 - p) > massless * mu(n - 1))
     ++p;
   DenseModes modes{VectorXd(p), V.rightCols(p).rowwise().reverse(), VectorXd::Zero(p)};
@@ -126,11 +123,13 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
   {
     auto v = modes.V.col(j);
     v /= std::sqrt(v.dot(M * v));
-    const double square   = v.dot(C * v);
-    const double rest     = at_rest * C.diagonal().maxCoeff() * v.cwiseAbs2().maxCoeff();
-    const double rounding = std::max(cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), rest);
-    const bool   moves    = n_rigid ? j >= *n_rigid && square > 0. : square > rounding;
-    modes.omega(j)        = moves ? std::sqrt(square) : 0.;
+    const double     square   = v.dot(C * v);
+    constexpr double at_rest  = 1e-28; // of the greatest C_ii |v|^2: what v, rounded to 1e-14, leaves of v^T C v
+    const double     rest     = at_rest * C.diagonal().maxCoeff() * v.cwiseAbs2().maxCoeff();
+    const double     rounding = std::max(cancelled * v.cwiseAbs().dot(C.cwiseAbs() * v.cwiseAbs()), rest);
+    const bool       moves    = n_rigid ? j >= *n_rigid && square > 0. : square > rounding;
+    modes.omega(j)            = moves ? std::sqrt(square) : 0.;
+    constexpr double certain  = 1e3; // times what rounding leaves: a rigid motion is not said to grow
     if (-square > certain * rounding)
       modes.growth(j) = std::sqrt(-square);
   }
@@ -140,8 +139,9 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
 /// Highest omega^2 of several modes so far below s that they are all alike beside it; 0 if there are none.
 double alike_beside(double s, const DenseModes &modes)
 {
-  const auto slow = [&](double omega) { return omega > 0. && omega * omega < near * s; };
-  const auto n    = std::count_if(modes.omega.begin(), modes.omega.end(), slow);
+  constexpr double near = 1e-8; // omega^2 over s, below which s is too large to tell modes apart
+  const auto       slow = [&](double omega) { return omega > 0. && omega * omega < near * s; };
+  const auto       n    = std::count_if(modes.omega.begin(), modes.omega.end(), slow);
   if (n < 2)
     return 0.;
   double highest = 0.;
@@ -165,6 +165,7 @@ DenseModes dense_modes(const MatrixXd &C, const MatrixXd &M, double cancelled, s
   const Stiffness stiffness = stiffness_of(C);
   double          s         = !floating && stiffness == Stiffness::regular ? 0. : lowest;
   Shifted         shifted(C, M, s);
+  constexpr int   most_shifts = 20; // times ten each: from rounding to far beyond the largest
   // The shift must outweigh the fastest fall, of rate sqrt(-omega^2).
   for (int i = 0; i < most_shifts && stiffness == Stiffness::unstable && !shifted.definite(); ++i)
     shifted = Shifted(C, M, s *= 10.);

@@ -10,10 +10,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double swept         = 600.; // operations per number of L in all solutions of a reduction, about
-constexpr int    most_subtrees = 64;   // per rank
-constexpr double little        = 0.01; // of all work: subtrees that need no halving
-
 std::vector<int> parents(const Fronts &fronts)
 {
   std::vector<int> front_of(fronts.n, -1), parent(fronts.count, -1);
@@ -28,7 +24,8 @@ std::vector<int> parents(const Fronts &fronts)
 /// Operations for a front: two factors (of C, and to count modes) and the ways through L.
 double work_of(const Fronts &fronts, int s)
 {
-  const double w = fronts.first[s + 1] - fronts.first[s], h = fronts.begin[s + 1] - fronts.begin[s], r = h - w;
+  const double     w = fronts.first[s + 1] - fronts.first[s], h = fronts.begin[s + 1] - fronts.begin[s], r = h - w;
+  constexpr double swept = 600.; // operations per number of L in all solutions of a reduction, about
   return 2. * (w * w * w / 3. + w * w * r + w * r * r) + swept * w * h;
 }
 
@@ -74,6 +71,8 @@ FrontDivision::FrontDivision(const Fronts &fronts, int n_ranks)
     const auto rank     = dealt(subtrees, n_ranks, heaviest);
     if (top + heaviest < least)
       least = top + heaviest, best = subtrees, best_rank = rank;
+    constexpr int    most_subtrees = 64;   // per rank: enough to even out their work
+    constexpr double little        = 0.01; // of all work: subtrees that need no halving
     if (subtrees.empty() || subtrees[0].first < little * all / n_ranks || top > least ||
         int(subtrees.size()) > most_subtrees * n_ranks)
       break;

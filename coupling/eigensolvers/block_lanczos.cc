@@ -20,21 +20,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int           max_steps    = 1000;
-constexpr double        most_numbers = 4e8;   // of the space, where no room is given
-constexpr double        most_vectors = 2000;  // the same
-constexpr double        broken_down  = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
-constexpr double        dependent    = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
-constexpr double        well_apart   = 1e-6;  // the same, from which once is enough
-constexpr double        sparing      = 1.05;  // growth of the space from which convergence is looked at again
-constexpr std::uint64_t golden       = 0x9E3779B97F4A7C15u; // SplitMix64
-constexpr double        gap          = 1e-4;                // of theta, between modes that count as apart
-
 /// Numbers in [-1, 1), always the same for a seed, on any number of processes.
 MultiVector irregular(const InverseStiffness &of, int columns, unsigned long &seed)
 {
-  const int   rows = int(of.order().size());
-  MultiVector X(rows, columns);
+  const int               rows = int(of.order().size());
+  MultiVector             X(rows, columns);
+  constexpr std::uint64_t golden = 0x9E3779B97F4A7C15u; // SplitMix64: 2^64 over the golden ratio
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j)
     {
@@ -103,11 +94,13 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr
   if (options.block < 1 || !(options.tolerance > 0.))
     throw std::invalid_argument("BlockLanczos: block is " + std::to_string(options.block) + " and tolerance " +
                                 std::to_string(options.tolerance) + "; block must be at least 1, tolerance above 0");
-  const int size = int(known.omega.size());
-  room_          = options.room > 0 ? options.room
-                                    : int(std::min<double>({double(inverse_->size()), most_vectors,
-                                                            most_numbers / std::max(inverse_->size(), 1)}));
-  room_          = std::max(room_, size + 4 * options_.block);
+  const int        size         = int(known.omega.size());
+  constexpr double most_numbers = 4e8;  // of the space, where no room is given: 3.2 GB
+  constexpr double most_vectors = 2000; // likewise: the dense problem of that size takes a few seconds
+  room_                         = options.room > 0 ? options.room
+                                                   : int(std::min<double>({double(inverse_->size()), most_vectors,
+                                                                           most_numbers / std::max(inverse_->size(), 1)}));
+  room_                         = std::max(room_, size + 4 * options_.block);
   if (size > 0)
   {
     MultiVector V(n_, size);
@@ -170,19 +163,23 @@ void BlockLanczos::set_next(const VectorXd &scale)
   E_ = MatrixXd::Identity(next_.columns(), next_.columns());
   for (int pass = 0; pass < 4 && next_.columns() > 0; ++pass)
   {
-    const MatrixXd products = product(next_, M_next_);
-    const VectorXd size     = norms(products);
-    VectorXd       unit(size.size());
+    const MatrixXd   products = product(next_, M_next_);
+    const VectorXd   size     = norms(products);
+    VectorXd         unit(size.size());
+    constexpr double broken_down = 1e-10; // share of a vector that orthogonalisation leaves over: rounding
     for (Index j = 0; j < size.size(); ++j)
       unit(j) = size(j) > (pass == 0 ? broken_down * scale(j) : 0.) ? 1. / size(j) : 0.;
-    const auto [lambda, all] = eigen(unit.asDiagonal() * products * unit.asDiagonal(), *inverse_);
-    const Index    rank = (lambda.array() > dependent).count(), dropped = lambda.size() - rank;
-    const VectorXd root = lambda.tail(rank).cwiseSqrt();
-    const MatrixXd U    = all.rightCols(rank);
-    const MatrixXd F    = unit.asDiagonal() * U * root.cwiseInverse().asDiagonal();
+    const auto [lambda, all]   = eigen(unit.asDiagonal() * products * unit.asDiagonal(), *inverse_);
+    constexpr double dependent = 1e-12; // eigenvalue of the Gram matrix of unit vectors: no direction of its own
+    const Index      rank = (lambda.array() > dependent).count(), dropped = lambda.size() - rank;
+    const VectorXd   root = lambda.tail(rank).cwiseSqrt();
+    const MatrixXd   U    = all.rightCols(rank);
+    const MatrixXd   F    = unit.asDiagonal() * U * root.cwiseInverse().asDiagonal();
     next_.transform(F);
     M_next_.transform(F);
     E_ = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
+    // the same, from which once is enough: 1e-16 / 1e-6 is left, below the break-down
+    constexpr double well_apart = 1e-6;
     if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
       break;
     M_.multiply(next_, M_next_); // few significant figures are left: once more
@@ -257,8 +254,9 @@ int BlockLanczos::gap_index(int count) const
   const int found = n_found();
   for (int j = count; j <= found; ++j)
   {
-    const double above = j > 0 ? theta_(j - 1) - residual_(j - 1) : INFINITY;
-    const double next  = j < theta_.size() ? theta_(j) + residual_(j) : exhausted_ ? 0. : INFINITY;
+    const double     above = j > 0 ? theta_(j - 1) - residual_(j - 1) : INFINITY;
+    const double     next  = j < theta_.size() ? theta_(j) + residual_(j) : exhausted_ ? 0. : INFINITY;
+    constexpr double gap   = 1e-4; // of theta, between modes that count as apart
     if (next < (1. - gap) * above)
       return j;
   }
@@ -270,6 +268,7 @@ void BlockLanczos::find(int count)
   solve_projected();
   for (int steps = 0; gap_index(count) < 0; ++steps)
   {
+    constexpr int max_steps = 1000; // a safety net: the space is full or converged long before
     if (exhausted_ || steps == max_steps)
       throw ConvergenceFailure("lowest modes: " + std::to_string(n_found()) + " of " + std::to_string(count) +
                                (exhausted_
@@ -284,6 +283,7 @@ void BlockLanczos::find(int count)
       restart(std::min(Q_.columns(), std::max(count + options_.block, room_ / 2)));
     }
     step();
+    constexpr double sparing = 1.05; // growth of the space from which convergence is looked at again
     if (exhausted_ || Q_.columns() >= int(sparing * double(theta_.size())))
       solve_projected();
   }

@@ -17,10 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr double cancelled      = 1e-13; // share of v^T C v left of its terms, below which v is a rigid motion
-constexpr double regular_pivots = 1e-12;
-constexpr double shift_share    = 1e-4; // of the lowest C_ii / M_ii
-
 /// The lowest C_ii / M_ii, an upper bound of the lowest omega^2.
 double lowest_quotient(const SparseMatrix &C, const SparseMatrix &M)
 {
@@ -37,14 +33,17 @@ SparseCholesky regular_factor(const SparseMatrix &C, const SparseMatrix &M)
 {
   try
   {
-    SparseCholesky factor(C);
+    SparseCholesky   factor(C);
+    constexpr double regular_pivots = 1e-12; // ratio of pivots: below, C is singular but for rounding
     if (factor.pivot_ratio() > regular_pivots)
       return factor;
   }
   catch (const NotPositiveDefinite &)
   {
   }
-  const double s = shift_share * lowest_quotient(C, M);
+  // of the lowest C_ii / M_ii, a bound of the lowest omega^2: far below it, far above rounding
+  constexpr double shift_share = 1e-4;
+  const double     s           = shift_share * lowest_quotient(C, M);
   try
   {
     return SparseCholesky(C + s * M);
@@ -64,7 +63,9 @@ VectorXd frequencies(const Eigen::Ref<const MatrixXd> &V, const SparseMatrix &C,
   {
     const VectorXd v = V.col(j), size = v.cwiseAbs();
     const double   square = v.dot(C * v);
-    omega(j)              = square > cancelled * size.dot(magnitude * size) ? std::sqrt(square) : 0.;
+    // share of v^T C v left of its terms, below which v is a rigid motion: their rounding
+    constexpr double cancelled = 1e-13;
+    omega(j)                   = square > cancelled * size.dot(magnitude * size) ? std::sqrt(square) : 0.;
   }
   return omega;
 }

@@ -17,9 +17,6 @@ namespace
 
 using Eigen::MatrixXd;
 
-constexpr double places[]      = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
-constexpr int    largest_block = 200;                       // with which missing modes are looked for
-constexpr int    most_rounds   = 4;                         // of finding modes that were missing
 } // namespace
 
 SturmCheckedModes::SturmCheckedModes(std::string kind, bool dense, const BlockLanczos::Options &options,
@@ -60,6 +57,7 @@ LowestModes SturmCheckedModes::lowest(int count)
 
 LowestModes SturmCheckedModes::find_all(int count)
 {
+  constexpr int most_rounds = 4; // of finding modes that were missing
   for (int round = 0; round < most_rounds; ++round)
   {
     find(count);
@@ -102,6 +100,7 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
   const auto missing = [&] { return count - int((known.omega.array() < omega).count()); };
   for (int block = std::max(options_.block, missing()); missing() > 0; block *= 2)
   {
+    constexpr int largest_block = 200; // with which missing modes are looked for
     if (block > largest_block)
       throw ConvergenceFailure(kind_ + ": " + std::to_string(missing()) + " of " + std::to_string(count) + " below " +
                                rounded(omega / two_pi) + " Hz are not found; request another number of modes");
@@ -123,8 +122,9 @@ double SturmCheckedModes::largest_growth(double shift) const
 
 Inertia SturmCheckedModes::count_in_gap(double &omega)
 {
-  Inertia best{0, INFINITY};
-  double  least = INFINITY; // growth over what is allowed
+  Inertia          best{0, INFINITY};
+  double           least    = INFINITY;                  // growth over what is allowed
+  constexpr double places[] = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
   for (const double place : places)
   {
     const double shift = std::isfinite(gap_.high) ? gap_.low + place * (gap_.high - gap_.low) : gap_.low * (1. + place);

@@ -130,8 +130,6 @@ MatrixXd StaticBalance::with_closed_chains(const VectorXd &q, MatrixXd saddle) c
 namespace
 {
 
-constexpr double takes_part = 0.01; // of the kinetic energy of a motion
-
 /// Share of the kinetic energy that the frame alone has in a motion.
 double share_of_frame(const Machine &machine, const VectorXd &motion)
 {
@@ -145,7 +143,8 @@ double share_of_frame(const Machine &machine, const VectorXd &motion)
 
 std::string mechanism_mode_text(const Machine &machine, const VectorXd &motion)
 {
-  const ReducedFrame *frame = machine.model().reduced_frame();
+  const ReducedFrame *frame      = machine.model().reduced_frame();
+  constexpr double    takes_part = 0.01; // of the kinetic energy of a motion: the rest follows it through springs
   if (frame && !frame->facts.free_motions.empty() && share_of_frame(machine, motion) > takes_part)
   {
     std::string free;

@@ -237,9 +237,6 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
 namespace
 {
 
-constexpr int    most_rounds  = 50;
-constexpr double least_change = 1e-12; ///< change of q in a round, against its size
-
 /// The same known start with what has a given speed held in position `at`, and nothing else.
 KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
 {
@@ -265,15 +262,17 @@ InitialState steady_start(Machine &machine, const KnownStart &known)
   const KnownStart held    = held_at(machine, known, state);
   const auto       largest = [sizes = coordinate_sizes(machine)](const Eigen::VectorXd &x)
   { return x.cwiseQuotient(sizes).cwiseAbs().maxCoeff(); };
+  constexpr int most_rounds = 50; // inertia moves deflections less in each round, if at all
   for (int round = 0; round < most_rounds; ++round)
   {
-    const SteadyMotion motion = steady_motion(machine, held, state.q);
-    InitialState       from   = state;
-    from.q                    = seated_plays(machine, held, motion, state);
-    HeldEquilibrium next      = held_equilibrium(machine, held, &motion, &from);
-    const double    change    = largest(next.q - state.q);
-    state.q                   = next.q;
-    state.v                   = motion.v;
+    const SteadyMotion motion     = steady_motion(machine, held, state.q);
+    InitialState       from       = state;
+    from.q                        = seated_plays(machine, held, motion, state);
+    HeldEquilibrium next          = held_equilibrium(machine, held, &motion, &from);
+    const double    change        = largest(next.q - state.q);
+    state.q                       = next.q;
+    state.v                       = motion.v;
+    constexpr double least_change = 1e-12; // change of q in a round, against its size
     if (change <= least_change * std::max(1e-3, largest(state.q)))
       return state;
   }

@@ -10,8 +10,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr const char *form              = "'row column value'";
-constexpr std::size_t shortest_diagonal = 6; // bytes of "1 1 1\n": every row has an entry
+constexpr const char *form = "'row column value'";
 
 /// A line of whole numbers, as large as all rows and columns, and behind it as many lines as its third says.
 bool is_head(std::string_view value, const std::vector<FileEntry> &entries)
@@ -27,7 +26,8 @@ bool is_head(std::string_view value, const std::vector<FileEntry> &entries)
 LabelledMatrix read_indexed_matrix(const std::string &name)
 {
   TextFile               file(name);
-  const long             most = long(file.size() / shortest_diagonal) + 1;
+  constexpr std::size_t  shortest_diagonal = 6; // bytes of "1 1 1\n": every row has an entry
+  const long             most              = long(file.size() / shortest_diagonal) + 1;
   std::vector<FileEntry> entries;
   entries.reserve(file.size() / 40);
   long        n     = 0;

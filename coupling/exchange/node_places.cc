@@ -60,8 +60,6 @@ private:
   std::set<long>         without_place_; ///< based on one that is not rectangular, or missing
 };
 
-constexpr double on_a_line = 1e-10; ///< sine of the angle at A
-
 CoordinateSystems::CoordinateSystems(TextFile &file)
 {
   constexpr std::size_t first_point = 2, last_field = 10;
@@ -123,6 +121,7 @@ void CoordinateSystems::add(const TextFile &file, long number, const Card &card,
   if (!a.allFinite() || !z.allFinite() || !y.allFinite())
     file.fail_at(card.line, "the points of coordinate system " + std::to_string(number) +
                                 " are so far away that their distances are not finite; check its columns");
+  constexpr double on_a_line = 1e-10; // sine of the angle at A: ten written digits
   if (!(y.norm() > on_a_line))
     file.fail_at(card.line, "the three points of coordinate system " + std::to_string(number) +
                                 " are on a line, which leaves its axes undefined");
@@ -157,9 +156,7 @@ private:
   ModelNodes            nodes_;
 };
 
-constexpr std::size_t longest_format = 80;
-constexpr long        longest_line   = 10000;               ///< columns, of a format
-constexpr int         most_files = 1000, deepest_file = 20; ///< that include each other
+constexpr int most_files = 1000, deepest_file = 20; ///< that include each other
 
 std::string elsewhere(long node)
 {
@@ -321,12 +318,14 @@ void read_nblocks(const std::string &name, Found &found)
     if (!begins(file.line(), "NBLOCK"))
       continue;
     std::match_results<std::string_view::const_iterator> found_form;
+    constexpr std::size_t                                longest_format = 80; // columns of a card
     const std::string_view line = file.next() ? file.line().substr(0, longest_format) : "";
     if (!std::regex_search(line.begin(), line.end(), found_form, form))
       file.fail("expected the format of the nodes, such as (3i9,6e21.13e3)");
     const auto number = [&](int i)
     {
-      const auto value = whole_of(found_form[i].str());
+      const auto     value        = whole_of(found_form[i].str());
+      constexpr long longest_line = 10000; // columns, of a format
       if (!value || *value < 1 || *value > longest_line)
         file.fail("'" + found_form[i].str() +
                   "' is not a number of columns; expected a format such as (3i9,6e21.13e3)");

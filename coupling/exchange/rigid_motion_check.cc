@@ -21,10 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double vanishing = 1e-3;  ///< share of what cancels: small fields of Nastran have four digits
-constexpr double alike     = 0.02;  ///< masses by x, y and z of a free frame
-constexpr double no_motion = 1e-12; ///< of the mean of C over that of M: far below elastic motions
-constexpr int    most_rows = 20000; ///< that are factorised to count free motions
+constexpr double vanishing = 1e-3; ///< share of what cancels: small fields of Nastran have four digits
 
 Vector3d vector(const std::array<double, 3> &x)
 {
@@ -121,10 +118,12 @@ void compare_rows(const Sparse &C, const std::vector<RowLabel> &rows, RigidMotio
 /// Eigenvalues below next to nothing, by Sylvester's law of C - sigma M.
 int count_free_motions(const Sparse &M, const Sparse &C)
 {
-  const double mass = M.diagonal().mean(), stiffness = C.diagonal().mean();
+  const double  mass = M.diagonal().mean(), stiffness = C.diagonal().mean();
+  constexpr int most_rows = 20000; // that are factorised to count free motions: a second
   if (C.rows() > most_rows || !(mass > 0.))
     return -1;
-  const Sparse                        shifted = C - no_motion * stiffness / mass * M;
+  constexpr double                    no_motion = 1e-12; // of the mean of C over that of M: far below elastic motions
+  const Sparse                        shifted   = C - no_motion * stiffness / mass * M;
   const Eigen::SimplicialLDLT<Sparse> factor(shifted);
   return factor.info() == Eigen::Success ? int((factor.vectorD().array() < 0.).count()) : -1;
 }
@@ -232,6 +231,8 @@ std::string suspicion_of(const RigidMotionCheck &check, const std::vector<RowLab
            " of the forces that cancel in them. The rows may be of other nodes or directions";
   const double largest = check.mass.maxCoeff();
   const double least = (check.mass.array() > 0.).select(check.mass, largest).minCoeff(); // of directions that have rows
+  // masses by x, y and z of a free frame: digits of files, not a part that is missing in one direction
+  constexpr double alike = 0.02;
   if (is_free && least < (1. - alike) * largest)
     return "the frame is free, but its mass is " + rounded(check.mass[0]) + ", " + rounded(check.mass[1]) + " and " +
            rounded(check.mass[2]) + " kg in x, y and z; check that mass and stiffness have the same rows";

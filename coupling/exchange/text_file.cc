@@ -14,8 +14,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr std::size_t longest_number = 60, shown_letters = 60, judged_bytes = 4096;
-
 const char *const text_of_program =
     "is not text: binary files of finite element programs are not read. Let the program write text: Nastran DMIG "
     "(EXTSEOUT(...,DMIGPCH), PARAM,EXTOUT,DMIGPCH), Ansys HBMAT with Form = ASCII or *EXPORT,...,MMF, "
@@ -61,6 +59,7 @@ std::size_t spelled_for_c(std::string_view field, char *number)
 
 TextFile::TextFile(const std::string &name) : name_(name), text_(contents(name))
 {
+  constexpr std::size_t judged_bytes = 4096; // a head: zeros of binary files are in it
   if (std::string_view(text_).substr(0, judged_bytes).find('\0') != std::string_view::npos)
     throw std::invalid_argument(name + ": " + text_of_program);
 }
@@ -87,7 +86,8 @@ void TextFile::restart()
 
 void TextFile::fail(long number, std::string_view line, const std::string &what) const
 {
-  std::string shown(line.substr(0, shown_letters));
+  constexpr std::size_t shown_letters = 60; // of a line, in a message of one line
+  std::string           shown(line.substr(0, shown_letters));
   std::replace_if(
       shown.begin(), shown.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
   throw std::invalid_argument(name_ + ":" + std::to_string(number) + ": '" + shown +
@@ -135,7 +135,8 @@ long TextFile::node(std::string_view field) const
 
 std::optional<double> real_of(std::string_view field)
 {
-  field = trimmed(field);
+  field                                = trimmed(field);
+  constexpr std::size_t longest_number = 60; // letters: twice those of a double in any notation
   if (field.empty() || field.size() > longest_number)
     return std::nullopt;
   char              number[2 * longest_number];

@@ -12,9 +12,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double flat      = 1e-3; ///< of sides: CAD kernels widen boxes by 1e-7 m
-constexpr double elongated = 2.;   ///< sides of a view of bores in line, longer than one bore is wide
-
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -71,17 +68,19 @@ FaceReach reach_of(const FaceBox &box, const Vector3d &point, const Matrix3d &fr
   Vector3d x = point;
   for (int i = 0; i < projections; ++i)
     x = point + free * (nearest_in(box, x) - point);
-  const Vector3d sides = 2. * box.half.colwise().norm().transpose(),
-                 lever = axes_of(box).transpose() * (x - nearest_in(box, x));
-  const bool plane     = sides.minCoeff() <= flat * sides.maxCoeff();
-  FaceReach  worst;
+  const Vector3d sides   = 2. * box.half.colwise().norm().transpose(),
+                 lever   = axes_of(box).transpose() * (x - nearest_in(box, x));
+  constexpr double flat  = 1e-3; // of sides: CAD kernels widen boxes by 1e-7 m
+  const bool       plane = sides.minCoeff() <= flat * sides.maxCoeff();
+  FaceReach        worst;
   for (int along = 0; along < 3; ++along)
   {
     int k = (along + 1) % 3, l = (along + 2) % 3;
     if (sides[k] < sides[l])
       std::swap(k, l);
-    const bool      in_line = sides[k] >= elongated * sides[l] && std::abs(lever[k]) > std::abs(lever[l]);
-    const FaceReach seen{std::hypot(lever[k], lever[l]), sides[k], plane || in_line ? far_from_faces : far_from_bore};
+    constexpr double elongated = 2.; // sides of a view of bores in line, longer than one bore is wide
+    const bool       in_line   = sides[k] >= elongated * sides[l] && std::abs(lever[k]) > std::abs(lever[l]);
+    const FaceReach  seen{std::hypot(lever[k], lever[l]), sides[k], plane || in_line ? far_from_faces : far_from_bore};
     if (seen.size > 0. &&
         (worst.size == 0. || seen.outside * worst.size * worst.limit > worst.outside * seen.size * seen.limit))
       worst = seen;

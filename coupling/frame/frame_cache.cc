@@ -18,10 +18,9 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t key_length = 64; // digits of SHA-256
-
 bool is_key(const std::string &text)
 {
+  constexpr std::size_t key_length = 64; // digits of SHA-256
   return text.size() == key_length && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 

@@ -28,8 +28,6 @@ namespace
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr int largest_size = 20'000'000; // a number that is wrong would take all memory
-
 std::string lower_case(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -252,6 +250,7 @@ Matrix read_matrix_market(const std::string &file, std::int64_t known_size)
   const int rows = reader.integer(expected), columns = reader.integer(expected);
   const int count = header.coordinate ? reader.integer(expected) : 0;
   reader.end_of_line(expected);
+  constexpr int largest_size = 20'000'000; // a number that is wrong would take all memory
   if (rows > largest_size || columns > largest_size)
     reader.fail("a matrix with more than " + std::to_string(largest_size) +
                 " rows or columns is too large to compute; check the file");

@@ -11,11 +11,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double least_order = 0.2, greatest_order = 4.; // k in n^(-k): edges that re-enter, and smooth cubic fields
-constexpr double settled_order = 1.;                     // for values that settle faster: h^2 of walls, h^3 of blocks
-constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from mesh to mesh
-constexpr double share_of_step = 0.5; // least uncertainty of three meshes: the order itself changes with the mesh
-constexpr double least_share   = 0.5; // of the estimate that is true at least, where nothing better is known
 constexpr std::size_t four     = 4;
 constexpr double      rounding = 1e-9; // relative: values of this difference are equal
 
@@ -36,6 +31,8 @@ double observed_order(const std::vector<MeshValue> &meshes, std::size_t last)
     return none;
   const MeshValue &a = meshes[last - 2], &b = meshes[last - 1], &c = meshes[last];
   const double     wanted = (a.value - b.value) / (b.value - c.value);
+  // k in n^(-k): edges that re-enter, and smooth cubic fields
+  constexpr double least_order = 0.2, greatest_order = 4.;
   double           low = least_order, high = greatest_order;
   if (!(wanted > quotient(a, b, c, low)))
     return none;
@@ -103,7 +100,8 @@ struct Rest
 Rest regular_rest(const std::vector<MeshValue> &meshes)
 {
   const MeshValue &last = meshes.back(), &before = meshes[meshes.size() - 2];
-  const double     step        = before.value - last.value;
+  const double     step       = before.value - last.value;
+  constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from mesh to mesh
   const double     fall        = std::clamp(last.estimate / before.estimate, least_fall, greatest_fall);
   const double     r           = std::isfinite(fall) ? fall : greatest_fall;
   const double     by_estimate = step * r / (1. - r);
@@ -115,9 +113,10 @@ Rest regular_rest(const std::vector<MeshValue> &meshes)
   rest.doubt      = std::abs(by_estimate);
   if (std::isinf(rest.order))
   {
-    rest.correction = correction_of(meshes, end, settled_order);
-    rest.doubt      = std::abs(rest.correction);
-    rest.order      = std::numeric_limits<double>::quiet_NaN();
+    constexpr double settled_order = 1.; // for values that settle faster: h^2 of walls, h^3 of blocks
+    rest.correction                = correction_of(meshes, end, settled_order);
+    rest.doubt                     = std::abs(rest.correction);
+    rest.order                     = std::numeric_limits<double>::quiet_NaN();
   }
   else if (!std::isnan(rest.order))
   {
@@ -127,9 +126,11 @@ Rest regular_rest(const std::vector<MeshValue> &meshes)
     const double other     = std::abs(by_estimate - rest.correction);
     const double disagreement =
         std::isfinite(order_before) ? std::min(other, std::abs(last.value - rest.correction - by_values)) : other;
-    rest.doubt = std::max(disagreement, share_of_step * std::abs(rest.correction));
+    constexpr double share_of_step = 0.5; // least uncertainty of three meshes: the order itself changes with the mesh
+    rest.doubt                     = std::max(disagreement, share_of_step * std::abs(rest.correction));
   }
-  if (meshes.size() < four) // fewer may lie near each other by chance
+  constexpr double least_share = 0.5; // of the estimate that is true at least, where nothing better is known
+  if (meshes.size() < four)           // fewer may lie near each other by chance
     rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
   return rest;
 }

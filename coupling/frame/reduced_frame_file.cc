@@ -251,8 +251,6 @@ void each_part(Frame &frame, Archive &&archive)
   archive("statements", statements);
 }
 
-constexpr int highest_degree = 100; ///< of the fields of a face; beyond, their number would leave its range
-
 /// The parts must fit each other, whatever the file says.
 void require_consistent(const ReducedFrame &frame)
 {
@@ -279,6 +277,7 @@ void require_consistent(const ReducedFrame &frame)
           "'left_out'");
   for (const auto &interface : frame.interfaces)
   {
+    constexpr int highest_degree = 100; // of the fields of a face; beyond, their number would leave its range
     require(interface.face.degree >= 0 && interface.face.degree <= highest_degree, "the degree of a face");
     for (const int i : interface.coordinate)
       require(i >= -1 && i < frame.n_interface, "an interface coordinate");
@@ -343,8 +342,6 @@ StoredFrame read_content(const std::string &name)
   return stored;
 }
 
-constexpr double seconds_for_a_head = 10.; ///< of processor time, for some kilobytes
-
 fem::ReadingLimits limits_of(const std::string &file)
 {
   return fem::reading_limits(file, fem::FileContent::geometry, fem::available_memory());
@@ -371,9 +368,10 @@ FrameSummary read_frame_summary(const std::string &name)
 {
   if (const std::string defect = head_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
-  fem::ReadingLimits limits = limits_of(name);
-  limits.seconds            = std::min(limits.seconds, seconds_for_a_head); // 0: none
-  const auto  alone         = hdf5_alone();
+  fem::ReadingLimits limits             = limits_of(name);
+  constexpr double   seconds_for_a_head = 10.; // of processor time, for some kilobytes
+  limits.seconds                        = std::min(limits.seconds, seconds_for_a_head); // 0: none
+  const auto  alone                     = hdf5_alone();
   std::string defect;
   try
   {

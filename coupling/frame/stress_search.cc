@@ -16,10 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index  block   = 256;       // points that are multiplied together
-constexpr double noise   = 1e-12;     // of the largest eigenvalue: below it rounding hides it
-constexpr double rounded = 1. + 1e-5; // of a bound, for numbers in single precision
-
 /// S = L^T-scaled rows so that |.| of the six is sigma_v:  sigma_v^2 = 3/2 |dev|^2, shears counted twice.
 MatrixXd scaled_rows(const ReducedStress &stress, const std::vector<int> &points)
 {
@@ -56,7 +52,8 @@ Components principal_components(const MatrixXd &gram, const MatrixXd &states)
   const SymmetricEigenSolver norm(gram);
   const VectorXd             root   = norm.eigenvalues().cwiseMax(0.).cwiseSqrt();
   const double               top    = root.size() > 0 ? root.maxCoeff() : 0.;
-  Index                      hidden = 0; // ascending
+  constexpr double           noise  = 1e-12; // of the largest eigenvalue: below it rounding hides it
+  Index                      hidden = 0;     // ascending
   while (hidden < root.size() && root[hidden] <= std::sqrt(noise) * top)
     ++hidden;
   const Index                n      = root.size() - hidden;
@@ -75,6 +72,7 @@ Components principal_components(const MatrixXd &gram, const MatrixXd &states)
 template <typename Visit>
 void in_blocks(const std::vector<int> &points, const Visit &visit)
 {
+  constexpr Index block = 256; // points that are multiplied together
   for (std::size_t first = 0; first < points.size(); first += block)
   {
     const std::size_t end = std::min(points.size(), first + block);
@@ -101,7 +99,8 @@ VectorXd bounds(const ReducedStress &stress, const std::vector<int> &points, con
   in_blocks(points,
             [&](const std::vector<int> &some)
             {
-              const MatrixXd B = scaled_rows(stress, some) * basis;
+              const MatrixXd   B       = scaled_rows(stress, some) * basis;
+              constexpr double rounded = 1. + 1e-5; // of a bound, for numbers in single precision
               for (std::size_t i = 0; i < some.size(); ++i)
                 bound[some[i]] =
                     rounded * B.middleRows<6>(6 * Index(i)).colwise().norm().dot(components.largest.transpose());

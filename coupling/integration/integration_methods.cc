@@ -16,8 +16,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double finest = 1e-13; ///< tolerances below are rounding
-
 /// "bdf and exact"
 std::string controlling_methods()
 {
@@ -35,6 +33,7 @@ void check_steps(const MethodOptions &o, const std::string &label)
   require_parameter(o.tolerance >= 0. && o.tolerance < 1., label, "tolerance", o.tolerance, "between 0 and 1");
   require_parameter(o.tolerance == 0. || controllable, label, "tolerance", o.tolerance,
                     "left out: only " + controlling_methods() + " control their step; give a step");
+  constexpr double finest = 1e-13; // tolerances below are rounding
   require_parameter(o.tolerance == 0. || o.tolerance >= finest, label, "tolerance", o.tolerance,
                     "1e-13 or more: what lies below is rounding");
   require_parameter(o.tolerance > 0. || o.step > 0., label, "step [s]", o.step, "positive, or a tolerance be given");

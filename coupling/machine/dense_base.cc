@@ -20,7 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double negligible = 1e-12; // entry relative to the roots of its diagonal entries that counts as zero
-constexpr double regular    = 1e-14; // smallest pivot of a matrix scaled to unit diagonal
 
 bool is_zero(const MatrixXd &A)
 {
@@ -67,6 +66,7 @@ MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
   const MatrixXd             scaled = d.asDiagonal() * A * d.asDiagonal();
   MatrixXd                   X;
   const Eigen::LLT<MatrixXd> cholesky(scaled);
+  constexpr double           regular = 1e-14; // smallest pivot of a matrix scaled to unit diagonal
   if (cholesky.info() == Eigen::Success && cholesky.matrixLLT().diagonal().cwiseAbs2().minCoeff() > regular)
     X = cholesky.solve(MatrixXd::Identity(n, n));
   else

@@ -206,10 +206,6 @@ void Machine::geometric(const LocalState &state, Eigen::MatrixXd &K) const
   }
 }
 
-/// [m, rad] A contact that is described as just touching may be closed by rounding.  Absolute, for a warning alone:
-/// what starts a nanometre deep is pushed away with no force to speak of.
-constexpr double touching = 1e-9;
-
 std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
 {
   std::vector<std::string> closed;
@@ -217,6 +213,9 @@ std::vector<std::string> Machine::closed_contacts(const LocalState &state) const
   {
     const auto  &part = parts_->placed[e];
     const double deep = part.structure ? part.structure->penetration(part.motion(state, false)) : 0.;
+    // [m, rad] A contact that is described as just touching may be closed by rounding. Absolute, for a warning alone:
+    // what starts a nanometre deep is pushed away with no force to speak of.
+    constexpr double touching = 1e-9;
     if (deep <= touching)
       continue;
     std::ostringstream words;

@@ -13,11 +13,6 @@ namespace
 {
 const char *const motion_names[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
 
-/// Coordinates of a mechanism without frame from which on sparse matrices are cheaper: with ideal joints soon; without
-/// any, where nine dense ones of the base system (M, B, C, their blocks and what they are made of) pass 300 MB.  Up to
-/// there all that works on dense ones can be asked of it.
-constexpr int dense_jointed = 60, dense_mechanism = 2000;
-
 void add_to(Eigen::MatrixXd &dense, const std::vector<Eigen::Triplet<double>> &triplets)
 {
   for (const auto &entry : triplets)
@@ -117,6 +112,10 @@ void MachineParts::finish()
 {
   const int n       = size();
   translation_loads = Eigen::MatrixXd::Zero(n, 3);
+  // Coordinates of a mechanism without frame from which on sparse matrices are cheaper: with ideal joints soon; without
+  // any, where nine dense ones of the base system (M, B, C, their blocks and what they are made of) pass 300 MB. Up to
+  // there all that works on dense ones can be asked of it.
+  constexpr int dense_jointed = 60, dense_mechanism = 2000;
   if (full)
     assemble_sparse(n);
   else if (!reduced && n > (has_joints() ? dense_jointed : dense_mechanism))

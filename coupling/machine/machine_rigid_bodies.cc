@@ -14,8 +14,6 @@ namespace gestell::coupling
 
 namespace
 {
-/// Share of the largest moment that E has at least: a body this thin cannot be told from one without thickness.
-constexpr double thinnest = 1e-10;
 
 std::string listed(const Eigen::Vector3d &moments)
 {
@@ -68,6 +66,8 @@ void MachineParts::add_inertia(const std::string &what, const Eigen::Matrix3d &i
     throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
                                 "; none may exceed the sum of the other two, which no distribution of mass can do: "
                                 "check them, or that they are taken about the centre of mass");
+  // Share of the largest moment that E has at least: a body this thin cannot be told from one without thickness.
+  constexpr double thinnest = 1e-10;
   if (is_whole_body && !(least > thinnest * moments[2]))
     throw std::invalid_argument(what + ": the principal moments of inertia are " + listed(moments) +
                                 ": the largest is the sum of the others, so that the body has no thickness and its "

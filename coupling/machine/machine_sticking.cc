@@ -9,9 +9,6 @@ namespace gestell::coupling
 namespace
 {
 
-/// Guards of what sticks: it lets go.
-constexpr int forward = 0, backward = 1;
-
 /// What rows of velocities span, all of the same length; orthonormal.
 class Span
 {
@@ -119,7 +116,8 @@ void MachineParts::find_stopped(const LocalState &state)
                    { return part.stop >= 0 || (part.came != 0 && part.sticks(history_of(part), rate)); }))
     return;
   const MotionRows rows(*this);
-  Span             span     = rows.of_joints(state);
+  Span             span    = rows.of_joints(state);
+  constexpr int    forward = 0, backward = 1; // Guards of what sticks: it lets go.
   const auto       slide_on = [&](const PlacedElement &part, double came)
   { part.branches->transition(came > 0. ? backward : forward, part.motion(state, by_history), history_of(part)); };
   // Near a dead point joints alone stop a motion, and holding it would take any force.

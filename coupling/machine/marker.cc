@@ -11,9 +11,6 @@ namespace gestell::coupling
 
 namespace
 {
-/// Of the larger of two terms: what rounding leaves of them where they cancel.  Each is a product of components of unit
-/// vectors, 2 epsilon wrong each, or a sum of three such.
-constexpr double rounding = 16. * std::numeric_limits<double>::epsilon();
 
 /// Weights that cancel leave nothing: along the axis of a rotor in a tilted plane, a_d - a_d (a.a) is 1e-17, and a
 /// joint across its plane would take that for a motion.
@@ -25,6 +22,9 @@ Measure combine(const Measure &a, const Measure &b, double sign)
     double      &own   = sum[coordinate];
     const double terms = std::max(std::abs(own), std::abs(weight));
     own += sign * weight;
+    // Of the larger of two terms: what rounding leaves of them where they cancel. Each is a product of components of
+    // unit vectors, 2 epsilon wrong each, or a sum of three such.
+    constexpr double rounding = 16. * std::numeric_limits<double>::epsilon();
     if (std::abs(own) <= rounding * terms)
       own = 0.;
   }

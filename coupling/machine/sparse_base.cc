@@ -18,9 +18,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int dense_limit  = 600;
-constexpr int lowest_lines = 20;
-
 void require_size(const SparseBase::Matrix &A, const char *name, Eigen::Index n)
 {
   if (A.rows() != n || A.cols() != n)
@@ -128,8 +125,10 @@ std::vector<SpectrumLine> SparseBase::spectrum() const
 {
   if (C_.nonZeros() == 0) // bodies that nothing but joints and elements hold
     return std::vector<SpectrumLine>(size(), SpectrumLine{0., 0.});
-  const bool dense = size() <= dense_limit;
-  const auto modes = dense ? dense_modes(MatrixXd(C_), MatrixXd(M_)) : sparse_modes(C_, M_, lowest_lines);
+  constexpr int dense_limit  = 600; // coordinates of which a dense problem takes less than a second
+  const bool    dense        = size() <= dense_limit;
+  constexpr int lowest_lines = 20; // of larger ones: those that loads of a machine reach
+  const auto    modes        = dense ? dense_modes(MatrixXd(C_), MatrixXd(M_)) : sparse_modes(C_, M_, lowest_lines);
 
   std::vector<SpectrumLine> lines;
   for (Eigen::Index j = 0; j < modes.omega.size(); ++j)

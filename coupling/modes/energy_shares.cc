@@ -14,9 +14,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double no_share  = 1e-6; ///< below it, of all modes, a spring is left out
-constexpr double no_strain = 1e-8; ///< of the highest frequency, the rounding of its square: below it a mode has none
-
 double dot(const Measure &u, const Eigen::VectorXd &v)
 {
   double sum = 0.;
@@ -143,7 +140,9 @@ Eigen::RowVectorXd stiffnesses(const std::vector<Mode> &modes)
   for (std::size_t j = 0; j < modes.size(); ++j)
   {
     const double omega = two_pi * modes[j].frequency_hz, fall = modes[j].growth * modes[j].growth;
-    result[Eigen::Index(j)] = flutters(modes[j]) ? not_defined : omega > no_strain * highest ? omega * omega : -fall;
+    // of the highest frequency, the rounding of its square: below it a mode has none
+    constexpr double no_strain = 1e-8;
+    result[Eigen::Index(j)]    = flutters(modes[j]) ? not_defined : omega > no_strain * highest ? omega * omega : -fall;
   }
   return result;
 }
@@ -188,7 +187,8 @@ EnergyShares energy_shares(const Machine &machine, const Eigen::VectorXd &q, con
     for (Eigen::Index j = 0; j < share.size(); ++j)
       if (total[j] == 0.)
         share[j] = not_defined;
-    const bool any = (share.array().isFinite() && share.array().abs() > no_share).any();
+    constexpr double no_share = 1e-6; // below it, of all modes, a spring is left out
+    const bool       any      = (share.array().isFinite() && share.array().abs() > no_share).any();
     if (!any)
       continue;
     shares.springs.push_back(strain.names[i]);

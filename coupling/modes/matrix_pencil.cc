@@ -18,9 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double weakest = 1e-4; ///< singular value beside the largest
-constexpr Index  fewest = 16, most_poles = 40;
-
 /// Each signal about its mean, divided by its range.
 MatrixXd scaled(const MatrixXd &samples, VectorXd &range)
 {
@@ -47,8 +44,10 @@ VectorXcd poles(const MatrixXd &y)
 {
   const MatrixXd                       Y = hankel(y);
   const coupling::SymmetricEigenSolver squares(Y.transpose() * Y);
-  const VectorXd squared = squares.eigenvalues().reverse(); // of the singular values, largest first
-  Index          r       = 0;
+  const VectorXd   squared    = squares.eigenvalues().reverse(); // of the singular values, largest first
+  constexpr double weakest    = 1e-4; // singular value beside the largest: those kept lose eps / weakest^2 = 2e-8
+  constexpr Index  most_poles = 40;   // of twenty modes: more are not told apart
+  Index            r          = 0;
   while (r < std::min(squared.size() - 1, most_poles) && squared[r] > weakest * weakest * squared[0])
     ++r;
   const MatrixXd V = squares.eigenvectors().rightCols(r);
@@ -92,6 +91,7 @@ double DampedOscillation::damping_ratio() const
 
 PencilFit matrix_pencil(const MatrixXd &samples, double h, int most)
 {
+  constexpr Index fewest = 16; // samples: four poles, twice over
   if (samples.rows() < fewest || samples.cols() < 1 || !(h > 0.))
     throw std::invalid_argument("matrix_pencil: " + std::to_string(samples.rows()) + " samples; at least " +
                                 std::to_string(fewest) + " samples at equal time steps are needed");

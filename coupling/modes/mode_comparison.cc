@@ -11,16 +11,15 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double does_not_move = 1e-12; ///< of a measure in the modes of one machine, relative to the other
-
 /// 1 / sum_j A_kj^2; 0 of a measure that does not move.
 Eigen::VectorXd apparent_masses(const Eigen::MatrixXd &A, const Eigen::MatrixXd &other)
 {
   Eigen::VectorXd masses(A.rows());
   for (Eigen::Index k = 0; k < A.rows(); ++k)
   {
-    const double own = A.row(k).squaredNorm(), his = other.row(k).squaredNorm();
-    masses[k] = std::min(own, his) > does_not_move * std::max(own, his) ? 1. / own : 0.;
+    const double     own = A.row(k).squaredNorm(), his = other.row(k).squaredNorm();
+    constexpr double does_not_move = 1e-12; // of a measure in the modes of one machine, relative to the other
+    masses[k]                      = std::min(own, his) > does_not_move * std::max(own, his) ? 1. / own : 0.;
   }
   return masses;
 }

@@ -13,8 +13,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double same_frequency = 1e-8; ///< relative difference up to which shapes are any mixture
-
 Eigen::MatrixXd shapes(const std::vector<Mode> &modes, std::size_t count)
 {
   Eigen::MatrixXd V(modes.empty() ? 0 : modes.front().shape.size(), Eigen::Index(count));
@@ -25,6 +23,8 @@ Eigen::MatrixXd shapes(const std::vector<Mode> &modes, std::size_t count)
 
 bool same(const Mode &a, const Mode &b)
 {
+  // relative difference up to which shapes are any mixture: the root of rounding
+  constexpr double same_frequency = 1e-8;
   return std::abs(a.frequency_hz - b.frequency_hz) <= same_frequency * std::max(a.frequency_hz, b.frequency_hz);
 }
 

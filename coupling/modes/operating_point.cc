@@ -34,10 +34,6 @@ Eigen::MatrixXd stiffness_of_joints(const Machine &machine, const LocalState &lo
   return K;
 }
 
-constexpr double beside_point  = 1e-9; ///< of a large motion, to both sides of a contact that is about to touch
-constexpr double another_slope = 0.01; ///< difference of two slopes, of the largest
-constexpr double least_contact = 1e-6; ///< share of the stiffness of a closed element that tells it from an open one
-
 /// An element that may be open, linearised at the point.
 struct Contact
 {
@@ -78,7 +74,9 @@ void tell_contacts(const Machine &machine, MachinePoint &at)
   for_contacts(machine, at.point.local,
                [&](const Contact &contact)
                {
-                 const bool is_closed = (contact.here - contact.open).cwiseProduct(contact.more).sum() >
+                 // share of the stiffness of a closed element that tells it from an open one
+                 constexpr double least_contact = 1e-6;
+                 const bool       is_closed     = (contact.here - contact.open).cwiseProduct(contact.more).sum() >
                                         least_contact * contact.more.squaredNorm();
                  (is_closed ? at.closed : at.open).push_back(contact.name);
                });
@@ -94,12 +92,14 @@ bool is_smooth(const Machine &machine, const LocalState &local, int measure, dou
   double slopes[2];
   for (const int side : {0, 1})
   {
-    const double way  = (side == 0 ? -beside_point : beside_point) * size;
-    nearby.u[measure] = local.u[measure] + way;
+    constexpr double beside_point = 1e-9; // of a large motion, to both sides of a contact that is about to touch
+    const double     way          = (side == 0 ? -beside_point : beside_point) * size;
+    nearby.u[measure]             = local.u[measure] + way;
     machine.forces().force(nearby, there);
     slopes[side] = (there[measure] - here[measure]) / way;
   }
-  const double largest = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});
+  const double     largest       = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});
+  constexpr double another_slope = 0.01; // difference of two slopes, of the largest
   return std::abs(slopes[0] - slope) <= another_slope * largest &&
          std::abs(slopes[1] - slope) <= another_slope * largest;
 }
@@ -162,15 +162,15 @@ Slope extrapolated_slope(const std::function<double(double)> &f, double first_st
 constexpr double first_way = 1e-4; ///< first step, of a large motion; of rates and accelerations ten and a hundred
                                    ///< times as large, with such a motion in a second
 constexpr double smooth   = 1e-5;  ///< error of a slope beside the largest one of its kind that a kink leaves
-constexpr double finest   = 256.;  ///< first step beside the last one
-constexpr double no_jump  = 1e-9;  ///< second difference beside the values that rounding leaves
 constexpr double rounding = 1e-12; ///< what it leaves of a value in quotients with the smallest step
 
 /// Whether the slope of f jumps at 0: second differences over h fall with the step where f is smooth.
 bool has_kink(const std::function<double(double)> &f, double first_step)
 {
-  const auto   jump  = [&](double h) { return std::abs(f(h) - 2. * f(0.) + f(-h)) / h; };
-  const double small = first_step / finest, last = jump(small);
+  const auto       jump   = [&](double h) { return std::abs(f(h) - 2. * f(0.) + f(-h)) / h; };
+  constexpr double finest = 256.; // first step beside the last one
+  const double     small = first_step / finest, last = jump(small);
+  constexpr double no_jump = 1e-9; // second difference beside the values that rounding leaves
   return last > 0.3 * jump(first_step) && last > no_jump * (std::abs(f(small)) + std::abs(f(-small))) / small;
 }
 

@@ -24,14 +24,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr int    few_coordinates    = 600; ///< all modes are found at once
-constexpr int    first_search       = 16;  ///< modes
-constexpr int    most_automatic     = 512;
-constexpr double usual_tolerance    = 0.01; ///< of static deflections
-constexpr double above_loads        = 4.;   ///< the book's rule: 3 to 4 times the highest excitation frequency
-constexpr double much_left          = 0.05; ///< of a static deflection, worth a note
-constexpr double considerable_share = 0.1;  ///< of damping between two modes, worth a note
-constexpr double no_mass            = 1e-14;
+constexpr int    first_search    = 16; ///< modes
+constexpr int    most_automatic  = 512;
+constexpr double usual_tolerance = 0.01; ///< of static deflections
+constexpr double above_loads     = 4.;   ///< the book's rule: 3 to 4 times the highest excitation frequency
 
 struct AveragedSystem
 {
@@ -96,7 +92,8 @@ std::string driven_body(const Machine &machine, std::string &drive)
 
 void refuse_massless(const Machine &machine, const SparseMatrix &M, const std::string &place)
 {
-  const VectorXd mass = M.diagonal();
+  const VectorXd   mass    = M.diagonal();
+  constexpr double no_mass = 1e-14; // of the largest: rounding of averaged terms
   for (int i = 0; i < machine.size(); ++i)
     if (!(mass[i] > no_mass * mass.maxCoeff()))
       refuse(place, "the coordinate \"" + machine.coordinate_name(i) + "\" has no mass",
@@ -203,7 +200,8 @@ private:
 
 DenseModes lowest(const AveragedSystem &system, int count)
 {
-  const int n = int(system.M.rows());
+  const int     n               = int(system.M.rows());
+  constexpr int few_coordinates = 600; // all modes are found at once: less than a second
   if (n > few_coordinates)
     return sparse_modes(system.K, system.M, std::min(count, n));
   DenseModes modes = dense_modes(MatrixXd(system.K), MatrixXd(system.M));
@@ -324,11 +322,13 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
        << omega[omega.size() - 1] / two_pi << " Hz, static deflections under forces and loads are up to "
        << 100. * result.static_residual << " % too small";
   result.statements.push_back(text.str());
+  constexpr double much_left = 0.05; // of a static deflection, worth a note
   if (result.static_residual > much_left)
     result.notes.push_back("modal superposition: static deflections under forces and loads are up to " +
                            std::to_string(int(std::lround(100. * result.static_residual))) +
                            " % too small without the truncated modes; use more modes, or method = \"craig-bampton\", "
                            "whose statics are exact");
+  constexpr double considerable_share = 0.1; // of damping between two modes, worth a note
   if (options.diagonal_damping && result.coupling > considerable_share)
     result.notes.push_back("modal superposition: damping = \"diagonal\" ignores coupling of modes by up to " +
                            std::to_string(int(std::lround(100. * result.coupling))) +

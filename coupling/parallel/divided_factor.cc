@@ -17,8 +17,6 @@ namespace
 using Eigen::MatrixXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr int block_width = 16; // right-hand sides that are dealt out together
-
 std::vector<int> counted(int n)
 {
   std::vector<int> all(n);
@@ -331,7 +329,8 @@ void DividedFactor::solve_on_first(Eigen::Ref<MatrixXd> X) const
     X.row(i).setZero();
   int columns = int(X.cols());
   ranks_.broadcast(columns);
-  const std::vector<int> all = counted(n_rows());
+  const std::vector<int> all         = counted(n_rows());
+  constexpr int          block_width = 16; // right-hand sides that are dealt out together
   for (int first = 0; first < columns; first += block_width)
   {
     const int width = std::min(block_width, columns - first);

@@ -16,10 +16,7 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double near_motion     = 0.01; ///< of its size and of its distance to other motions
-constexpr double lost            = 1e4;  ///< sizes of the largest motion and start: a state there has run away
-constexpr double settled_finely  = 1e-8; ///< tolerance of the steps
-constexpr long   steps_of_period = 20000;
+constexpr double lost = 1e4; ///< sizes of the largest motion and start: a state there has run away
 
 /// A motion that starts may settle to: its states (Omega q, q') at the begins of all its periods.
 struct Attractor
@@ -76,6 +73,7 @@ std::vector<Attractor> attractors_of(const PeriodicProblem &one, const std::vect
     for (std::size_t other = 0; other < solutions.size(); ++other)
       if (other != k)
         reach = std::min(reach, distance(states[k], states[other]));
+    constexpr double near_motion = 0.01; // of its size and of its distance to other motions
     attractors.push_back({int(k) + 1, states[k], near_motion * reach});
   }
   if (attractors.empty())
@@ -190,9 +188,11 @@ Basins basins_of(const PeriodicProblem &problem, const std::vector<PeriodicSolut
                  const std::function<void(double)> &progress)
 {
   require_plane(problem, plane);
-  PeriodicProblem one       = problem.of_one_period();
-  one.most_steps            = steps_of_period;
-  MethodOptions integration = options.integration;
+  PeriodicProblem one             = problem.of_one_period();
+  constexpr long  steps_of_period = 20000; // more are taken by a motion that has run away
+  one.most_steps                  = steps_of_period;
+  MethodOptions    integration    = options.integration;
+  constexpr double settled_finely = 1e-8; // tolerance of the steps
   if (!(integration.step > 0.))
     integration.tolerance = std::max(integration.tolerance, settled_finely);
   const Index                  n          = rest.q.size();

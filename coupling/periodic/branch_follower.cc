@@ -14,13 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_corrections = 16;
-constexpr double difference       = 1e-6; ///< of the range, for dF/dlambda
-constexpr double rests            = 1e-9; ///< length of a motion at rest, of that at the end of the range
-constexpr int    most_moves       = 8;
-constexpr int    most_refits      = 12;
-constexpr double slow             = 0.5; ///< contraction above which the derivatives are taken anew
-
 double least_pivot(const MatrixXd &J)
 {
   const Eigen::PartialPivLU<MatrixXd> lu(J);
@@ -56,8 +49,9 @@ void BranchFollower::grow_size(Point &point)
 
 void BranchFollower::size_from_rest(Point &point)
 {
-  const Index    m   = point.z.size();
-  const VectorXd way = range_ * point.derivative.leftCols(m).partialPivLu().solve(point.derivative.col(m));
+  const Index      m     = point.z.size();
+  const VectorXd   way   = range_ * point.derivative.leftCols(m).partialPivLu().solve(point.derivative.col(m));
+  constexpr double rests = 1e-9; // length of a motion at rest, of that at the end of the range
   if (!way.allFinite() || !(point.z.norm() <= rests * way.norm()))
     return;
   size_         = way.norm() > 0. ? way.norm() : 1.; // what grows by higher powers alone shows its size on the way
@@ -68,6 +62,7 @@ void BranchFollower::size_from_rest(Point &point)
 
 void BranchFollower::refit(Point &point, bool at_parameter)
 {
+  constexpr int most_refits = 12; // meshes and harmonics grow by some ten per cent and more in each
   for (int k = 0; k < most_refits; ++k)
   {
     equations_.evaluate(point.z, point.lambda, false);
@@ -122,6 +117,8 @@ MatrixXd BranchFollower::derivative(const VectorXd &z, double lambda)
   const VectorXd F = equations_.residual();
   MatrixXd       D(m, m + 1);
   D.leftCols(m) = equations_.jacobian();
+  // of the range, for dF/dlambda: rounding and curvature leave 1e-6 and less
+  constexpr double difference = 1e-6;
   equations_.evaluate(z, lambda + difference * range_, false);
   D.col(m) = (equations_.residual() - F) / (difference * range_);
   return D;
@@ -130,11 +127,12 @@ MatrixXd BranchFollower::derivative(const VectorXd &z, double lambda)
 /// Newton's method across `across` from the derivatives of `near`, where it has any.
 bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, const Point &near, Point &point)
 {
-  const Index m = z.size();
-  MatrixXd    A = near.derivative.size() > 0 ? bordered(near.derivative, across) : MatrixXd();
-  VectorXd    dx, r = VectorXd::Zero(m + 1);
-  double      before = 0.;
-  int         moves = 0, last_move = 0;
+  const Index   m = z.size();
+  MatrixXd      A = near.derivative.size() > 0 ? bordered(near.derivative, across) : MatrixXd();
+  VectorXd      dx, r = VectorXd::Zero(m + 1);
+  double        before = 0.;
+  int           moves = 0, last_move = 0;
+  constexpr int most_corrections = 16; // Newton's take a few, chords twice as many
   for (point.iterations = 0; point.iterations - last_move < most_corrections; ++point.iterations)
   {
     equations_.evaluate(z, lambda, A.size() == 0);
@@ -142,6 +140,7 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
     const double   here = equations_.closing();
     if (!F.allFinite())
       return false;
+    constexpr int most_moves = 8; // a motion settles on its events in one or two
     if (VectorXd other = z; here <= tolerance_ && moves < most_moves && equations_.follow_motion(other))
     {
       r[m] -= across.head(m).dot(other - z) / size_; // back across it
@@ -158,7 +157,8 @@ bool BranchFollower::correct(VectorXd z, double lambda, const VectorXd &across, 
       point.derivative = A.size() > 0 ? unscaled(A) : MatrixXd();
       return true;
     }
-    const bool moved = dx.size() > 0;
+    const bool       moved = dx.size() > 0;
+    constexpr double slow  = 0.5; // contraction above which the derivatives are taken anew
     if (A.size() > 0 && moved && here > slow * before)
     {
       equations_.evaluate(z, lambda, true);

@@ -19,15 +19,6 @@ using Eigen::VectorXd;
 using Point  = BranchFollower::Point;
 using Detail = BranchFollower::Detail;
 
-constexpr int    few_iterations = 6;
-constexpr double least_part     = 1e-5; ///< of the step that is asked for
-constexpr double widest         = 2.;   ///< the step, of that
-constexpr double short_part     = 0.1;  ///< the step, of that, of a branch that hardly moves on
-constexpr double straight       = 0.94; ///< cosine between two tangents: 20 degrees
-constexpr double corner         = 0.02; ///< step, of that, below which a turn is a corner
-constexpr int    most_searches  = 40;
-constexpr double equal_images   = 1e-5; ///< multipliers of motions that are images of each other, of the largest
-
 double slope_of(const Point &point)
 {
   return point.tangent[point.tangent.size() - 1];
@@ -74,10 +65,11 @@ using Test = std::function<double(const Point &)>;
 bool locate(BranchFollower &follower, const Point &a, const Point &b, const Test &test, Detail detail,
             double resolution, Point &found)
 {
-  Point        low = a, high = b;
-  const double ds    = follower.arclength(a, b);
-  double       s_low = 0., s_high = ds, f_low = test(a), f_high = test(b), last = a.lambda;
-  int          side = 0;
+  Point         low = a, high = b;
+  const double  ds    = follower.arclength(a, b);
+  double        s_low = 0., s_high = ds, f_low = test(a), f_high = test(b), last = a.lambda;
+  int           side          = 0;
+  constexpr int most_searches = 40; // bisection alone gets to 2^-40 of a step
   for (int k = 0; k < most_searches; ++k)
   {
     double s = f_high != f_low ? (s_low * f_high - s_high * f_low) / (f_high - f_low) : 0.5 * (s_low + s_high);
@@ -189,9 +181,12 @@ void Tracker::note_special(const Point &a, const Point &b)
 /// The next point; false: there is none however short the step.
 bool Tracker::next_point(const Point &here, Point &next)
 {
+  constexpr double least_part = 1e-5; // of the step that is asked for
   for (; ds_ >= least_part * wanted_; ds_ *= 0.5)
     try
     {
+      constexpr double straight = 0.94; // cosine between two tangents: 20 degrees
+      constexpr double corner   = 0.02; // step, of that, below which a turn is a corner
       // Where an event begins, the branch has a corner: then its tangents differ however short the step.
       if (follower_.beyond(here, ds_, next) && (next.tangent.dot(here.tangent) > straight || ds_ < corner * wanted_))
         return true;
@@ -257,7 +252,9 @@ Branch Tracker::follow(Point here)
       here = next;
       follower_.grow_size(here);
       fit(here);
-      goes_on = add(here);
+      goes_on                         = add(here);
+      constexpr int    few_iterations = 6;  // of a correction: a step that is too long takes more
+      constexpr double widest         = 2.; // the step, of that
       if (next.iterations <= few_iterations)
         ds_ = std::min(1.3 * ds_, widest * wanted_);
     }
@@ -265,6 +262,7 @@ Branch Tracker::follow(Point here)
     {
       std::ostringstream text;
       text << "it has " << options_.most << " points, the last at " << here.lambda;
+      constexpr double short_part = 0.1; // the step, of that, of a branch that hardly moves on
       if (ds_ < short_part * wanted_)
         text << ", and its steps have become short: use another method, or fewer harmonics";
       branch_.failed = goes_on;
@@ -347,7 +345,8 @@ bool has_image(BranchEquations &equations, const BranchPoint &motion, const Bran
   {
     return false;
   }
-  const auto &mu = motion.solution.multipliers, &image_mu = there.solution.multipliers;
+  const auto      &mu = motion.solution.multipliers, &image_mu = there.solution.multipliers;
+  constexpr double equal_images = 1e-5; // multipliers of motions that are images of each other, of the largest
   return (there.z - nearby).norm() < (there.z - z).norm() && mu.size() == image_mu.size() && mu.size() > 0 &&
          std::abs(there.solution.period - motion.solution.period) < equal_images * motion.solution.period &&
          (mu - image_mu).cwiseAbs().maxCoeff() < equal_images * mu.cwiseAbs().maxCoeff();

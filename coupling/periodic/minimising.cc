@@ -18,17 +18,11 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double box_reach     = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
-constexpr double same_orbit    = 1e-6; ///< distance of two motions, of their size, within which they are one
-constexpr int    highest_ratio = 3;    ///< of sub-harmonic motions that are looked for
-constexpr int    most_steps    = 60;   ///< of one minimisation
-constexpr double astray        = 4.;   ///< distance from the middle of the box, in its size, at which a start is lost
-constexpr double promising     = 0.01; ///< closing error below which Newton's method takes over
-constexpr double coarse        = 1e-6; ///< tolerance of the steps far from a solution
-constexpr double rest_speed    = 1e-6; ///< of the speeds of the box
-constexpr int    usual_starts  = 64;
-constexpr int    one_in        = 4;   ///< of so many starts one keeps off the motions that are known
-constexpr double off           = 0.3; ///< of the largest excursions: so far
+constexpr double box_reach    = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
+constexpr double astray       = 4.;   ///< distance from the middle of the box, in its size, at which a start is lost
+constexpr double coarse       = 1e-6; ///< tolerance of the steps far from a solution
+constexpr int    usual_starts = 64;
+constexpr double off          = 0.3; ///< of the largest excursions: so far
 
 /// M r, r of (5.5.4/2), for Eigen's minimiser.
 class LeastSquares : public Eigen::DenseFunctor<double>
@@ -113,6 +107,7 @@ int starts_of(const PeriodicOptions &options)
 /// Starts that search freely; the rest keeps off what is known.
 int free_starts(const PeriodicOptions &options)
 {
+  constexpr int one_in = 4; // of so many starts one keeps off the motions that are known
   return starts_of(options) - starts_of(options) / one_in;
 }
 
@@ -279,8 +274,10 @@ bool MotionSearch::descend(int k, VectorXd &z)
   z = equations_.unknowns(at.q, at.v, at.period);
   LeastSquares                            squares(roughly_, middle_, far_, freely ? nothing_ : known_);
   Eigen::LevenbergMarquardt<LeastSquares> minimiser(squares);
+  constexpr int                           most_steps = 60; // of one minimisation
   minimiser.setMaxfev(most_steps);
   minimiser.minimize(z);
+  constexpr double promising = 0.01; // closing error below which Newton's method takes over
   return roughly_.closing() < promising;
 }
 
@@ -299,6 +296,7 @@ PeriodicSolution MotionSearch::shortest(const PeriodicSolution &solution) const
 /// Of the passages of a self-excited motion through its phase the next rising one.
 PeriodicSolution MotionSearch::rising(const PeriodicSolution &solution) const
 {
+  constexpr double rest_speed = 1e-6; // of the speeds of the box
   if (!(solution.v.norm() > rest_speed * box_.v_half.norm()))
     throw NoPeriodicMotion("the motion is rest");
   if (solution.v[once_.phase] > 0.)
@@ -315,7 +313,8 @@ void MotionSearch::take(PeriodicSolution solution, double share)
   for (const auto &phase : phases_of(once_, solution))
     for (PeriodicSolution &other : found_)
     {
-      const double size = std::sqrt(omega_ * omega_ * other.q.squaredNorm() + other.v.squaredNorm());
+      const double     size       = std::sqrt(omega_ * omega_ * other.q.squaredNorm() + other.v.squaredNorm());
+      constexpr double same_orbit = 1e-6; // distance of two motions, of their size, within which they are one
       if (apart(once_, omega_, other, phase.first, phase.second) > same_orbit * std::max(size, 1e-300))
         continue;
       other.share += share;
@@ -337,7 +336,8 @@ std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, 
   }
   const Box                     box = box_about(problem, near, options);
   std::vector<PeriodicSolution> found;
-  const int                     highest = problem.period_is_unknown() || problem.ratio > 1 ? 1 : highest_ratio;
+  constexpr int                 highest_ratio = 3; // of sub-harmonic motions that are looked for
+  const int                     highest       = problem.period_is_unknown() || problem.ratio > 1 ? 1 : highest_ratio;
   for (int periods = 1; periods <= highest; ++periods)
     MotionSearch(problem, periods, box, options, found).from_all_starts();
   if (found.empty())

@@ -16,20 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double longest_step = 1. / 64.; ///< of a period
-constexpr double fine         = 1e-11;    ///< tolerance of steps where none is given
-constexpr double small_way    = 1e-5;     ///< over which gradients of guards are taken, of the largest motion so far
-constexpr double touching     = 1e-6;     ///< slope of a guard, of what the motion could give it
-constexpr double rounding     = 1e-12;    ///< of a period: the end is reached
-constexpr double at_rest      = 1e-9;     ///< sliding speed that is none, of the motion
-constexpr double same_history = 1e-12;    ///< relative difference of numbers that elements remember
-
 /// What is not said of the integration.
 MethodOptions completed(const MethodOptions &given, double period)
 {
-  MethodOptions options = given;
+  MethodOptions    options = given;
+  constexpr double fine    = 1e-11; // tolerance of steps where none is given
   if (!(options.step > 0.) && !(options.tolerance > 0.))
     options.tolerance = fine;
+  constexpr double longest_step = 1. / 64.; // of a period
   if (!(options.step > 0.) || options.step > longest_step * period)
     options.step = longest_step * period;
   return options;
@@ -40,6 +34,7 @@ double still_speed(const SecondOrderSystem &system, const VectorXd &q, const Vec
 {
   if (system.forces().directions().cols() == 0)
     return 0.;
+  constexpr double at_rest = 1e-9; // sliding speed that is none, of the motion
   return at_rest * (v.cwiseAbs().maxCoeff() + 2. * M_PI / period * q.cwiseAbs().maxCoeff());
 }
 
@@ -244,7 +239,8 @@ bool PeriodFlow::remembers_at_end()
   state.p.setZero();
   elements.follow_history(false);
   elements.start(state);
-  const VectorXd anew = elements.save_history();
+  const VectorXd   anew         = elements.save_history();
+  constexpr double same_history = 1e-12; // relative difference of numbers that elements remember
   return remembered.size() != anew.size() ||
          !((remembered - anew).cwiseAbs().array() <= same_history * remembered.cwiseAbs().array()).all();
 }
@@ -288,8 +284,9 @@ void PeriodFlow::show(double until)
 {
   for (; shown_ < looks_.size(); ++shown_)
   {
-    const double t    = begin_ + (end_ - begin_) * looks_[shown_];
-    const bool   last = looks_[shown_] == 1. && until >= end_ - rounding * (end_ - begin_);
+    const double     t        = begin_ + (end_ - begin_) * looks_[shown_];
+    constexpr double rounding = 1e-12; // of a period: the end is reached
+    const bool       last     = looks_[shown_] == 1. && until >= end_ - rounding * (end_ - begin_);
     if (t > until && !last)
       return;
     const double at = std::clamp(t, integrator_.step_begin(), until);
@@ -319,7 +316,8 @@ void PeriodFlow::find_slopes(int guard, MatrixXd &gradient, double &partial)
     x = here;
     return (above - g[guard]) / (up - down);
   };
-  VectorXd *const parts[] = {&at.u, &at.v, &at.a, &at.p};
+  VectorXd *const  parts[]   = {&at.u, &at.v, &at.a, &at.p};
+  constexpr double small_way = 1e-5; // over which gradients of guards are taken, of the largest motion so far
   for (int part = 0; part < 4; ++part)
     for (Index i = 0; i < gradient.rows(); ++i)
     {
@@ -350,7 +348,8 @@ void PeriodFlow::guard(int number)
   double       could = std::abs(partial);
   for (int part = 0; part < 3; ++part)
     could += (gradient.col(part).cwiseAbs().array() * largest_[part + 1].array()).sum();
-  dt_ = Eigen::RowVectorXd::Zero(dq_begin_.cols());
+  dt_                       = Eigen::RowVectorXd::Zero(dq_begin_.cols());
+  constexpr double touching = 1e-6; // slope of a guard, of what the motion could give it
   if (!gradient.isZero(0.) && std::abs(rate) > touching * could)
     dt_ = along(tangents_->local_tangents()) / -rate;
   else if (!gradient.isZero(0.))

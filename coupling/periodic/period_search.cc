@@ -15,21 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    largest_ratio     = 64;
-constexpr double equal_frequencies = 1e-9;
-constexpr int    turn_samples      = 256;
-constexpr int    window_periods = 32, window_samples = 2048; ///< of the lowest frequency
-constexpr int    most_lengthenings = 3;
-constexpr double longer            = 8.; ///< a window without two passages
-constexpr int    most_windows      = 64;
-constexpr double settled           = 1e-3; ///< change of the largest excursions, of themselves
-constexpr double rests             = 1e-6; ///< of the largest excursions since the start
-constexpr double at_rest           = 1e-6; ///< [m/s], [rad/s] slower than any machine swings: such a start is pushed
-constexpr double runs_away         = 1e9;  ///< of the excursions of the first window
-constexpr double larger            = 0.1;  ///< share by which a motion is made larger, to see whether it comes back
-constexpr double push          = 1e-3; ///< [m/s], [rad/s] of what rests; the user is told, and may start it otherwise
-constexpr int    most_passages = 16;   ///< of a coordinate through its middle in one period
-constexpr double comes_back    = 0.02; ///< distance of two states, of the largest excursions
+constexpr int window_periods = 32, window_samples = 2048; ///< of the lowest frequency
 
 /// Samples of a window of the motion.
 struct Window
@@ -105,10 +91,12 @@ std::vector<Passage> passages_through(const Window &window, Index coordinate, do
 std::size_t passages_of_a_period(const std::vector<Passage> &passages, const VectorXd &excursion,
                                  const VectorXd &fastest)
 {
-  const double q_size = excursion.norm(), v_size = fastest.norm();
+  const double  q_size = excursion.norm(), v_size = fastest.norm();
+  constexpr int most_passages = 16; // of a coordinate through its middle in one period
   for (std::size_t m = 1; m <= most_passages && m < passages.size(); ++m)
   {
-    const Passage &last = passages.back(), &before = passages[passages.size() - 1 - m];
+    const Passage   &last = passages.back(), &before = passages[passages.size() - 1 - m];
+    constexpr double comes_back = 0.02; // distance of two states, of the largest excursions
     if ((last.q - before.q).norm() <= comes_back * q_size && (last.v - before.v).norm() <= comes_back * v_size)
       return m;
   }
@@ -121,6 +109,7 @@ std::vector<int> whole_ratios(const std::vector<double> &values, double toleranc
 {
   const double least =
       *std::min_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  constexpr int largest_ratio = 64; // of two frequencies: a longer common period is none that a run shows
   for (int base = 1; base <= largest_ratio; ++base)
   {
     std::vector<int> whole;
@@ -139,7 +128,8 @@ std::vector<int> whole_ratios(const std::vector<double> &values, double toleranc
 
 double common_period(const std::vector<double> &omega)
 {
-  const std::vector<int> whole = whole_ratios(omega, equal_frequencies);
+  constexpr double       equal_frequencies = 1e-9; // relative: rounding of numbers that were written with ten digits
+  const std::vector<int> whole             = whole_ratios(omega, equal_frequencies);
   return whole.empty() ? 0. : 2. * M_PI * whole[0] / omega[0];
 }
 
@@ -153,8 +143,9 @@ VectorXd advance_of(SecondOrderSystem &system, const MethodOptions &integration,
   problem.period = time;
   problem.turn   = VectorXd::Zero(from.q.size());
   problem.most_steps *= 10; // of several periods
-  PeriodFlow flow(problem, integration);
-  VectorXd   before = from.q, on = VectorXd::Ones(from.q.size()), back = on;
+  PeriodFlow    flow(problem, integration);
+  VectorXd      before = from.q, on = VectorXd::Ones(from.q.size()), back = on;
+  constexpr int turn_samples = 256; // of a period: what goes back for less does not go back
   flow.look_on(turn_samples,
                [&](const OrbitPoint &point)
                {
@@ -205,28 +196,35 @@ private:
 
 void FreeMotion::follow()
 {
-  window_ = next_window(flow_, at_, length_);
+  window_                  = next_window(flow_, at_, length_);
+  constexpr double at_rest = 1e-6; // [m/s], [rad/s] slower than any machine swings: such a start is pushed
   if (speeds().norm() <= at_rest)
   {
+    // [m/s], [rad/s] of what rests; the user is told, and may start it otherwise
+    constexpr double push = 1e-3;
     at_.v.array() += push;
     pushed_ = true;
     window_ = next_window(flow_, at_, length_);
   }
-  const double first   = excursion().norm();
-  double       largest = first;
+  const double  first        = excursion().norm();
+  double        largest      = first;
+  constexpr int most_windows = 64; // of 32 periods each: a motion of 0.1 % damping has settled
   for (int w = 1; w < most_windows; ++w)
   {
-    const VectorXd before = excursion();
-    window_               = next_window(flow_, at_, length_);
-    largest               = std::max(largest, excursion().norm());
+    const VectorXd before      = excursion();
+    window_                    = next_window(flow_, at_, length_);
+    largest                    = std::max(largest, excursion().norm());
+    constexpr double runs_away = 1e9; // of the excursions of the first window
     if (!(excursion().norm() < runs_away * first))
       throw NoPeriodicMotion("the machine has no drive, and its oscillation grows without limit: it is unstable; add "
                              "an element that limits its motion, such as a stop or friction");
+    constexpr double rests = 1e-6; // of the largest excursions since the start
     if (excursion().norm() <= rests * largest)
       throw NoPeriodicMotion("the machine has no drive: it comes to rest" +
                              std::string(pushed_ ? " after a disturbance of 0.001 m/s and rad/s" : "") +
                              "; give it a load with harmonics, a motor and a speed in [start], or a larger initial "
                              "state from which it keeps oscillating");
+    constexpr double settled = 1e-3; // change of the largest excursions, of themselves
     if ((excursion() - before).norm() <= settled * excursion().norm())
       return;
   }
@@ -267,6 +265,7 @@ bool FreeMotion::is_oscillation(FreeOscillation &found) const
 
 void FreeMotion::lengthen()
 {
+  constexpr double longer = 8.; // a window without two passages; three times in all
   length_ *= longer;
   window_ = next_window(flow_, at_, length_);
 }
@@ -292,7 +291,8 @@ FreeOscillation free_oscillation(SecondOrderSystem &system, const MethodOptions 
   FreeMotion      motion(problem, integration, from);
   FreeOscillation found;
   motion.follow();
-  bool swings = motion.is_oscillation(found);
+  bool          swings            = motion.is_oscillation(found);
+  constexpr int most_lengthenings = 3;                   // by 8 each: 500 times slower than the lowest frequency
   for (int k = 0; !swings && k < most_lengthenings; ++k) // as relaxation oscillations, far slower than their frequency
   {
     motion.lengthen();
@@ -301,7 +301,8 @@ FreeOscillation free_oscillation(SecondOrderSystem &system, const MethodOptions 
   if (!swings)
     throw NoPeriodicMotion("the machine has no drive, and it moves on without oscillating; add a spring, or give it a "
                            "motor and a speed in [start]");
-  const double size = motion.excursion().norm();
+  const double     size   = motion.excursion().norm();
+  constexpr double larger = 0.1; // share by which a motion is made larger, to see whether it comes back
   motion.enlarge(larger);
   motion.follow();
   if (std::abs(motion.excursion().norm() / size - 1.) > 0.5 * larger)

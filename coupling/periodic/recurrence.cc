@@ -17,15 +17,10 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int    highest_repeats = 16;
-constexpr double closes          = 1e-4; ///< distance of two states, of the fastest speed, at which they are one
-constexpr int    n_batches       = 16;   ///< of periods, for the error of the mean
-constexpr double certain         = 4.;   ///< standard errors
-constexpr double comes_nearer    = 0.01; ///< by which distances fall at least, quarter by quarter, if they do
-constexpr double goes_on         = 1.5;  ///< room that a motion takes in all, of that in its first half, if it drifts
-constexpr double soon_there      = 0.5;  ///< last distances, of the first, of a motion that settles
-constexpr double followed_finely = 1e-9; ///< tolerance of the steps: a section is not read more finely
-constexpr double longest_turn    = 3.;   ///< of the period expected, within which an angle comes round
+constexpr double closes       = 1e-4; ///< distance of two states, of the fastest speed, at which they are one
+constexpr int    n_batches    = 16;   ///< of periods, for the error of the mean
+constexpr double comes_nearer = 0.01; ///< by which distances fall at least, quarter by quarter, if they do
+constexpr double longest_turn = 3.;   ///< of the period expected, within which an angle comes round
 
 /// The periods of a motion one after the other, with a direction d in which a neighbour lies.
 class Follower
@@ -126,12 +121,15 @@ std::array<double, 4> quarters(const VectorXd &distances)
 /// The fewest periods that bring the motion back, now or soon.
 Return return_of(const Eigen::MatrixXd &states, double fastest)
 {
-  bool falls_slowly = false;
+  bool          falls_slowly    = false;
+  constexpr int highest_repeats = 16; // four doublings of the period: beyond them a motion counts as chaotic
   for (int k = 1; k <= highest_repeats; ++k)
   {
     const auto distance = quarters(distances(states, k));
     if (std::max(distance[2], distance[3]) <= closes * fastest)
       return {k, true, false};
+    // last distances, of the first, of a motion that settles: it needs as many periods again for each half
+    constexpr double soon_there = 0.5;
     if (distance[3] < soon_there * distance[0])
       return {k, false, true};
     falls_slowly = falls_slowly || (std::is_sorted(distance.rbegin(), distance.rend()) &&
@@ -153,9 +151,10 @@ bool drifts(Eigen::MatrixXd states, const VectorXd &turns, double fastest)
   for (Index i = 0; i < turns.size(); ++i)
     if (turns[i] != 0.)
       states.row(i).setZero();
-  const Index    half  = states.cols() / 2;
-  const double   first = room(states.leftCols(half)), last = room(states.rightCols(half)), all = room(states);
-  const VectorXd moved = states.rightCols(half).rowwise().mean() - states.leftCols(half).rowwise().mean();
+  const Index      half  = states.cols() / 2;
+  const double     first = room(states.leftCols(half)), last = room(states.rightCols(half)), all = room(states);
+  const VectorXd   moved   = states.rightCols(half).rowwise().mean() - states.leftCols(half).rowwise().mean();
+  constexpr double goes_on = 1.5; // room that a motion takes in all, of that in its first half, if it drifts
   return all > closes * fastest && all > goes_on * first && last > (1. - comes_nearer) * first &&
          moved.norm() > all / 3.;
 }
@@ -176,8 +175,9 @@ std::pair<double, double> mean_of(const VectorXd &terms)
 
 void name(Recurrence &recurrence, const Eigen::MatrixXd &states, const VectorXd &turns, double fastest)
 {
-  const Return back  = return_of(states, fastest);
-  const double doubt = certain * recurrence.error;
+  const Return     back    = return_of(states, fastest);
+  constexpr double certain = 4.; // standard errors: wrong once in 16000
+  const double     doubt   = certain * recurrence.error;
   if (back.closes)
     recurrence.kind = back.repeats == 1 ? "periodic" : "sub-harmonic";
   else if (recurrence.exponent > doubt)
@@ -200,8 +200,9 @@ Recurrence recurrence_of(const PeriodicProblem &problem, const PeriodicGuess &gu
   if (periods < least_section)
     throw std::invalid_argument("a section of " + std::to_string(periods) + " periods is too short; use at least " +
                                 std::to_string(least_section));
-  const PeriodicProblem one         = problem.of_one_period();
-  MethodOptions         integration = options.integration;
+  const PeriodicProblem one             = problem.of_one_period();
+  MethodOptions         integration     = options.integration;
+  constexpr double      followed_finely = 1e-9; // tolerance of the steps: a section is not read more finely
   if (!(integration.step > 0.))
     integration.tolerance = std::max(integration.tolerance, followed_finely);
   Follower follower(one, guess, integration);

@@ -104,17 +104,17 @@ using Eigen::VectorXd;
 
 constexpr int    usual_lead_in = 10;   ///< periods
 constexpr double near_enough   = 0.01; ///< closing error at which the lead-in ends
-constexpr double turn_margin   = 3.;   ///< of the period expected, within which an angle comes round
 constexpr double kick          = 0.5;  ///< of the velocities, for the second start
 constexpr double same          = 1e-4; ///< distance of two motions, of their size, within which they are one
 
 /// One period; the state behind it, whole turns taken off, becomes the next start.
 double one_period(PeriodFlow &flow, const PeriodicProblem &problem, PeriodicGuess &at)
 {
-  const double         expected = at.period > 0. ? at.period : problem.period;
-  const PeriodPassage &passage  = problem.period_is_unknown() ? flow.pass_turn(at.q, at.v, turn_margin * expected)
-                                                              : flow.pass(at.q, at.v, problem.period, false);
-  const VectorXd       q        = passage.q - problem.turn;
+  const double         expected    = at.period > 0. ? at.period : problem.period;
+  constexpr double     turn_margin = 3.; // of the period expected, within which an angle comes round
+  const PeriodPassage &passage     = problem.period_is_unknown() ? flow.pass_turn(at.q, at.v, turn_margin * expected)
+                                                                 : flow.pass(at.q, at.v, problem.period, false);
+  const VectorXd       q           = passage.q - problem.turn;
   const double         error = closing_error(q - at.q, passage.v - at.v, 2. * M_PI / passage.period, passage.fastest);
   at                         = {q, passage.v, passage.period};
   return error;

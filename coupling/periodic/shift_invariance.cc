@@ -23,13 +23,8 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr int    n_samples        = 48;    ///< states; a law with a gap acts in about half of them
-constexpr double turns_about      = 8.;    ///< that angles are shifted by, so that gaps of any size close
-constexpr int    most_turns       = 64;    ///< after which a law of an angle repeats, or a machine
 constexpr double rounding_of_sums = 1e-11; ///< of a sum of products, of the sum of their sizes
 constexpr double same_row         = 1e-9;  ///< of unit rows: what rounding leaves of dependent ones
-constexpr double same_force       = 1e-8;  ///< of forces after up to 64 turns, whose angles are rounded to 1e-13
-constexpr double no_force         = 1e-12; ///< of the largest of all samples
 
 /// Numbers in (-1, 1), the same ones in every run.
 class Numbers
@@ -140,12 +135,14 @@ void AngleInvariance::make_samples(const PeriodicGuess &about, double t)
   const auto &W = system_.forces().directions();
   LocalState  state;
   state.resize(system_);
+  constexpr int n_samples = 48; // states; a law with a gap acts in about half of them
   for (int k = 0; k < n_samples && !laws_.empty(); ++k)
   {
-    state.t = t;
-    state.u = W.transpose() * about.q;
-    state.v = W.transpose() * about.v;
-    const VectorXd shift =
+    state.t                      = t;
+    state.u                      = W.transpose() * about.q;
+    state.v                      = W.transpose() * about.v;
+    constexpr double turns_about = 8.; // that angles are shifted by, so that gaps of any size close
+    const VectorXd   shift =
         VectorXd::NullaryExpr(Index(angles_.size()), [&](Index) { return 2. * M_PI * turns_about * numbers.next(); });
     state.u += to_measures_ * shift;
     for (int i = 0; i < n_u_; ++i)
@@ -228,6 +225,7 @@ void AngleInvariance::look_at_laws()
     for (Index k = 0; k < law.rows.rows(); ++k)
     {
       AngleDependence dependence{law.rows.row(k), 0, law.name};
+      constexpr int   most_turns = 64; // after which a law of an angle repeats, or a machine
       for (int turns = 1; turns <= most_turns && dependence.turns == 0; ++turns)
         if (!changes(law, 2. * M_PI * turns * along.col(k)))
           dependence.turns = turns;
@@ -268,6 +266,8 @@ bool AngleInvariance::changes(const Law &law, const VectorXd &before, const Vect
   const auto a = before.segment(law.first, law.n), b = after.segment(law.first, law.n);
   if (!a.allFinite())
     return false;
+  constexpr double same_force = 1e-8;  // of forces after up to 64 turns, whose angles are rounded to 1e-13
+  constexpr double no_force   = 1e-12; // of the largest of all samples
   return !((a - b).cwiseAbs().maxCoeff() <=
            same_force * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff()) + no_force * largest);
 }

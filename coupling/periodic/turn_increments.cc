@@ -13,8 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_turns_of_period = 64;   ///< of the slowest angle
-constexpr double consistent           = 1e-9; ///< turns
+constexpr double consistent = 1e-9; ///< turns
 constexpr double still      = 1e-9; ///< speed of what does not turn, of the speeds that it is the difference of
 constexpr double not_at_all = 1e-9; ///< share of a coordinate in a shift of unit length
 
@@ -160,7 +159,8 @@ AngleIncrements increments_of(const AngleInvariance &invariance, const VectorXd 
                     " together, but none of these angles alone determines when a revolution is complete";
     return found;
   }
-  std::string first_why;
+  std::string   first_why;
+  constexpr int most_turns_of_period = 64; // of the slowest angle: a longer common period is none that a run shows
   for (int turns = 1; turns <= most_turns_of_period; ++turns)
   {
     std::string why;

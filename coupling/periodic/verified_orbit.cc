@@ -14,38 +14,39 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int    other_order  = 6;    ///< of exact propagation; searches take 8
-constexpr double other_steps  = 1e-9; ///< tolerance; searches take 1e-11
-constexpr double goes_away    = 1e-3; ///< departure of a motion that closes to 1e-7 at worst, with 20 periods of errors
-constexpr double off_a_series = 0.1;  ///< the same of a Fourier series, whose harmonics are few, and of fixed steps
-constexpr double off_a_mode   = 0.5;  ///< the same of averaging, which takes first order of one mode: another motion
-constexpr double all_steps    = 1e3; ///< errors of as many steps add up in a motion that is integrated with a tolerance
-constexpr double finer_steps  = 0.5; ///< of fixed steps
-constexpr double finer_errors = 0.1; ///< of a tolerance
-
 /// Exact propagation by other formulas; of another method, that of [run], by finer steps.
 MethodOptions other_integration(const MethodOptions &of_search)
 {
   if (of_search.method != PeriodicOptions().integration.method)
   {
-    MethodOptions finer = of_search;
+    MethodOptions    finer       = of_search;
+    constexpr double finer_steps = 0.5; // of fixed steps
     finer.step *= finer_steps;
+    constexpr double finer_errors = 0.1; // of a tolerance
     finer.tolerance *= finer_errors;
     return finer;
   }
-  MethodOptions other = options_of("exact", other_order).with("force", "collocation");
-  other.modes         = of_search.modes;
-  other.tolerance     = other_steps;
+  constexpr int other_order    = 6; // of exact propagation; searches take 8
+  MethodOptions other          = options_of("exact", other_order).with("force", "collocation");
+  other.modes                  = of_search.modes;
+  constexpr double other_steps = 1e-9; // tolerance; searches take 1e-11
+  other.tolerance              = other_steps;
   return other;
 }
 
 double largest_departure(const PeriodicSolution &solution)
 {
+  constexpr double off_a_mode = 0.5; // the same of averaging, which takes first order of one mode: another motion
   if (!std::isfinite(solution.residual))
     return off_a_mode;
-  const MethodOptions &steps = solution.integration;
+  const MethodOptions &steps        = solution.integration;
+  constexpr double     off_a_series = 0.1; // the same of a Fourier series, whose harmonics are few, and of fixed steps
   if (solution.series || (steps.step > 0. && !controlled(steps)))
     return off_a_series;
+  // departure of a motion that closes to 1e-7 at worst, with 20 periods of errors
+  constexpr double goes_away = 1e-3;
+  // errors of as many steps add up in a motion that is integrated with a tolerance
+  constexpr double all_steps = 1e3;
   return std::clamp(all_steps * steps.tolerance, goes_away, off_a_series);
 }
 

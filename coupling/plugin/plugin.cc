@@ -32,14 +32,13 @@ bool has_file(const fs::path &file)
   return fs::exists(file, ignored);
 }
 
-constexpr int most_levels = 4; ///< of lib/python3/dist-packages/gestell.so below the prefix
-
 /// Beside the file in a build; installed, in lib/gestell of the prefix that it lies below.
 fs::path plugin_of(const fs::path &file, const char *library)
 {
   fs::path folder = file.parent_path();
   if (has_file(folder / library))
     return folder / library;
+  constexpr int most_levels = 4; // of lib/python3/dist-packages/gestell.so below the prefix
   for (int level = 0; level < most_levels; ++level, folder = folder.parent_path())
     if (const fs::path installed = folder / "lib" / "gestell" / library; has_file(installed))
       return installed;

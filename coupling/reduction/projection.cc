@@ -16,8 +16,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
-
 /// Interfaces with their coordinates counted in p.
 std::vector<fem::Interface> renumbered(std::vector<fem::Interface> interfaces, const std::vector<int> &q1)
 {
@@ -126,7 +124,8 @@ ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basi
 
 void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
-  VectorXd &frequencies = reduced.frequencies_hz;
+  VectorXd        &frequencies      = reduced.frequencies_hz;
+  constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
   if (frequencies.size() == 0 || frequencies(0) > suspiciously_low * frequencies.maxCoeff())
     return;
   reduced.facts.free_motions = fem::free_motions(frame, {});

@@ -21,9 +21,6 @@ constexpr double rounding = 1e-9; ///< of the largest value of a signal: what is
 constexpr double located = 1e-6;
 constexpr double level   = 1e-4; ///< of the largest value, what y' or y'' make of a step: flat to first order
 
-constexpr double known_share = 1e-4; ///< of a derivative of an instant, its error: it has no more figures than its y''
-constexpr double known_time = 1e-6; ///< or of the run's length, what the whole value of a parameter may move it wrongly
-
 const double none = std::numeric_limits<double>::quiet_NaN();
 } // namespace
 
@@ -164,6 +161,10 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
   }
   VectorXd dt  = -turn.d_rate / turn.second;
   bool     far = false, lost = false;
+  // of a derivative of an instant, its error: it has no more figures than its y''
+  constexpr double known_share = 1e-4;
+  // or of the run's length, what the whole value of a parameter may move it wrongly
+  constexpr double known_time = 1e-6;
   for (Index k = 0; k < turn.d_off.size(); ++k)
     if (const double off = std::abs(turn.d_off[k] / turn.second);
         off > known_share * std::abs(dt[k]) && off * std::abs(twins_[std::size_t(k)].value) > known_time * length_)

@@ -17,9 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_points = 500; ///< of the skin, at which shapes are compared
-constexpr double      another     = 0.5; ///< singular value below which a mode has no counterpart
-
 void require_same_structure(const ReducedFrame &at, const ReducedFrame &other)
 {
   bool same = other.n_interface == at.n_interface && other.M.rows() == at.M.rows() &&
@@ -67,8 +64,9 @@ MatrixXd nearest_combination(const ReducedFrame &at, const ReducedFrame &other)
     its << other.M.topRightCorner(n1, m), other.translations_load.bottomRows(m).transpose();
     return (own.cwiseProduct(its)).colwise().sum().cwiseSign().asDiagonal();
   }
-  const std::size_t n   = std::min(at.points.size(), most_points);
-  MatrixXd          own = MatrixXd(Index(3 * n), m), its = own;
+  constexpr std::size_t most_points = 500; // of the skin, at which shapes are compared
+  const std::size_t     n           = std::min(at.points.size(), most_points);
+  MatrixXd              own = MatrixXd(Index(3 * n), m), its = own;
   for (std::size_t i = 0; i < n; ++i)
   {
     const std::size_t here = at.points.size() * i / n, there = nearest(other, at.points[here]);
@@ -86,6 +84,7 @@ MatrixXd turned(const ReducedFrame &at, const ReducedFrame &other)
   if (m == 0)
     return T;
   const Eigen::JacobiSVD<MatrixXd> svd(nearest_combination(at, other), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  constexpr double                 another = 0.5; // singular value below which a mode has no counterpart
   if (!(svd.singularValues().minCoeff() > another))
     throw std::invalid_argument("among the " + std::to_string(m) +
                                 " modes of the frame are different at the other value, because their order changes; "

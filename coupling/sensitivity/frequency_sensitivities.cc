@@ -17,9 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double meet = 1e-7; ///< relative difference of frequencies whose shapes are not told apart
-constexpr double rest = 1e-6; ///< of the highest frequency: it is zero
-
 double amount_of(const Measure &u, const VectorXd &v)
 {
   double sum = 0.;
@@ -140,8 +137,10 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j)
     return "it is a free motion with frequency zero";
   if (modes[j].growth != 0.) // its partner may be no longer among them
     return "the mode flutters";
+  constexpr double rest = 1e-6; // of the highest frequency: it is zero
   if (f <= rest * modes.back().frequency_hz)
     return "the frequency is zero compared with the highest one";
+  constexpr double meet = 1e-7; // relative difference of frequencies whose shapes are not told apart
   for (const std::size_t other : {j - 1, j + 1})
     if (other < modes.size() && std::abs(modes[other].frequency_hz - f) <= meet * f)
       return "mode " + std::to_string(other + 1) + " has the same frequency";

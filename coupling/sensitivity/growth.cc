@@ -14,20 +14,16 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double early      = 0.1;  ///< of the run
-constexpr double too_far    = 10.;  ///< ways that a coordinate is moved by one percent
-constexpr double at_rest    = 1e-6; ///< of the largest momentum of a way: the coordinate does not move
-constexpr double takes_part = 1e-3; ///< of the largest of the derivative
-constexpr double believed   = 0.1;  ///< of its way, up to which first order is believed
 } // namespace
 
 Growth::Growth(const Machine &machine, const VectorXd &mass, const Trajectory &trajectory,
                const std::vector<ParameterTwins> &twins)
     : machine_(machine), twins_(twins), root_mass_(mass.cwiseMax(0.).cwiseSqrt()), largest_(twins.size())
 {
-  const auto  &pieces = trajectory.pieces();
-  const double begin = pieces.front().nodes.front().t, end = pieces.back().nodes.back().t;
-  first_       = begin + early * (end - begin);
+  const auto      &pieces = trajectory.pieces();
+  const double     begin = pieces.front().nodes.front().t, end = pieces.back().nodes.back().t;
+  constexpr double early = 0.1; // of the run
+  first_                 = begin + early * (end - begin);
   VectorXd low = pieces.front().nodes.front().q, high = low;
   for (const SmoothPiece &piece : pieces)
     for (const MotionNode &node : piece.nodes)
@@ -37,7 +33,8 @@ Growth::Growth(const Machine &machine, const VectorXd &mass, const Trajectory &t
     }
   way_ = high - low;
   way_.head(way_.size() - machine.model().n_mechanism()).setZero();
-  const VectorXd weights = root_mass_.cwiseProduct(way_);
+  const VectorXd   weights = root_mass_.cwiseProduct(way_);
+  constexpr double at_rest = 1e-6; // of the largest momentum of a way: the coordinate does not move
   for (Index i = 0; i < way_.size(); ++i)
     if (weights[i] <= at_rest * weights.maxCoeff())
       way_[i] = 0.;
@@ -50,6 +47,7 @@ void Growth::look(double t, const Eigen::MatrixXd &s)
     const VectorXd weights = root_mass_.cwiseProduct(s.col(Index(k)).cwiseAbs());
     for (Index i = 0; i < way_.size(); ++i)
     {
+      constexpr double takes_part = 1e-3; // of the largest of the derivative
       if (!(way_[i] > 0.) || !(weights[i] > takes_part * weights.maxCoeff()))
         continue;
       Largest     &most  = largest_[k];
@@ -71,12 +69,14 @@ std::vector<std::string> Growth::warnings() const
   std::vector<std::string> sentences;
   for (std::size_t k = 0; k < largest_.size(); ++k)
   {
-    const Largest &most = largest_[k];
+    const Largest   &most    = largest_[k];
+    constexpr double too_far = 10.; // ways that a coordinate is moved by one percent
     if (!(one_percent * most.ratio > too_far))
       continue;
-    const std::string grown = most.early > 0. ? "; since the first tenth of the run it grew by a factor of " +
+    const std::string grown    = most.early > 0. ? "; since the first tenth of the run it grew by a factor of " +
                                                     short_text(most.ratio / most.early, 2)
-                                              : "";
+                                                 : "";
+    constexpr double  believed = 0.1; // of its way, up to which first order is believed
     sentences.push_back(
         "1 % of " + twins_[k].key + " would move " + machine_.coordinate_name(int(most.coordinate)) + " at t = " +
         short_text(most.t) + " s by " + short_text(one_percent * most.ratio, 2) + " times its total travel" + grown +

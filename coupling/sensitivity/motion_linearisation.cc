@@ -13,14 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double bend  = 1e-6; ///< of the size of a joint, by which its measures are moved
 constexpr double shift = 1e-7; ///< of the size of an element, likewise
-constexpr double wider = 3.;   ///< times as far for quotients that tell how well the others are known
-constexpr double sure =
-    10.; ///< times what quotients of both differ by, and rounding: a difference that is none of theirs
-constexpr double digit = 1e-15; ///< of the terms of a force, their rounding
-constexpr double slow  = 1e-3;  ///< [m/s, rad/s] speed below which measures are moved as if they had it: quotients with
-                                ///< wider ways tell whether that was right
 
 /// (plus - minus)/2 step as a sparse matrix; empty if it is zero.
 Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, const Eigen::SparseMatrix<double> &plus,
@@ -266,8 +259,11 @@ void MotionLinearisation::add_rates(const MotionState &state, double way, Linear
 /// By which a measure of a block, or its rate, is moved for quotients.
 double MotionLinearisation::way(const ForceBlock &block, int measure, bool rates, const LocalState &local)
 {
-  const double x    = std::abs(rates ? local.v[measure] : local.u[measure]);
-  const double size = rates ? slow : block.size > 0. ? block.size : 1.;
+  const double x = std::abs(rates ? local.v[measure] : local.u[measure]);
+  // [m/s, rad/s] speed below which measures are moved as if they had it: quotients with wider ways tell whether that
+  // was right
+  constexpr double slow = 1e-3;
+  const double     size = rates ? slow : block.size > 0. ? block.size : 1.;
   return shift * std::max(x, size);
 }
 
@@ -317,6 +313,7 @@ void MotionLinearisation::find_inexact(const MotionState &state)
   machine_.forces().derivatives(state.local, product_, reported.P_u, reported.P_v);
   const std::vector<char> all(blocks_.size(), 1);
   differentiate(state, all, 1., seen);
+  constexpr double wider = 3.; // times as far for quotients that tell how well the others are known
   differentiate(state, all, wider, wide);
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (const bool rates : {false, true})
@@ -328,8 +325,11 @@ void MotionLinearisation::find_inexact(const MotionState &state)
                    std::abs(reported.P_v(i, j)) * way(blocks_[b], j, true, state.local) / shift;
         for (int j = blocks_[b].first_measure; j < blocks_[b].first_measure + blocks_[b].n_measures; ++j)
         {
-          const auto   of       = [&](const Linearised &at) { return (rates ? at.P_v : at.P_u)(i, j); };
-          const double rounding = digit * terms / way(blocks_[b], j, rates, state.local);
+          const auto       of       = [&](const Linearised &at) { return (rates ? at.P_v : at.P_u)(i, j); };
+          constexpr double digit    = 1e-15; // of the terms of a force, their rounding
+          const double     rounding = digit * terms / way(blocks_[b], j, rates, state.local);
+          // times what quotients of both differ by, and rounding: a difference that is none of theirs
+          constexpr double sure = 10.;
           if (!(std::abs(of(reported) - of(seen)) <= sure * (std::abs(of(seen) - of(wide)) + rounding)))
             inexact_[b] = 1;
         }
@@ -405,7 +405,8 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
   {
     const auto way = [&](const ConstraintBlock &block)
     {
-      const double size = block.size > 0. ? block.size : 1.;
+      const double     size = block.size > 0. ? block.size : 1.;
+      constexpr double bend = 1e-6; // of the size of a joint, by which its measures are moved
       return bend * (of_u ? size : std::max(size, std::abs((state.local.*moved)[block.first_measure + j])));
     };
     const auto move = [&](double sign)

@@ -24,13 +24,8 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double finest = 1e-8, coarse = 1e-6; ///< tolerances of a step of the variational equations
-constexpr double of_fixed_steps = 1e-5;        ///< likewise, of runs by fixed steps of order 1 or 2
-constexpr double little         = 0.02;        ///< of their step, over which rates in time are taken
-constexpr double same_time      = 1e-9;        ///< of the run's length
-constexpr double jump           = 1e-6;        ///< of the fastest coordinate: velocities that differ by more jump
-constexpr double touching       = 1e-4;        ///< of what a guard moves in a step, its rate: it touches its zero only
-constexpr double expected = 0.01; ///< relative change of the motion by that of a parameter: less need not be exact
+constexpr double little    = 0.02; ///< of their step, over which rates in time are taken
+constexpr double same_time = 1e-9; ///< of the run's length
 
 /// The run gone over once more, with its derivatives.
 class Passage
@@ -72,8 +67,10 @@ private:
 /// Derivatives are no better than the motion they follow.
 double tolerance_for(const MethodOptions &method)
 {
+  constexpr double finest = 1e-8, coarse = 1e-6; // tolerances of a step of the variational equations
   if (controlled(method))
     return std::clamp(100. * method.tolerance, finest, coarse);
+  constexpr double of_fixed_steps = 1e-5; // likewise, of runs by fixed steps of order 1 or 2
   return method.order > 2 ? finest : of_fixed_steps;
 }
 
@@ -161,6 +158,7 @@ void Passage::expect()
   RowVectorXd per_value(K_);
   for (int k = 0; k < K_; ++k)
     per_value[k] = 1. / std::abs(problem_.twins[std::size_t(k)].value);
+  constexpr double expected = 0.01; // relative change of the motion by that of a parameter: less need not be exact
   steps_.expect(expected * (high - low) * per_value, expected * fast * per_value);
   if (controlled(problem_.options.method))
     steps_.separate_shifts(high - low, fast, length_of(problem_.options) / one_percent * per_value);
@@ -211,6 +209,7 @@ RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state,
   }
   const double moves = std::abs(guard_at(steps_.step()) - guard_at(-steps_.step())) +
                        std::abs(guard_at(steps_.step()) + guard_at(-steps_.step()));
+  constexpr double touching = 1e-4; // of what a guard moves in a step, its rate: it touches its zero only
   if (!(std::abs(rate) * steps_.step() > touching * moves))
   {
     const ActiveGuard  active = machine_.events().guard(guard);
@@ -282,7 +281,8 @@ void Passage::take_events(std::size_t number)
   lambda_ = state.local.lambda;
   if (number + 1 < problem_.trajectory.pieces().size())
   {
-    VectorXd change = problem_.trajectory.pieces()[number + 1].nodes.front().v - state.v;
+    VectorXd         change = problem_.trajectory.pieces()[number + 1].nodes.front().v - state.v;
+    constexpr double jump   = 1e-6; // of the fastest coordinate: velocities that differ by more jump
     for (const int i : equation_.lags())
     {
       if (std::abs(change[i]) > jump * state.v.cwiseAbs().maxCoeff() && dt_.cwiseAbs().maxCoeff() > 0.)

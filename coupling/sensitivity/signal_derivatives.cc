@@ -17,19 +17,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double      longest = 0.32, shorter = 0.25; ///< ways of rates: of a step, and from one to the next
-constexpr std::size_t ways      = 8;
 constexpr double      epsilon   = std::numeric_limits<double>::epsilon();
-constexpr std::size_t stretches = 8;     ///< of sigma, each four times as long as the one before
-constexpr double      accurate  = 1e-4;  ///< of y'', its error
-constexpr int         most      = 3;     ///< of Newton's steps to where a signal turns
-constexpr double      arrived   = 1e-3;  ///< of a way: no step is needed
-constexpr double      same      = 0.25;  ///< share within which a jump is the same over both of two ways
-constexpr double      of_values = 1e-13; ///< of the largest value of a signal, rounding of one value
-constexpr double      distinct  = 30.;   ///< times its rounding is a jump at least
+constexpr std::size_t stretches = 8;    ///< of sigma, each four times as long as the one before
+constexpr double      accurate  = 1e-4; ///< of y'', its error
 
 /// What a signal does over the two shortest ways is a jump: it does not become less with the way.
 bool jumps(double at_far, double at_near, double rounding)
 {
+  constexpr double same     = 0.25; // share within which a jump is the same over both of two ways
+  constexpr double distinct = 30.;  // times its rounding is a jump at least
   return std::abs(at_near) > distinct * rounding && std::abs(at_far - at_near) < same * std::abs(at_near);
 }
 
@@ -229,7 +225,8 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   };
   const auto   y    = [&](const MotionState &m) { return machine_.evaluate(signals_[signal], m.q, m.v, m.a, m.local); };
   const double here = y(at);
-  std::vector<Over> over;
+  std::vector<Over>     over;
+  constexpr std::size_t ways = 8; // from 0.32 to 2e-5 of a step: beyond, rounding of second differences is all
   for (double way = longest * step; over.size() < ways; way *= shorter)
   {
     const Course on     = course(at, way);
@@ -252,15 +249,16 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   const double rounds = best + 2 < ways ? differ(best + 1) * shorter * shorter : differ(best);
   found.off           = std::min(rounds, differ(best));
   best += 2. * rounds < differ(best) ? 1 : 0;
-  const Over  &last = over[ways - 1], &but_one = over[ways - 2];
-  const double rounding = of_values * size;
-  found.rate            = over[best].rate;
-  found.second          = over[best].second;
-  found.before          = last.before;
-  found.after           = last.after;
-  found.kink            = jumps(but_one.jump, last.jump, rounding) ? Kink::jump
-                          : jumps(but_one.after - but_one.before, last.after - last.before, rounding / last.way) ? Kink::corner
-                                                                                                                 : Kink::none;
+  const Over      &last = over[ways - 1], &but_one = over[ways - 2];
+  constexpr double of_values = 1e-13; // of the largest value of a signal, rounding of one value
+  const double     rounding  = of_values * size;
+  found.rate                 = over[best].rate;
+  found.second               = over[best].second;
+  found.before               = last.before;
+  found.after                = last.after;
+  found.kink                 = jumps(but_one.jump, last.jump, rounding) ? Kink::jump
+                               : jumps(but_one.after - but_one.before, last.after - last.before, rounding / last.way) ? Kink::corner
+                                                                                                                      : Kink::none;
   const bool slow = !found.known() && found.kink == Kink::none && find_slow_turn(signal, at, longest * step, found);
   return slow ? longest * step : over[best].way;
 }
@@ -355,11 +353,13 @@ void SignalDerivatives::find_d_rates(std::size_t signal, const MotionState &at, 
 
 Turn SignalDerivatives::turn(std::size_t signal, MotionState at, MotionColumns columns, double step, double size)
 {
-  Turn   found;
-  double way = find_turn(signal, at, step, size, found);
+  Turn          found;
+  double        way  = find_turn(signal, at, step, size, found);
+  constexpr int most = 3; // of Newton's steps to where a signal turns
   for (int k = 0; k < most; ++k)
   {
-    const double by = -found.rate / found.second;
+    const double     by      = -found.rate / found.second;
+    constexpr double arrived = 1e-3; // of a way: no step is needed
     if (!found.known() || !(std::abs(by) < step) || std::abs(by) < arrived * way)
       break;
     at      = moved(at, course(at, way), by);

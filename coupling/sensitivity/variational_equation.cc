@@ -13,15 +13,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index       largest_inverse = 200; ///< coordinates of systems whose A^-1 is kept
-constexpr std::size_t most_bases      = 64;  ///< factors kept
 } // namespace
 
 VariationalEquation::VariationalEquation(Machine &machine, const std::vector<ParameterTwins> &twins)
     : machine_(machine), linearisation_(machine, twins), n_parameters_(int(twins.size())),
       lags_(machine.linear().virtual_coordinates())
 {
-  const Index n = machine.size();
+  const Index     n               = machine.size();
+  constexpr Index largest_inverse = 200; // coordinates of systems whose A^-1 is kept: it fits a cache
   if (n > largest_inverse || !machine.linear().dense_matrices(M_, B_, C_))
     for (MatrixXd *matrix : {&M_, &B_, &C_})
       matrix->resize(0, 0);
@@ -62,6 +61,7 @@ const VariationalEquation::Base &VariationalEquation::base(double c)
   const auto found = bases_.find(c);
   if (found != bases_.end())
     return found->second;
+  constexpr std::size_t most_bases = 64; // factors kept: each is as large as a matrix
   if (bases_.size() >= most_bases)
     bases_.clear();
   Base        made;

@@ -25,22 +25,8 @@ constexpr double weights[5][4] = {{0., 0., 0., 0.},
                                   {25. / 24., -49. / 48., 125. / 16., -85. / 12.}};
 /// Weights of the method less those of the embedded one.
 constexpr double differences[5] = {25. / 24. - 59. / 48., -49. / 48. + 17. / 96., 125. / 16. - 225. / 32., 0., 1. / 4.};
-constexpr double nearly         = 1.0001;   ///< steps: what is left is one step, not one and a hair
-constexpr double same_instant   = 1e-9;     ///< of the distance of nodes
-constexpr double weak           = 0.1;      ///< coordinates that move less, in the norm of the mass, count as that
-constexpr double growth         = 1. / 32.; ///< error of a step whose double is tried next: half of 2^-4
-constexpr double shortest_share = 1. / 16.; ///< of the distance of nodes: the motion in between is no better known
-constexpr double longest_told   = 4.;       ///< steps of the run against those here: beyond, differences tell nothing
-constexpr double time_share     = 0.01;     ///< of a step, over which rates by the time itself are taken
-constexpr double small_rest     = 0.01;  ///< of s, in a shift: else errors of the run, times tau, count little in peaks
-constexpr double still_share    = 1e-12; ///< of the largest way, in the norm of the mass: less is rounding
-constexpr int    most_halvings  = 30;
-constexpr std::size_t looks     = 7;        ///< at a piece at least, for what acts on it
-constexpr std::size_t nodes_of_a_look = 20; ///< what is zero at each look and acts between them lasts no longer
 
 constexpr int middle = 3; ///< stage at half a step
-
-constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The equations without what parameters change.
 Linearised homogeneous(const Linearised &at)
@@ -92,7 +78,8 @@ void PieceReader::read(double close, MotionState &state)
   while (here_ > 0 && t < nodes[here_].t)
     --here_;
   const MotionNode &a = nodes[here_], &b = nodes[std::min(here_ + 1, nodes.size() - 1)];
-  const double      h = b.t - a.t;
+  const double      h            = b.t - a.t;
+  constexpr double  same_instant = 1e-9; // of the distance of nodes
   for (const MotionNode *node : {&a, &b})
     if (std::abs(t - node->t) <= same_instant * h || h == 0.)
     {
@@ -150,6 +137,8 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
 void VariationalSteps::look_along(const SmoothPiece &piece)
 {
   std::vector<MotionState> passed;
+  constexpr std::size_t    looks           = 7;  // at a piece at least, for what acts on it
+  constexpr std::size_t    nodes_of_a_look = 20; // what is zero at each look and acts between them lasts no longer
   const std::size_t        last = piece.nodes.size() - 1, n = std::max(looks, last / nodes_of_a_look);
   for (std::size_t i = 0; i <= n; ++i)
   {
@@ -174,8 +163,9 @@ void VariationalSteps::separate_shifts(const VectorXd &way, const VectorXd &spee
 {
   longest_               = longest;
   const double   largest = root_mass_.cwiseProduct(way).maxCoeff(), fastest = root_mass_.cwiseProduct(speed).maxCoeff();
-  const VectorXd none = VectorXd::Zero(way.size());
-  per_way_            = (root_mass_.cwiseProduct(way).array() > still_share * largest).select(way.cwiseInverse(), none);
+  const VectorXd none          = VectorXd::Zero(way.size());
+  constexpr double still_share = 1e-12; // of the largest way, in the norm of the mass: less is rounding
+  per_way_   = (root_mass_.cwiseProduct(way).array() > still_share * largest).select(way.cwiseInverse(), none);
   per_speed_ = (root_mass_.cwiseProduct(speed).array() > still_share * fastest).select(speed.cwiseInverse(), none);
 }
 
@@ -224,6 +214,8 @@ void VariationalSteps::split()
                         per_speed_.cwiseProduct(s_rate).dot(per_speed_.cwiseProduct(state_.a))) /
                        moving;
     const VectorXd q = s - tau * state_.v, v = s_rate - tau * state_.a;
+    // of s, in a shift: else errors of the run, times tau, count little in peaks
+    constexpr double small_rest = 0.01;
     if (!(square(q, v) <= small_rest * small_rest * square(s, s_rate) && std::abs(tau) <= longest_[k]))
       continue;
     shift_[k]      = tau;
@@ -251,14 +243,17 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
   {
     if (stop && stop->load(std::memory_order_relaxed))
       return false;
-    const double from   = state_.t;
-    const double left   = t - from;
-    const bool   last   = left <= nearly * step_;
-    const double length = last ? left : step_;
-    const bool   made   = try_step(last ? t : from + length);
-    const double err    = error(length);
+    const double     from           = state_.t;
+    const double     left           = t - from;
+    constexpr double nearly         = 1.0001; // steps: what is left is one step, not one and a hair
+    const bool       last           = left <= nearly * step_;
+    const double     length         = last ? left : step_;
+    const bool       made           = try_step(last ? t : from + length);
+    const double     err            = error(length);
+    constexpr double shortest_share = 1. / 16.; // of the distance of nodes: the motion in between is no better known
     if (!made || (!(err <= 1.) && length > shortest_share * reader_.spacing()))
     {
+      constexpr int most_halvings = 30; // 2^-30 of a step is the rounding of its time
       if (++halvings > most_halvings)
         throw ConvergenceFailure("the derivatives of the motion cannot be integrated beyond t = " +
                                  std::to_string(from) + " s: their steps became too short");
@@ -277,6 +272,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
       equation_.close_joints(homogeneous(at_), left_);
     ++n_steps_;
     split();
+    constexpr double growth = 1. / 32.; // error of a step whose double is tried next: half of 2^-4
     if (!last && (err < growth || 2. * step_ <= shortest_share * reader_.spacing()))
       step_ *= 2.;
   }
@@ -294,6 +290,7 @@ bool VariationalSteps::try_step(double to)
     stage_state_.t = i == n_stages - 1 ? to : from + at_shares[i] * H;
     reader_.read(0.25 * H, stage_state_);
     equation_.linearisation().complete(stage_state_);
+    constexpr double time_share = 0.01; // of a step, over which rates by the time itself are taken
     equation_.linearisation().linearise(stage_state_, stage_at_, shifted ? time_share * H : 0.);
     if (leaves_ && i == middle)
     {
@@ -359,13 +356,15 @@ void VariationalSteps::note_accuracy(double error, double length)
   }
   if (run_order_ > 0)
   {
-    const double h = std::min(run_step_, longest_told * length);
+    constexpr double longest_told = 4.; // steps of the run against those here: beyond, differences tell nothing
+    const double     h            = std::min(run_step_, longest_told * length);
     for (const auto &[e, f] : {std::pair(&e_q_, &v_), std::pair(&e_v_, &a_)}) // stages 0, 3, 1: a quarter step apart
       *e = run_order_ == 1 ? MatrixXd(h * ((*f)[1] - (*f)[0]))
                            : MatrixXd(16. / 3. * h * h / length * ((*f)[0] - 2. * (*f)[3] + (*f)[1]));
     of_run_ += relative_sizes(e_q_, e_v_);
   }
-  accuracy_.off = accuracy_.off.cwiseMax(of_run_ + settled_ + relative_sizes(left_.q, left_.v));
+  accuracy_.off          = accuracy_.off.cwiseMax(of_run_ + settled_ + relative_sizes(left_.q, left_.v));
+  constexpr double never = std::numeric_limits<double>::infinity();
   if (accuracy_.off.maxCoeff() > accuracy_.believed && accuracy_.after == never)
     accuracy_.after = state_.t;
 }
@@ -377,7 +376,8 @@ Eigen::RowVectorXd VariationalSteps::relative_sizes(const MatrixXd &e_q, const M
   for (const auto &[e, before, now] : {std::tuple(&e_q, &size_q_, &stage_.q), std::tuple(&e_v, &size_v_, &stage_.v)})
     for (Index k = 0; k < e->cols(); ++k)
     {
-      double floor = 0.;
+      double           floor = 0.;
+      constexpr double weak  = 0.1; // coordinates that move less, in the norm of the mass, count as that
       for (Index i = 0; i < e->rows(); ++i)
         floor = std::max(floor, weak * root_mass_[i] * std::max((*before)(i, k), std::abs((*now)(i, k))));
       for (Index i = 0; i < e->rows(); ++i)

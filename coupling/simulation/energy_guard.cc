@@ -10,13 +10,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-constexpr double little = 0.01, nowhere = 0.5; ///< shares of E: an error to speak of; energy that came from nowhere
-constexpr double all      = 1.5; ///< more than the motion has can only be lost where it never was; E is known to a half
-constexpr double of_begin = 1e-6; ///< what iterations leave of the energy at the start
-} // namespace
-
 void EnergyGuard::step(const EnergyState &state, double size)
 {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -43,9 +36,13 @@ double EnergyGuard::residual() const
 
 EnergyGuard::Verdict EnergyGuard::verdict() const
 {
-  const double E = exchanged(), negligible = std::max(double(steps_) * rounding_, of_begin * std::abs(at_begin_));
+  constexpr double of_begin = 1e-6; // what iterations leave of the energy at the start
+  const double     E = exchanged(), negligible = std::max(double(steps_) * rounding_, of_begin * std::abs(at_begin_));
+  constexpr double little = 0.01, nowhere = 0.5; // shares of E: an error to speak of; energy that came from nowhere
   if (residual() <= std::max(little * E, negligible))
     return Verdict::closed;
+  // more than the motion has can only be lost where it never was; E is known to a half
+  constexpr double all = 1.5;
   return gain_ > std::max(nowhere * E, negligible) || loss_ > std::max(all * E, negligible) ? Verdict::no_motion
                                                                                             : Verdict::open;
 }

@@ -17,11 +17,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double brief = 1e-9; ///< share of the step before: what lasts shorter lies within the resolution of events
-constexpr long   close_pictures = 8, close_steps = 4; ///< behind an event: pictures a step of the grid, steps of it
-constexpr long   close_least            = 100;        ///< of these in a run at least, else as many as the grid makes
-constexpr std::size_t most_event_values = 1000;
-constexpr double      on_grid           = 1e-9; ///< share of the grid's step within which an instant is a point of it
+constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
 
 /// @throws ConvergenceFailure
 void require_finite(const std::vector<Signal> &signals, const SignalSample &sample)
@@ -103,7 +99,8 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
   if (picture_step_ > 0.)
   {
     result.picture_states.reserve(static_cast<std::size_t>(length / picture_step_ + 2.));
-    close_budget_ = std::max(close_least, static_cast<long>(length / picture_step_));
+    constexpr long close_least = 100; // of these in a run at least, else as many as the grid makes
+    close_budget_              = std::max(close_least, static_cast<long>(length / picture_step_));
   }
 }
 
@@ -160,6 +157,7 @@ void Recorder::step()
   const double begin = integrator_.step_begin(), end = integrator_.time();
   if (!(end > begin))
     return;
+  constexpr double brief = 1e-9; // share of the step before: what lasts shorter lies within the resolution of events
   if (pending_ && end - begin < brief * length_)
   {
     follow_briefly();
@@ -204,6 +202,7 @@ void Recorder::event(const Event &event)
 
 void Recorder::values_before()
 {
+  constexpr std::size_t most_event_values = 1000; // of a run: those of chattering contacts would fill the memory
   if (result_.event_values.size() == most_event_values)
     return;
   EventValues at;
@@ -261,8 +260,9 @@ void Recorder::pictures()
 {
   if (!(picture_step_ > 0.))
     return;
-  const double end = integrator_.time() + on_grid * picture_step_;
-  const auto   at  = [&](long n) { return options_.begin + double(n) / close_pictures * picture_step_; };
+  const double   end            = integrator_.time() + on_grid * picture_step_;
+  constexpr long close_pictures = 8; // after an event: pictures a step of the grid, of what rings faster than it
+  const auto     at             = [&](long n) { return options_.begin + double(n) / close_pictures * picture_step_; };
   for (double t; (t = at(next_picture_)) <= end; ++next_picture_)
     if (next_picture_ % close_pictures == 0)
       picture(t);
@@ -302,7 +302,8 @@ void Recorder::picture_event()
   const double t = integrator_.time();
   if (!(picture_step_ > 0.) || close_budget_ <= 0)
     return;
-  close_until_ = t + close_steps * picture_step_;
+  constexpr long close_steps = 4; // of the grid, which are shown so
+  close_until_               = t + close_steps * picture_step_;
   if (result_.picture_times.empty() || t > result_.picture_times.back() + on_grid * picture_step_)
   {
     --close_budget_;

@@ -9,11 +9,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-constexpr double share_of_motion = 0.01, share_of_begin = 1e-6; ///< that rounding may do as work
-} // namespace
-
 void RoundingGuard::step(const Eigen::VectorXd &q)
 {
   if (least_.size() != q.size())
@@ -30,9 +25,10 @@ void RoundingGuard::finish(const LinearSystem &system, double exchanged, double 
   Eigen::MatrixXd M, B, C;
   if (least_.size() == 0 || !system.dense_matrices(M, B, C))
     return;
-  const Eigen::VectorXd size  = least_.cwiseAbs().cwiseMax(most_.cwiseAbs()),
-                        force = std::numeric_limits<double>::epsilon() * (C.cwiseAbs() * size),
-                        work  = force.cwiseProduct(most_ - least_);
+  const Eigen::VectorXd size       = least_.cwiseAbs().cwiseMax(most_.cwiseAbs()),
+                        force      = std::numeric_limits<double>::epsilon() * (C.cwiseAbs() * size),
+                        work       = force.cwiseProduct(most_ - least_);
+  constexpr double share_of_motion = 0.01, share_of_begin = 1e-6; // that rounding may do as work
   if (!(work.sum() > share_of_motion * exchanged && work.sum() > share_of_begin * std::abs(at_begin)))
     return;
   Eigen::Index worst;

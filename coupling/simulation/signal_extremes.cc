@@ -13,16 +13,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    window   = 5;     ///< samples of a fourth difference
-constexpr double missed   = 5e-5;  ///< epsilon
-constexpr double at_rest  = 1e-6;  ///< of what others of its unit range over: a signal that moves less does not move
-constexpr double rounding = 1e-11; ///< of a value: fourth differences of its rounding are epsilon times that
-constexpr double nearby   = 0.25;  ///< a parabola errs by about that share of its length about a peak at its end
-constexpr int    deepest  = 16;    ///< pieces of a step, where `shortest` allows no more
-constexpr int    most     = 4096;  ///< samples in a step
-
-/// Not evenly spaced: a motion whose period is a quarter of the step would not be seen.
-constexpr double pieces[] = {0.23, 0.52, 0.74};
+constexpr int window  = 5;  ///< samples of a fourth difference
+constexpr int deepest = 16; ///< pieces of a step, where `shortest` allows no more
 
 struct Point
 {
@@ -35,9 +27,10 @@ bool maximum(const Point &a, const Point &b, const Point &c, Point &top)
   const double rise = (b.f - a.f) / (b.t - a.t), curvature = ((c.f - b.f) / (c.t - b.t) - rise) / (c.t - a.t);
   if (!(curvature < 0.))
     return false;
-  top.t               = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
-  top.f               = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
-  const double margin = nearby * (c.t - a.t);
+  top.t                   = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+  top.f                   = a.f + (top.t - a.t) * (rise + curvature * (top.t - b.t));
+  constexpr double nearby = 0.25; // a parabola errs by about that share of its length about a peak at its end
+  const double     margin = nearby * (c.t - a.t);
   return top.t > a.t - margin && top.t < c.t + margin;
 }
 
@@ -141,6 +134,8 @@ void SignalExtremes::append(double t)
 
 void SignalExtremes::divide(double begin, double end)
 {
+  // Not evenly spaced: a motion whose period is a quarter of the step would not be seen.
+  constexpr double pieces[] = {0.23, 0.52, 0.74};
   for (const double piece : pieces)
     append(begin + piece * (end - begin));
 }
@@ -150,7 +145,8 @@ void SignalExtremes::refine(double shortest)
 {
   for (int first = begin_; first + window <= n_;)
   {
-    const double piece = 0.25 * (samples_[first + window - 1].t - samples_[first].t);
+    const double  piece = 0.25 * (samples_[first + window - 1].t - samples_[first].t);
+    constexpr int most  = 4096; // samples in a step
     if (piece > shortest && n_ < begin_ + most && rough(first))
       halve(first);
     else
@@ -192,6 +188,8 @@ double SignalExtremes::range(std::size_t signal) const
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (like_[i] == like_[signal])
       widest = std::max(widest, own(i));
+  constexpr double at_rest  = 1e-6;  // of what others of its unit range over: a signal that moves less does not move
+  constexpr double rounding = 1e-11; // of a value: fourth differences of its rounding are epsilon times that
   return std::max({own(signal), at_rest * widest, rounding * value});
 }
 
@@ -215,7 +213,8 @@ bool SignalExtremes::rough(int first) const
     double difference = 0.;
     for (int j = 0; j < window; ++j)
       difference += weight[j] * s[j].values[i];
-    const double missing = std::abs(difference) / missed;
+    constexpr double missed  = 5e-5; // epsilon
+    const double     missing = std::abs(difference) / missed;
     if (counts(i) && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
       return true;
   }

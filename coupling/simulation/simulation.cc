@@ -33,8 +33,6 @@ struct KeptBytes
   double history, pictures, states;
 };
 
-constexpr double most_bytes = 1e9; ///< what a laptop has to spare
-
 template <typename... Parts>
 [[noreturn]] void too_large(const Parts &...parts)
 {
@@ -64,6 +62,7 @@ void require_size(const Machine &machine, const RunOptions &options, std::size_t
     too_large("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
               options.picture_step, " s, or say output.allow_large = true if that is what you want");
   const auto [history, pictures, states] = kept_bytes(machine, options, n_signals);
+  constexpr double most_bytes            = 1e9; // what a laptop has to spare
   if (!options.allow_large && states > most_bytes)
     too_large("the run would keep ", states / 1e9,
               " GB of states to look for the largest stress; give output.stress.step ", "a larger value than ",

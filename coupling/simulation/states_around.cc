@@ -13,10 +13,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double      parts_of_run = 20000., coarser = 8.;
-constexpr int         n_scales = 3;
-constexpr std::size_t reach    = 96;   ///< states of a scale on either side of an extreme
-constexpr double      rounded  = 1e-9; ///< of a spacing
+constexpr std::size_t reach   = 96;   ///< states of a scale on either side of an extreme
+constexpr double      rounded = 1e-9; ///< of a spacing
 
 } // namespace
 
@@ -27,7 +25,10 @@ StatesAround::StatesAround(const Machine &machine, const TimeIntegrator &integra
 {
   if (wanted_.empty())
     return;
-  double spacing = (options.end - options.begin) / parts_of_run;
+  constexpr double parts_of_run = 20000.; // as fine as pictures of a shock need
+  constexpr double coarser      = 8.;     // from scale to scale
+  double           spacing      = (options.end - options.begin) / parts_of_run;
+  constexpr int    n_scales     = 3; // 1/20000, 1/2500 and 1/300 of the run: blows, their echoes, swings
   for (int i = 0; i < n_scales; ++i, spacing *= coarser)
   {
     scales_.push_back({spacing});

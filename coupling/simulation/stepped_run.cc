@@ -21,9 +21,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double no_time      = 1e-9; ///< share of a step that rounding may leave
-constexpr double same_instant = 1e-6; ///< share of a step within which two instants are told as one
-constexpr long   first_look   = 64;   ///< steps: no run is judged by fewer than the 50 of the longest controlled ones
+constexpr double no_time    = 1e-9; ///< share of a step that rounding may leave
+constexpr long   first_look = 64;   ///< steps: no run is judged by fewer than the 50 of the longest controlled ones
 
 /// The driver cannot tell, as it knows no end.
 LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOptions &options,
@@ -95,6 +94,7 @@ void SteppedRun::event(const Event &event)
 
 bool SteppedRun::is_now(double t) const
 {
+  constexpr double same_instant = 1e-6; // share of a step within which two instants are told as one
   return std::abs(t - now_) <= same_instant * method_.step;
 }
 

@@ -8,7 +8,6 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr int most_inside = 1000; ///< nodes of a step
 }
 
 void Trajectory::begin(const Instant &at, const Eigen::VectorXd &history)
@@ -37,7 +36,8 @@ void Trajectory::step(const TimeIntegrator &integrator, double spacing)
     pieces_.emplace_back();
     add(integrator, begin);
   }
-  const int parts = int(std::clamp(std::ceil((end - begin) / spacing), 1., double(most_inside)));
+  constexpr int most_inside = 1000; // nodes of a step: one that lasts a run would fill the memory
+  const int     parts       = int(std::clamp(std::ceil((end - begin) / spacing), 1., double(most_inside)));
   for (int k = 1; k < parts; ++k)
     add(integrator, begin + (end - begin) * k / parts);
   const Instant &now = integrator.instant();

@@ -8,11 +8,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-constexpr long every = 8; ///< steps: their cost is then some hundredths of the steps' own
-} // namespace
-
 WatchedValues::WatchedValues(const Machine &machine, const TimeIntegrator &integrator, WatchedSignals *watched,
                              std::vector<int> coordinates)
     : machine_(machine), integrator_(integrator), watched_(watched), coordinates_(std::move(coordinates)),
@@ -24,6 +19,7 @@ WatchedValues::WatchedValues(const Machine &machine, const TimeIntegrator &integ
 
 void WatchedValues::step()
 {
+  constexpr long every = 8; // steps: their cost is then some hundredths of the steps' own
   if (++steps_ % every == 0)
     look();
 }

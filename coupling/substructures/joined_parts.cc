@@ -95,9 +95,6 @@ VectorXd errors_by_modes_left_out(const std::vector<ReducedFrame> &parts, const 
   return errors;
 }
 
-constexpr double free_share = 1e-8; ///< of the highest frequency: motions without energy, but for rounding
-constexpr double rest_share = 1e-3; ///< of the kinetic energy of such a motion that no rigid one of the whole has
-
 /// Interfaces that the frame keeps, in the coordinates of the joined frame.
 std::vector<fem::Interface> kept(const FrameOfParts &frame, const PartUnion &parts, const std::vector<int> &column)
 {
@@ -241,9 +238,11 @@ std::string moved_part(const VectorXd &motion, const std::vector<ReducedFrame> &
 void require_held_parts(const DenseModes &modes, const MatrixXd &M, const MatrixXd &rigid,
                         const std::function<std::string(const VectorXd &)> &part_moved_by, const std::string &place)
 {
-  const Index    n_free = (modes.omega.array() <= free_share * modes.omega.maxCoeff()).count();
-  const MatrixXd free   = modes.V.leftCols(n_free);
-  const MatrixXd rest   = free - rigid * (rigid.transpose() * M * rigid).ldlt().solve(rigid.transpose() * M * free);
+  constexpr double free_share = 1e-8; // of the highest frequency: motions without energy, but for rounding
+  const Index      n_free     = (modes.omega.array() <= free_share * modes.omega.maxCoeff()).count();
+  const MatrixXd   free       = modes.V.leftCols(n_free);
+  const MatrixXd   rest = free - rigid * (rigid.transpose() * M * rigid).ldlt().solve(rigid.transpose() * M * free);
+  constexpr double rest_share = 1e-3; // of the kinetic energy of such a motion that no rigid one of the whole has
   for (Index k = 0; k < n_free; ++k)
     if (rest.col(k).dot(M * rest.col(k)) > rest_share)
       throw std::invalid_argument(place + ": the joints let part '" + part_moved_by(rest.col(k)) +

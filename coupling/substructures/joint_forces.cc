@@ -16,8 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double free_energy = 1e-12; ///< of a rigid motion, against a spring of the size of others
-
 bool has_springs(const FrameJoint &joint)
 {
   return joint.kind == JointKind::bolts || joint.kind == JointKind::tie_rod;
@@ -94,8 +92,9 @@ MatrixXd held(const MatrixXd &C, const MatrixXd &rigid)
   const double               size = C.diagonal().mean();
   const MatrixXd             R    = rigid * rigid.colwise().norm().cwiseInverse().asDiagonal();
   const SymmetricEigenSolver energy(R.transpose() * C * R);
-  const auto                 n_free = (energy.eigenvalues().array() <= free_energy * size).count();
-  const MatrixXd             free   = R * energy.eigenvectors().leftCols(n_free);
+  constexpr double           free_energy = 1e-12; // of a rigid motion, against a spring of the size of others
+  const auto                 n_free      = (energy.eigenvalues().array() <= free_energy * size).count();
+  const MatrixXd             free        = R * energy.eigenvectors().leftCols(n_free);
   return C + size * free * free.transpose();
 }
 

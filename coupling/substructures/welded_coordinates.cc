@@ -88,13 +88,12 @@ MatrixXd following(const FrameJoint &joint, const fem::Interface &first, const f
   return other.colPivHouseholderQr().solve(one);
 }
 
-constexpr double along_the_face = 0.5; ///< cosine of 60 degrees
-
 /// What the faces of a joint say of it, where they are plane.
 void require_facing(const FrameJoint &joint, const fem::Interface &first, const fem::Interface &second)
 {
   if (!joint.closes())
     return;
+  constexpr double along_the_face = 0.5; // cosine of 60 degrees
   for (const fem::Interface *side : {&first, &second})
     if (const double cosine = std::abs(joint.normal.dot(side->face.axes.col(2)));
         side->face.known() && cosine < along_the_face)

@@ -19,8 +19,6 @@ namespace
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double rounding = 1e-9; // of the trace, in tensors typed by hand
-
 std::string head(const AttachedMass &mass)
 {
   const std::string owner = "mass \"" + mass.name + "\"";
@@ -30,7 +28,8 @@ std::string head(const AttachedMass &mass)
 /// A rigid body has moments J >= 0 of which none exceeds the sum of the two others.
 void require_inertia(const AttachedMass &mass)
 {
-  const Eigen::Matrix3d &J = mass.inertia;
+  const Eigen::Matrix3d &J        = mass.inertia;
+  constexpr double       rounding = 1e-9; // of the trace, in tensors typed by hand
   if (!J.allFinite() || (J - J.transpose()).cwiseAbs().maxCoeff() > rounding * std::abs(J.trace()))
     throw std::invalid_argument(head(mass) + ": its tensor of inertia must be finite and symmetric.");
   const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J).eigenvalues();

@@ -20,11 +20,6 @@ namespace
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Rows6   = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-// Nodes of a group: some hundred displacements, whose dense block is of the size of a front of the factorisation.
-constexpr std::size_t group_size = 64;
-// Lengths count in units of the surface, so factors above this show a degenerate group: then the surface is one group.
-constexpr double largest_factor = 1e4;
-
 /// Six displacements and the others of a group; columns as numbered in W.
 struct Group
 {
@@ -60,6 +55,8 @@ Matrix6 node_to_centroid(const CoupledPatch &coupled)
 void bisect(const CoupledPatch &coupled, const QuadraticMesh &mesh, std::vector<int> nodes,
             std::vector<std::vector<int>> &groups)
 {
+  // Nodes of a group: some hundred displacements, whose dense block is of the size of a front of the factorisation.
+  constexpr std::size_t group_size = 64;
   if (nodes.size() <= group_size)
   {
     groups.push_back(std::move(nodes));
@@ -161,6 +158,9 @@ std::vector<Group> make_groups(const CoupledPatch &coupled, const QuadraticMesh 
     {
       const std::vector<int> triangle = central_triangle(coupled, mesh, nodes);
       groups.push_back(make_group(W, nodes, triangle.empty() ? nodes : triangle, length));
+      // Lengths count in units of the surface, so factors above this show a degenerate group: then the surface is one
+      // group.
+      constexpr double largest_factor = 1e4;
       if (!(groups.back().of_others.cwiseAbs().maxCoeff() < largest_factor))
         return {make_group(W, all, all, length)};
     }

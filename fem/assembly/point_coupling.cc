@@ -109,15 +109,6 @@ CoupledPatch nearest_node(const InterfaceSpecification &interface, const Mesh &m
   return coupled;
 }
 
-namespace
-{
-
-/// Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge of h
-/// of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
-constexpr double facets_off = 0.25;
-
-} // namespace
-
 std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interfaces, double tolerance)
 {
   std::vector<std::string> notes;
@@ -129,6 +120,9 @@ std::vector<std::string> nodes_beside(const std::vector<CoupledPatch> &interface
       continue;
     const Eigen::Map<const Vector3d> wanted(own.position->data());
     const double                     distance = (coupled.position - wanted).norm();
+    // Of the width of the triangles around a point of a curved surface: its facets lie no farther from it, as an edge
+    // of h of a circle of radius r >= h stands off by h^2 / (8 r), and one triangle has 0.43 h^2.
+    constexpr double facets_off = 0.25;
     if (distance <= (is_node ? tolerance : std::max(tolerance, facets_off * std::sqrt(coupled.patch.area))))
       continue;
     std::ostringstream text;

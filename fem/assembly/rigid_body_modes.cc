@@ -19,12 +19,8 @@ namespace
 
 const char *const axis_names[3] = {"x", "y", "z"};
 
-// A motion is free when its energy is rounding: this share of the energies that cancel in it.
-constexpr double free_share = 1e-13;
 // Directions closer than this to an axis bear the name of the axis.
 constexpr double alike = 1e-3;
-// Parts whose motions are named; a frame that falls into more has a mesh whose cells do not hang together.
-constexpr std::size_t most_parts = 20;
 
 std::string triple(const Eigen::Vector3d &v)
 {
@@ -117,6 +113,8 @@ Eigen::MatrixXd free_space(const FrameMatrices &frame, const std::vector<int> &p
   const Eigen::VectorXd scale   = cancelling_energy(frame.C, motions);
   const Eigen::VectorXd value   = motions.cwiseProduct(frame.C * motions).colwise().sum();
   Eigen::MatrixXd       result(6, 0);
+  // A motion is free when its energy is rounding: this share of the energies that cancel in it.
+  constexpr double free_share = 1e-13;
   for (int k = 0; k < 6; ++k)
     if (!(value[k] > free_share * scale[k]))
     {
@@ -209,6 +207,8 @@ std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vec
   const double                        length = length_of(frame);
   const std::vector<std::vector<int>> parts  = connected_parts(frame.C, held);
   std::vector<std::string>            names;
+  // Parts whose motions are named; a frame that falls into more has a mesh whose cells do not hang together.
+  constexpr std::size_t most_parts = 20;
   for (std::size_t part = 0; part < std::min(parts.size(), most_parts); ++part)
     for (std::string &name : names_of(free_space(frame, parts[part], length),
                                       Eigen::Map<const Eigen::Vector3d>(frame.centre.data()), length))

@@ -25,8 +25,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double largest_change = 0.05; // of the volume
-
 bool same_face(const Face &face, const TopoDS_Shape &shape, double unit)
 {
   GProp_GProps properties;
@@ -122,7 +120,8 @@ void require_sound(const CadModel &now, const CadModel &before, const FrameSpeci
   };
   if (now.solids.size() != before.solids.size())
     refuse("leaves " + std::to_string(now.solids.size()) + " of " + std::to_string(before.solids.size()) + " solids");
-  const double change = now.volume() / before.volume() - 1.;
+  const double     change         = now.volume() / before.volume() - 1.;
+  constexpr double largest_change = 0.05; // of the volume
   if (!(std::abs(change) < largest_change))
     refuse("changes the volume by " + text(100. * change) + " %");
 }

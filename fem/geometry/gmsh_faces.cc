@@ -16,10 +16,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr int    samples_per_direction = 5;
-constexpr double relative_tolerance    = 1e-6; // of the model: CAD programs agree on points to about 1e-7 of it
-constexpr double facet_tolerance       = 1e-5; // of a face of a mesh: files have six or seven digits
-
 /// Names of all solids: a face without a name of its own gets its solid's from OpenCASCADE.
 std::set<std::string> names_of_solids()
 {
@@ -57,6 +53,7 @@ std::vector<Face::Sample> sample(int tag, double unit)
 {
   std::vector<double> low, high, parameters, points, normals;
   gmsh::model::getParametrizationBounds(2, tag, low, high);
+  constexpr int samples_per_direction = 5; // 25 points of a face: twice those that determine a cylinder or cone
   for (int i = 0; i < samples_per_direction; ++i)
     for (int j = 0; j < samples_per_direction; ++j)
     {
@@ -143,7 +140,8 @@ std::vector<Face> faces_of_geometry(std::size_t n_solids, double unit, double di
     if (solids.size() != n_solids)
       continue;
     faces.push_back(face_of_geometry(tag, unit, no_names));
-    faces.back().edges = curves;
+    faces.back().edges                  = curves;
+    constexpr double relative_tolerance = 1e-6; // of the model: CAD programs agree on points to about 1e-7 of it
     recognise(faces.back(), relative_tolerance * diagonal);
   }
   return faces;
@@ -196,6 +194,7 @@ std::vector<Face> faces_of_skin(const Mesh &mesh, const std::vector<int> &skin_s
     }
     else
       read_names(face, {});
+    constexpr double facet_tolerance = 1e-5; // of a face of a mesh: files have six or seven digits
     recognise(face, facet_tolerance * norm(face.max - face.min));
     list.push_back(std::move(face));
   }

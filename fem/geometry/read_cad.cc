@@ -137,13 +137,6 @@ void check_brep_file(const CadSource &source)
   }
 }
 
-constexpr double smallest_diagonal = 1e-3; // [m]
-constexpr double largest_diagonal  = 200.; // [m]
-constexpr double farthest          = 1e7;  // from the origin by the diagonal: nine digits are left of lengths
-constexpr double width_of_slivers  = 1e-6; // by the diagonal: CAD programs agree on points to about 1e-7 of it
-constexpr double smallest_likely   = 0.02; // [m]: beyond these few frames are
-constexpr double largest_likely    = 50.;  // [m]
-
 std::string physical_name(int dim, int tag)
 {
   std::vector<int> groups;
@@ -247,9 +240,10 @@ void check_faces(const CadModel &model, const CadSource &source)
     Vector3 min, max;
     gmsh::model::occ::getMass(dim, tag, area);
     gmsh::model::occ::getBoundingBox(dim, tag, min[0], min[1], min[2], max[0], max[1], max[2]);
-    min  = model.unit * min;
-    max  = model.unit * max;
-    area = model.unit * model.unit * area;
+    min                               = model.unit * min;
+    max                               = model.unit * max;
+    area                              = model.unit * model.unit * area;
+    constexpr double width_of_slivers = 1e-6; // by the diagonal: CAD programs agree on points to about 1e-7 of it
     if (!std::isfinite(area) || area < -width_of_slivers * model.diagonal() * norm(max - min))
       throw std::invalid_argument(source.place + ": " + source.path + ": the face " + std::to_string(tag) + " from " +
                                   text(min) + " to " + text(max) + " has an area of " + text(area) +
@@ -270,12 +264,15 @@ std::string way_to_another_unit(const CadModel &model, const CadSource &source)
 
 void check_size(const CadModel &model, const CadSource &source)
 {
-  const double diagonal = model.diagonal();
+  const double     diagonal          = model.diagonal();
+  constexpr double smallest_diagonal = 1e-3; // [m] a millimetre: below, units are wrong
+  constexpr double largest_diagonal  = 200.; // [m] above, units are wrong
   if (diagonal < smallest_diagonal || diagonal > largest_diagonal)
     throw std::invalid_argument(
         source.place + ": " + source.path + " is " + text(diagonal) + " m across; sizes from " +
         text(smallest_diagonal) + " m to " + text(largest_diagonal) +
         " m are expected, so its unit is probably wrong: " + way_to_another_unit(model, source) + ".");
+  constexpr double farthest = 1e7; // from the origin by the diagonal: nine digits are left of lengths
   if (const double distance = norm(0.5 * (model.min + model.max)); distance > farthest * diagonal)
     throw std::invalid_argument(source.place + ": " + source.path + " is " + text(diagonal) + " m across and is " +
                                 text(distance) +
@@ -287,7 +284,9 @@ void check_size(const CadModel &model, const CadSource &source)
 
 std::string suspect_size(const CadModel &model, const CadSource &source)
 {
-  const double diagonal = model.diagonal();
+  const double     diagonal        = model.diagonal();
+  constexpr double smallest_likely = 0.02; // [m]: beyond these few frames are
+  constexpr double largest_likely  = 50.;  // [m]
   if (diagonal >= smallest_likely && diagonal <= largest_likely)
     return "";
   return source.path + " is " + text(diagonal) + " m across, unusual for a frame: are its lengths in " +

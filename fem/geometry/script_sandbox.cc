@@ -19,8 +19,6 @@ namespace
 
 namespace files = std::filesystem;
 
-constexpr std::size_t deepest_script = 50; // includes: gmsh reads each inside the other
-
 constexpr const char *way_out = "; the script of a frame may draw, set sizes, mesh, and read files of its own folder. "
                                 "Remove the line, or give --trust-scripts if you know the whole script.";
 
@@ -99,6 +97,7 @@ std::string ScriptSandbox::copy_script(const files::path &script)
   const RefuseLine refuse = [&](int line, const std::string &what) {
     throw std::invalid_argument(place_ + ": " + script.string() + ":" + std::to_string(line) + ": " + what + way_out);
   };
+  constexpr std::size_t deepest_script = 50; // includes: gmsh reads each inside the other
   if (++depth_ > deepest_script)
     refuse(1, "is included more than " + std::to_string(deepest_script) + " levels deep; merge scripts");
   const std::string     copy   = place_for(script); // before its own files: they may name it in turn

@@ -21,9 +21,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double least_share = 0.1;  // of the straight determinant that must be left
-constexpr double bent        = 1e-9; // middles that are off by less than this share of the edge are straight
-
 using Edge = std::array<int, 2>;
 
 constexpr std::array<Edge, 6> edges_of_cell = {{{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}}};
@@ -142,8 +139,9 @@ std::vector<Point3> onto_entity(int dim, int tag, const std::vector<Point3> &poi
 /// Keeps a middle that leaves the straight edge by no more than half of it.
 void bend(Mesh &mesh, const Edge &edge, const Point3 &middle)
 {
-  const double length = norm(mesh.points[edge[1]] - mesh.points[edge[0]]);
-  const double off    = norm(middle - straight_middle(mesh, edge));
+  const double     length = norm(mesh.points[edge[1]] - mesh.points[edge[0]]);
+  const double     off    = norm(middle - straight_middle(mesh, edge));
+  constexpr double bent   = 1e-9; // middles that are off by less than this share of the edge are straight
   if (off > bent * length && off < 0.5 * length)
     mesh.middles[edge] = middle;
 }
@@ -222,6 +220,7 @@ void unfold(Mesh &mesh)
       for (const auto &[a, b] : edges_of_cell)
         if (const Edge edge = edge_between(cell[a], cell[b]); mesh.middles.count(edge) > 0)
           curved.push_back(edge);
+      constexpr double least_share = 0.1; // of the straight determinant that must be left
       if (curved.empty() || determinant(mesh, cell).minCoeff() >= least_share * six_volumes(mesh, cell))
         continue;
       folded = true;

@@ -12,11 +12,10 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double flattest = 1e-5; // quality; flatter cells spoil the condition of C
-
 void require_thick(const Mesh &mesh, int cell, const std::string &head, const std::string &way_out)
 {
-  const double q = cell_quality(mesh, cell);
+  const double     q        = cell_quality(mesh, cell);
+  constexpr double flattest = 1e-5; // quality; flatter cells spoil the condition of C
   if (q >= flattest)
     return;
   const int n = cell_shape(mesh.kind(cell)).n_corners;

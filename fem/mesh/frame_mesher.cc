@@ -37,8 +37,6 @@ namespace
 {
 
 constexpr double cells_by_default = 25000.;
-constexpr double much_smaller     = 0.02; // than the size: edges and faces worth a note
-constexpr double swept_by_default = 20.;  // size over the mean thickness of walls
 
 enum class MissingSize
 {
@@ -167,9 +165,10 @@ void judge_memory(const MeshedModel &result, const FrameSpecification &specifica
 /// Notes what forces elements far smaller than the size.
 void judge_features(MeshedModel &result, const MeshOptions &options)
 {
-  const double        limit    = much_smaller * options.size;
-  const SmallFeatures features = small_features(result.model, limit);
-  result.smallest              = describe(features);
+  constexpr double    much_smaller = 0.02; // than the size: edges and faces worth a note
+  const double        limit        = much_smaller * options.size;
+  const SmallFeatures features     = small_features(result.model, limit);
+  result.smallest                  = describe(features);
   if (features.n_short_edges + features.n_narrow_faces > 0)
     result.model.notes.push_back(
         std::to_string(features.n_short_edges) + " edges and " + std::to_string(features.n_narrow_faces) +
@@ -180,8 +179,9 @@ void judge_features(MeshedModel &result, const MeshOptions &options)
 /// By the mean thickness 2 V / A.
 double size_for_walls(const CadModel &model)
 {
-  const double size = swept_by_default * 2. * model.volume() / skin_area(model.faces);
-  const double largest =
+  constexpr double swept_by_default = 20.; // size over the mean thickness of walls
+  const double     size             = swept_by_default * 2. * model.volume() / skin_area(model.faces);
+  const double     largest =
       std::max({model.max[0] - model.min[0], model.max[1] - model.min[1], model.max[2] - model.min[2]});
   return std::min(size, largest);
 }

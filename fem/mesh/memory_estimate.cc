@@ -7,23 +7,17 @@
 namespace gestell::fem
 {
 
-namespace
-{
-
-constexpr double gib         = 1024. * 1024. * 1024.;
-constexpr double of_averaged = 5e4;  // bytes for a node
-constexpr double of_sphere   = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
-
-} // namespace
-
 double compactness(double volume, double skin_area)
 {
+  constexpr double of_sphere = 0.41; // 2 (4 pi / 3)^(2/3) / (4 pi)
   return skin_area > 0. ? std::min(2. * std::pow(volume, 2. / 3.) / skin_area, of_sphere) : of_sphere;
 }
 
 double reduction_memory(double n_coordinates, double kappa, double n_averaged)
 {
-  const double n = n_coordinates / 1e5;
+  const double     n           = n_coordinates / 1e5;
+  constexpr double gib         = 1024. * 1024. * 1024.; // byte
+  constexpr double of_averaged = 5e4;                   // bytes for a node
   return (0.22 + 0.37 * n + 3.8 * kappa * n * std::cbrt(n)) * gib + of_averaged * n_averaged;
 }
 

@@ -81,8 +81,6 @@ bool only_tetrahedra(const CadModel &model, const std::string &head)
       "C3D15).");
 }
 
-constexpr double straight_edge = 1e-6; // by which a middle may be off for rounding in files, of the edge
-
 using Triangle = std::array<int, 3>;
 
 /// The four faces of a positively oriented cell, seen from outside, as cell_shape() counts them.
@@ -135,9 +133,10 @@ void keep_middles(Mesh &mesh, const std::array<int, 4> &cell, const std::size_t 
 {
   for (int e = 0; e < 6; ++e)
   {
-    const int     a = cell[quadratic_edges[e][0]], b = cell[quadratic_edges[e][1]];
-    const Point3  middle = nodes.position(tags[e], head);
-    const Vector3 side   = mesh.points[b] - mesh.points[a];
+    const int        a = cell[quadratic_edges[e][0]], b = cell[quadratic_edges[e][1]];
+    const Point3     middle        = nodes.position(tags[e], head);
+    const Vector3    side          = mesh.points[b] - mesh.points[a];
+    constexpr double straight_edge = 1e-6; // by which a middle may be off for rounding in files, of the edge
     if (norm(middle - 0.5 * (mesh.points[a] + mesh.points[b])) > straight_edge * norm(side))
       mesh.middles[{std::min(a, b), std::max(a, b)}] = middle;
   }

@@ -16,9 +16,7 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double two_pi         = 6.283185307179586;
-constexpr double half           = 0.5; // of the wanted size: sides below are short
-constexpr int    most_per_curve = 200; // points that stand for a curve in gmsh's field of distances
+constexpr double two_pi = 6.283185307179586;
 
 /// Distance of a point from a box, at most that from what it holds.
 double distance(const Vector3 &x, const Vector3 &min, const Vector3 &max)
@@ -40,8 +38,6 @@ std::unordered_map<std::size_t, Vector3> points_of_mesh(double unit)
     points[tags[i]] = unit * Vector3{x[3 * i], x[3 * i + 1], x[3 * i + 2]};
   return points;
 }
-
-constexpr int line = 1, triangle = 2; // gmsh's types of elements
 
 std::vector<std::size_t> nodes_of(int type, int tag)
 {
@@ -69,6 +65,7 @@ std::vector<MeshedEdge> edges_of_mesh(double unit)
     gmsh::model::occ::getMass(1, tag, length);
     Vector3 low, high;
     gmsh::model::getBoundingBox(1, tag, low[0], low[1], low[2], high[0], high[1], high[2]);
+    constexpr int line = 1; // gmsh's types of elements
     if (const int n = static_cast<int>(nodes_of(line, tag).size() / 2); n > 0)
       edges.push_back({tag, n, unit * length / n, (0.5 * unit) * (low + high)});
   }
@@ -128,6 +125,7 @@ double WantedSize::operator()(const Vector3 &x) const
 double excess_of_triangles(const WantedSize &wanted, double unit)
 {
   const auto                     points    = points_of_mesh(unit);
+  constexpr int                  triangle  = 2; // gmsh's types of elements
   const std::vector<std::size_t> nodes     = nodes_of(triangle, -1);
   double                         requested = 0.;
   for (std::size_t i = 0; i + 2 < nodes.size(); i += 3)
@@ -159,12 +157,14 @@ ShortEdges grade_from_short_edges(const WantedSize &wanted, const CadModel &mode
   };
   std::map<int, Alike> alike; // by the length of their sides, within a factor sqrt(2)
   ShortEdges           edges;
+  constexpr double     half = 0.5; // of the wanted size: sides below are short
   for (const MeshedEdge &edge : edges_of_mesh(model.unit))
     if (edge.side > 0. && edge.side < half * wanted.without_bores(edge.at))
     {
-      Alike &group   = alike[static_cast<int>(std::floor(2. * std::log2(edge.side)))];
-      group.side     = std::min(group.side, edge.side);
-      group.n_points = std::clamp(edge.n_sides + 1, group.n_points, most_per_curve);
+      Alike &group                 = alike[static_cast<int>(std::floor(2. * std::log2(edge.side)))];
+      group.side                   = std::min(group.side, edge.side);
+      constexpr int most_per_curve = 200; // points that stand for a curve in gmsh's field of distances
+      group.n_points               = std::clamp(edge.n_sides + 1, group.n_points, most_per_curve);
       group.curves.push_back(edge.tag);
       edges.shortest = edges.n++ > 0 ? std::min(edges.shortest, edge.side) : edge.side;
     }

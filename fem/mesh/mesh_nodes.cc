@@ -17,8 +17,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double rounding = 1e-14; // of a height along the vector, over the largest
-
 /// A unit vector at right angles to no row of nodes that a mesh is likely to have: ratios of its components are those
 /// of no small whole numbers.
 constexpr Vector3 oblique = {0.43762743542266774, 0.5624637353870905, 0.7015103521258826};
@@ -37,7 +35,8 @@ std::vector<std::pair<int, int>> coincident(const std::vector<Point3> &points, d
   double largest = 0.;
   for (const double height : along)
     largest = std::max(largest, std::abs(height));
-  const double slab = distance + rounding * largest;
+  constexpr double rounding = 1e-14; // of a height along the vector, over the largest
+  const double     slab     = distance + rounding * largest;
 
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t i = 0; i < order.size(); ++i)

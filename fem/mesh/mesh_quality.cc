@@ -11,11 +11,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr int    sweeps     = 4;   // over all bad cells; more than three changed nothing on the frames tried
-constexpr double first_step = 0.2; // of the shortest edge at the point
-constexpr double last_step  = 0.005;
-constexpr double least_gain = 1e-6;
-
 /// Cells around each point.
 std::vector<std::vector<int>> stars_of(const Mesh &mesh)
 {
@@ -47,8 +42,10 @@ double shortest_edge(const Mesh &mesh, int point, const std::vector<int> &star)
 /// Moves one point uphill in the worst quality of its star.
 void climb(Mesh &mesh, int point, const Freedom &freedom, const std::vector<int> &star)
 {
-  const double edge = shortest_edge(mesh, point, star);
-  double       best = worst_quality(mesh, star);
+  const double     edge       = shortest_edge(mesh, point, star);
+  double           best       = worst_quality(mesh, star);
+  constexpr double first_step = 0.2;   // of the shortest edge at the point
+  constexpr double last_step  = 0.005; // of it: what is moved less changes no quality
   for (double step = first_step; step > last_step;)
   {
     const Point3 from = mesh.points[point];
@@ -56,8 +53,9 @@ void climb(Mesh &mesh, int point, const Freedom &freedom, const std::vector<int>
     for (const Vector3 &direction : freedom)
       for (const double sign : {1., -1.})
       {
-        mesh.points[point] = from + (sign * step * edge) * direction;
-        const double here  = worst_quality(mesh, star);
+        mesh.points[point]          = from + (sign * step * edge) * direction;
+        const double     here       = worst_quality(mesh, star);
+        constexpr double least_gain = 1e-6; // of a quality between 0 and 1: above its rounding
         if (here > best + least_gain)
         {
           best = here;
@@ -93,6 +91,7 @@ double quality(const Mesh &mesh, const std::array<int, 4> &cell)
 void improve_quality(Mesh &mesh, const std::vector<Freedom> &freedom, double wanted)
 {
   const std::vector<std::vector<int>> stars = stars_of(mesh);
+  constexpr int sweeps = 4; // over all bad cells; more than three changed nothing on the frames tried
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const auto &cell : mesh.cells)
       if (quality(mesh, cell) < wanted)

@@ -68,13 +68,6 @@ struct VolumeIntegrals
   }
 };
 
-constexpr double coarsest            = 0.2;  // edge of a skin's triangles by the part's diagonal
-constexpr int    n_around            = 16;   // edges around a full circle
-constexpr double same_volume         = 1e-6; // relative, of a union against its solids
-constexpr double enclosed_share      = 0.5;  // of the volume, by a skin of coarse triangles
-constexpr double farthest            = 1e4;  // from the origin by the diagonal: some 1e-6 is lost of inertia
-constexpr double rounding_of_inertia = 1e-5; // eps times the square of that, times some tens of slender bodies
-
 std::string head_of(const CadSource &source)
 {
   return source.place + ": " + source.path;
@@ -124,7 +117,9 @@ void add_skin(CadBody &part, const TriangleSurface &surface)
 /// Coarse triangles for pictures, solid by solid; none if gmsh does not find them.
 void draw_skin(CadBody &part, const CadModel &model)
 {
+  constexpr double coarsest = 0.2; // edge of a skin's triangles by the part's diagonal
   gmsh::option::setNumber("Mesh.MeshSizeMax", coarsest * model.diagonal() / model.unit);
+  constexpr int n_around = 16; // edges around a full circle
   gmsh::option::setNumber("Mesh.MeshSizeFromCurvature", n_around);
   try
   {
@@ -133,6 +128,7 @@ void draw_skin(CadBody &part, const CadModel &model)
     {
       TriangleSurface surface = surface_of(solid.faces, model.unit);
       turn_outwards(surface);
+      constexpr double enclosed_share = 0.5; // of the volume, by a skin of coarse triangles
       const bool closed = unmatched_edges(surface) == 0 && enclosed_volume(surface) > enclosed_share * solid.volume;
       if (!closed)
         throw std::runtime_error("the skin is open");
@@ -169,6 +165,7 @@ void check_overlap(const CadModel &model, const CadSource &source, const GmshSes
     gmsh::model::occ::getMass(dim, tag, V);
     volume += V * std::pow(model.unit, 3);
   }
+  constexpr double same_volume = 1e-6; // relative, of a union against its solids
   if (volume < (1. - same_volume) * model.volume())
     throw std::invalid_argument(
         head_of(source) + ": its " + std::to_string(model.solids.size()) + " solids overlap: they have " +
@@ -231,6 +228,7 @@ void measure_triangles(CadBody &part, VolumeIntegrals &sum, const CadModel &mode
 /// Moments about the centre are left of those about the origin, which are larger by the square of the distance.
 void require_near(const VolumeIntegrals &sum, const CadModel &model, const CadSource &source)
 {
+  constexpr double farthest = 1e4; // from the origin by the diagonal: some 1e-6 is lost of inertia
   if (const double distance = sum.centre().norm(); distance > farthest * model.diagonal())
     throw std::invalid_argument(head_of(source) + " is " + text(model.diagonal()) + " m across and is " +
                                 text(distance) +
@@ -243,7 +241,8 @@ void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source
 {
   const Eigen::Vector3d principal =
       J.allFinite() ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J).eigenvalues() : Eigen::Vector3d::Constant(NAN);
-  const double smallest = 0.5 * principal.sum() - principal[2];
+  const double     smallest            = 0.5 * principal.sum() - principal[2];
+  constexpr double rounding_of_inertia = 1e-5; // eps times the square of that, times some tens of slender bodies
   if (!(smallest >= -rounding_of_inertia * principal.cwiseAbs().maxCoeff()))
     throw std::invalid_argument(head_of(source) + " has impossible principal moments of inertia (" +
                                 text(principal[0]) + ", " + text(principal[1]) + ", " + text(principal[2]) +

@@ -13,10 +13,6 @@ namespace gestell::fem
 namespace
 {
 
-/// Of the volume, from which on a note names the difference: it moves frequencies by half of that, and answers are
-/// commonly wanted to one percent.
-constexpr double volume_off = 0.005;
-
 std::string name_of(const Solid &solid)
 {
   return solid.name.empty() ? "solid " + std::to_string(solid.tag) : "solid \"" + solid.name + "\"";
@@ -42,6 +38,9 @@ void note_volumes(Mesh &mesh, const std::vector<Solid> &solids, const MeshOption
   for (std::size_t i = 0; i < volumes.size(); ++i)
   {
     const double off = solids[i].volume > 0. ? volumes[i] / solids[i].volume - 1. : 0.;
+    // Of the volume, from which on a note names the difference: it moves frequencies by half of that, and answers are
+    // commonly wanted to one percent.
+    constexpr double volume_off = 0.005;
     if (std::abs(off) > volume_off)
       mesh.notes.push_back(name_of(solids[i]) + ": the mesh has " + text(100. * std::abs(off)) + " % " +
                            (off < 0. ? "less" : "more") + " mass than the geometry (" + text(volumes[i]) + " for " +

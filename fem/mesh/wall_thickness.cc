@@ -15,9 +15,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double percentile = 0.05;
-constexpr double grazing    = 0.5; // cosine: sides of a wall are nearly parallel, its edges are not
-
 struct Triangle
 {
   Vector3 a, b, c;
@@ -32,7 +29,8 @@ double meeting(const Triangle &triangle, const Vector3 &x, const Vector3 &d)
 {
   constexpr double none = std::numeric_limits<double>::infinity();
   const Vector3    u = triangle.b - triangle.a, v = triangle.c - triangle.a, n = cross(u, v);
-  const double     facing = dot(n, d);
+  const double     facing  = dot(n, d);
+  constexpr double grazing = 0.5; // cosine: sides of a wall are nearly parallel, its edges are not
   if (facing < grazing * norm(n))
     return none;
   const double  t     = dot(n, triangle.a - x) / facing;
@@ -141,6 +139,7 @@ WallThickness wall_thickness(const Mesh &mesh)
     thicknesses.emplace_back(nearest, own);
     ratios.emplace_back(size / nearest, own);
   }
+  constexpr double percentile = 0.05; // of the skin: the thinnest wall that is more than an edge
   return {quantile(thicknesses, percentile), quantile(ratios, 0.5), area > 0. ? thin / area : 0.};
 }
 

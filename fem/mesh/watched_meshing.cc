@@ -13,8 +13,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double runaway = 3.; // times the triangles wanted
-
 const char *const remedy = "; choose another mesh.size or repair the faces in the CAD program.";
 
 /// Triangles of gmsh's mesh of the surfaces.
@@ -65,7 +63,8 @@ void mesh_surfaces(CadModel &model, const Selection &selection, const FrameSpeci
   const std::string head                           = head_of(specification) + ": gmsh cannot mesh its surfaces: ";
   session.run([] { gmsh::model::mesh::generate(2); }, head, remedy);
   const WantedSize wanted(model, options, selection, refined);
-  const double     excess = excess_of_triangles(wanted, model.unit);
+  const double     excess  = excess_of_triangles(wanted, model.unit);
+  constexpr double runaway = 3.; // times the triangles wanted: short edges of the model rule the mesh
   const ShortEdges edges =
       excess > runaway && !script_has_sizes ? grade_from_short_edges(wanted, model, options, selection) : ShortEdges{};
   if (edges.n > 0)

@@ -23,8 +23,7 @@ enum Tag
   tag_values
 };
 
-constexpr int         exit_failed = 3;
-constexpr std::size_t at_once     = std::size_t(1) << 27; // bytes of one message: MPI counts with int
+constexpr std::size_t at_once = std::size_t(1) << 27; // bytes of one message: MPI counts with int
 
 using Clock = std::chrono::steady_clock;
 
@@ -224,6 +223,7 @@ void Ranks::abort(const std::string &message) const
   const std::string line = "gestell: the computation failed on rank " + std::to_string(rank_) + " of " +
                            std::to_string(size_) + ": " + message + '\n';
   std::cerr << line << std::flush;
+  constexpr int exit_failed = 3; // as the program's own: the computation failed
   MPI_Abort(comm(), exit_failed);
   std::abort(); // MPI_Abort does not return
 }

@@ -88,8 +88,6 @@ Picture skin_picture(const QuadraticMesh &mesh, const AffineConstraints &affine)
   return picture;
 }
 
-constexpr double node_tolerance = 1e-4; // of the diagonal, as of selectors
-
 double diagonal(const Mesh &mesh)
 {
   Eigen::AlignedBox3d box;
@@ -273,6 +271,7 @@ Discretisation discretise_with_mesh_error(const Mesh &mesh, const FrameSpecifica
   frame.facts.parts                  = solid_masses(mesh, quadratic, materials);
   const std::vector<Interface> nodes = make_interfaces(coupled, constraints, affine);
   frame.interfaces.assign(nodes.end() - specification.interfaces.size(), nodes.end());
+  constexpr double node_tolerance = 1e-4; // of the diagonal, as of selectors
   for (std::string &note : nodes_beside(coupled, node_tolerance * diagonal(mesh)))
     frame.notes.push_back(std::move(note));
   for (std::string &note : masses_far_off(coupled, diagonal(mesh)))

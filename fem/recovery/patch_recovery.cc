@@ -16,9 +16,8 @@ namespace
 
 using Stress = Eigen::Matrix<double, 6, 1>;
 
-constexpr int          monomials = 10;   // 1 x y z xx yy zz xy yz zx
-constexpr Eigen::Index fewest    = 16;   // samples of a patch; fewer do not carry a quadratic fit
-constexpr double       ridge     = 1e-6; // of the quadratic monomials, which small patches do not all determine
+constexpr int    monomials = 10;   // 1 x y z xx yy zz xy yz zx
+constexpr double ridge     = 1e-6; // of the quadratic monomials, which small patches do not all determine
 
 using Monomials = Eigen::Matrix<double, monomials, 1>;
 
@@ -127,6 +126,7 @@ std::vector<int> patch_of(const QuadraticMesh &mesh, const CellsAround &around, 
   Eigen::Index     count = 0;
   for (const int i : patch)
     count += samples.count(i);
+  constexpr Eigen::Index fewest = 16; // samples of a patch; fewer do not carry a quadratic fit
   if (count >= fewest)
     return patch;
   const std::vector<int> own = patch;

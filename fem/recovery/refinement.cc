@@ -14,9 +14,8 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double order      = order_of_refinement;
-constexpr double dimension  = 3.;
-constexpr double most_grown = 1.5, most_shrunk = 1. / 3.;
+constexpr double order     = order_of_refinement;
+constexpr double dimension = 3.;
 
 constexpr std::array<std::array<int, 2>, 6> edges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
@@ -40,7 +39,8 @@ double cell_volume(const QuadraticMesh &mesh, const std::array<int, 10> &cell)
 Eigen::VectorXd sizes_for(double lambda, const Eigen::VectorXd &h, const Eigen::VectorXd &shape,
                           const Refinement &refinement)
 {
-  Eigen::VectorXd size(h.size());
+  Eigen::VectorXd  size(h.size());
+  constexpr double most_grown = 1.5, most_shrunk = 1. / 3.;
   for (Eigen::Index i = 0; i < h.size(); ++i)
     size[i] = std::clamp(h[i] * std::clamp(lambda * shape[i], most_shrunk, most_grown),
                          std::min(refinement.smallest, h[i]), refinement.largest);

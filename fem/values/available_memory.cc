@@ -17,7 +17,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double kib = 1024., gib = kib * kib * kib;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// The number in a file of a control group; infinite for "max" and for no file.
@@ -30,7 +29,8 @@ double number_in(const char *path)
 
 double of_system()
 {
-  std::ifstream in("/proc/meminfo");
+  std::ifstream    in("/proc/meminfo");
+  constexpr double kib = 1024.;
   for (std::string key, rest; in >> key; std::getline(in, rest))
     if (double value = 0.; key == "MemAvailable:" && in >> value)
       return kib * value;
@@ -73,6 +73,7 @@ double available_memory()
 
 std::string memory_text(double bytes)
 {
+  constexpr double gib = kib * kib * kib;
   return bytes < 0.1 * gib ? text(std::round(bytes / gib * 1024.)) + " MiB"
                            : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
 }

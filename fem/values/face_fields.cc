@@ -12,8 +12,6 @@ using Eigen::Index;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-constexpr double off_plane = 1e-6; ///< of the reach of the points
-
 /// P_0 ... P_p, by (k + 1) P_{k+1} = (2 k + 1) x P_k - k P_{k-1}.
 Eigen::VectorXd legendre(int p, double x)
 {
@@ -115,7 +113,8 @@ PlaneFace plane_face(const Matrix3Xd &points, const Vector3d &normal)
     return face;
   const Eigen::Matrix3d    axes = axes_of(normal);
   const Extent             extent(points, axes);
-  const Eigen::RowVectorXd height = normal.transpose() * points;
+  const Eigen::RowVectorXd height    = normal.transpose() * points;
+  constexpr double         off_plane = 1e-6; // of the reach of the points
   if (height.maxCoeff() - height.minCoeff() > off_plane * (extent.high - extent.low).norm())
     return face;
   face.axes   = axes;

@@ -6,13 +6,6 @@
 
 namespace gestell::mechanism
 {
-namespace
-{
-
-constexpr int largest_integer_power = 1000000; // whole numbers beyond make 0, 1 or infinity, as a root does
-
-} // namespace
-
 Formula::Formula(double constant)
 {
   code_.push_back({Op::constant, 0, constant});
@@ -145,6 +138,7 @@ Formula power(const Formula &a, const Formula &b)
     return 1.;
   if (c == 1.)
     return a;
+  constexpr int largest_integer_power = 1000000; // whole numbers beyond make 0, 1 or infinity, as a root does
   if (c == std::round(c) && std::abs(c) <= largest_integer_power && !a.is_constant())
     return a.followed_by({Op::integer_power, static_cast<int>(c)});
   return a.followed_by({Op::root, 0, c});

@@ -10,8 +10,6 @@ namespace gestell::mechanism
 namespace
 {
 
-constexpr double joined = 1e-9; ///< what may be open at the ends of a period: rounding of constants, as pi
-
 enum TableEnd
 {
   begins,
@@ -46,6 +44,7 @@ void PositionFunction::check_closure() const
   {
     std::ostringstream needed;
     needed << there << ", as where the next one begins" << out;
+    constexpr double joined = 1e-9; // what may be open at the ends of a period: rounding of constants, as pi
     require(std::abs(here - there) <= joined * scale / unit, name, what + " at the end of the period", here,
             needed.str());
   };

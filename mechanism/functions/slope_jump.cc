@@ -9,8 +9,6 @@ namespace gestell::mechanism
 namespace
 {
 
-constexpr int n_steps = 1000;
-
 /// Where guard i, open at `low` and past zero at `high`, crosses zero: just past it.
 double crossing(const PositionFunction &f, int i, double sign, double low, double high, const double *history)
 {
@@ -45,7 +43,8 @@ std::optional<SlopeJump> first_jump(const PositionFunction &f, double from, doub
 {
   std::vector<double> history(std::size_t(f.n_history())), g(std::size_t(f.n_guards()));
   f.start(from, 1., history.data());
-  double x = from;
+  double        x       = from;
+  constexpr int n_steps = 1000; // a guard that opens and closes within a thousandth of the range is not seen
   for (int k = 1; k <= n_steps; ++k)
   {
     const double end = from + (to - from) * k / n_steps;

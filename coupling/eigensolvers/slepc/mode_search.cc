@@ -45,9 +45,6 @@ private:
   bool        exhausted_ = false; // there were fewer than looked for
 };
 
-constexpr int    beyond        = 4;    // modes that are looked for above those wanted, for a gap
-constexpr double gap_for_shift = 1e-3; // relative distance of two frequencies that a shift may stand between
-
 /// Both, in ascending order.
 LowestModes joined(const LowestModes &a, const LowestModes &b)
 {
@@ -74,7 +71,8 @@ DeflatedSearch::DeflatedSearch(int n, int n_free, Further further, LowestModes k
 
 void DeflatedSearch::find(int count)
 {
-  const int most = std::min(count + beyond, n_free_);
+  constexpr int beyond = 4; // modes that are looked for above those wanted, for a gap
+  const int     most   = std::min(count + beyond, n_free_);
   while (int(found_.omega.size()) < most && !exhausted_)
   {
     const int wanted = most - int(found_.omega.size());
@@ -105,6 +103,7 @@ int DeflatedSearch::gap_index(int count) const
     const double here = found_.omega(i) / found_.omega(i - 1) - 1.;
     if (here > width)
       widest = i, width = here;
+    constexpr double gap_for_shift = 1e-3; // relative distance of two frequencies that a shift may stand between
     if (here > gap_for_shift)
       break;
   }

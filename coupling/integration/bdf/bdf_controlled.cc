@@ -13,11 +13,6 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr int    rungs_below      = 40; ///< of the ladder, if no smallest step is given
-constexpr int    most_rungs_below = 60;
-constexpr int    first_rung       = 5;    ///< tried at the begin of a run
-constexpr double newton_part      = 1e-2; ///< of the tolerance
-constexpr double finest_newton    = 1e-12;
 template <typename Value>
 void require(bool valid, const char *option, Value value, const char *needed)
 {
@@ -39,12 +34,16 @@ BdfControlled::Options checked(BdfControlled::Options           o, const SecondO
   if (const double omega = slowest_elastic(spectrum); o.largest_step == 0. && std::isfinite(omega))
     o.largest_step = 1. / omega;
   require(o.largest_step > 0. && std::isfinite(o.largest_step), "largest_step [s]", o.largest_step, "positive");
+  constexpr int rungs_below = 40; // of the ladder, if no smallest step is given: 1e-12 of the largest
   if (o.smallest_step == 0.)
     o.smallest_step = std::ldexp(o.largest_step, -rungs_below);
+  constexpr int most_rungs_below = 60; // 2^-60 is below the rounding of a time
   require(o.smallest_step <= o.largest_step && o.smallest_step >= std::ldexp(o.largest_step, -most_rungs_below),
           "smallest_step [s]", o.smallest_step, "between 2^-60 and 1 of the largest one");
-  o.newton.joints    = JointSolver::condensed; // its S is looked at
-  o.newton.tolerance = std::max(newton_part * o.tolerance, finest_newton);
+  o.newton.joints                = JointSolver::condensed; // its S is looked at
+  constexpr double newton_part   = 1e-2;  // of the tolerance: errors of Newton count little beside those of steps
+  constexpr double finest_newton = 1e-12; // rounding of residuals
+  o.newton.tolerance             = std::max(newton_part * o.tolerance, finest_newton);
   if (o.fixed_order)
     o.min_order = o.max_order;
   return o;
@@ -142,10 +141,11 @@ void BdfControlled::begin(double t, const Eigen::VectorXd &q, const Eigen::Vecto
   z_.segment(2 * n_ + n_u_, n_u_) = W.transpose() * v;
   scale_.begin(motion(z_));
   implicit_.begin(z_.segment(2 * n_, n_u_));
-  load_known_ = false;
-  cut_        = false;
-  barred_     = 0;
-  rung_       = first_rung;
+  load_known_              = false;
+  cut_                     = false;
+  barred_                  = 0;
+  constexpr int first_rung = 5; // tried at the begin of a run: 1/32 of the largest step
+  rung_                    = first_rung;
   while (rung_ > 1 && step_of(rung_) < options_.smallest_step)
     --rung_;
   present(z_, t);

@@ -12,12 +12,7 @@ namespace gestell::coupling
 namespace
 {
 constexpr int    highest_growth = 3;   ///< rungs at once
-constexpr int    deepest_fall   = 6;   ///< rungs at once, in a start
 constexpr double safety         = 0.3; ///< of the tolerance, that an error expected may reach
-constexpr double resolved       = 0.5; ///< omega h of a start's shortest Euler step
-constexpr int    steps_barred   = 40;
-constexpr double unforeseen     = 1e-4; ///< of a multiplier's largest: inside the step polynomials miss a tenth of it
-constexpr double worth_an_order = 1.3;  ///< factor of the step expected, for which the order is raised
 
 } // namespace
 
@@ -112,8 +107,9 @@ void BdfControlled::multistep()
     difference_.tail(2 * n_u_ + n_c_) = z_.tail(2 * n_u_ + n_c_) - predicted_.tail(2 * n_u_ + n_c_);
   }
   // From pi per step on, the values of a harmonic load at the ends of steps do not determine it inside.
-  lambda_size_   = lambda_size_.cwiseMax(z_.tail(n_c_).cwiseAbs());
-  solves_inside_ = fastest_load_ * step_of(rung_) > 1. ||
+  lambda_size_                = lambda_size_.cwiseMax(z_.tail(n_c_).cwiseAbs());
+  constexpr double unforeseen = 1e-4; // of a multiplier's largest: inside the step polynomials miss a tenth of it
+  solves_inside_              = fastest_load_ * step_of(rung_) > 1. ||
                    (difference_.tail(n_c_).cwiseAbs().array() > unforeseen * lambda_size_.array()).any();
   differences_.push(order_, difference_);
   ++since_change_;
@@ -128,6 +124,7 @@ void BdfControlled::refuse(const Trial &trial, double exponent)
   int rungs = 1;
   if (trial.solved && is_sound(trial.h_beta))
     scale_.refuse();
+  constexpr int deepest_fall = 6; // rungs at once, in a start
   if (trial.solved)
     rungs = std::clamp(static_cast<int>(std::ceil(std::log2(trial.error / safety) / exponent)), 1,
                        fresh_ ? deepest_fall : highest_growth);
@@ -137,8 +134,9 @@ void BdfControlled::refuse(const Trial &trial, double exponent)
   wanted_order_ = order_;
   if (order_ > 2 && !options_.fixed_order)
   {
-    barred_       = since_change_ == 0 ? steps_barred : 0; // refused again at once: order 2 for a while
-    wanted_order_ = std::max(order_ - 1, options_.min_order);
+    constexpr int steps_barred = 40; // enough for differences of the order to forget what refused it
+    barred_                    = since_change_ == 0 ? steps_barred : 0; // refused again at once: order 2 for a while
+    wanted_order_              = std::max(order_ - 1, options_.min_order);
     while (wanted_order_ > options_.min_order && !limit_.allows(wanted_order_, wanted_rung_))
       --wanted_order_;
   }
@@ -185,7 +183,8 @@ void BdfControlled::choose()
     if (rungs < 0)
       continue;
     // Among steps that end on the same rung the present order, unless another one lets hope for more.
-    double worth = std::ldexp(1., rungs);
+    double           worth          = std::ldexp(1., rungs);
+    constexpr double worth_an_order = 1.3; // factor of the step expected, for which the order is raised
     if (order == order_)
       gain_here = gain;
     else if (rung_ - rungs > 0 && gain > worth_an_order * gain_here && gain > 1. && std::abs(order - order_) == 1)
@@ -297,8 +296,9 @@ void BdfControlled::resolve_stiffness()
     const double h = step_of(rung_ + 1), squared = h * h;
     if (stiffness_.size() == 0 || stiffness_.maxCoeff() == 0. || h < options_.smallest_step)
       break;
-    const StepForm form{1., h, squared, squared, 1., 1. / h, 1. / squared, h};
-    const double   most = implicit_.condensed(form, work_).S.diagonal().cwiseProduct(stiffness_).maxCoeff();
+    const StepForm   form{1., h, squared, squared, 1., 1. / h, 1. / squared, h};
+    const double     most     = implicit_.condensed(form, work_).S.diagonal().cwiseProduct(stiffness_).maxCoeff();
+    constexpr double resolved = 0.5; // omega h of a start's shortest Euler step
     if (!(most > resolved * resolved))
       break;
     rung_ += std::max(1, static_cast<int>(std::ceil(std::log2(std::sqrt(most) / resolved))));

@@ -18,9 +18,6 @@ namespace gestell::coupling
 namespace
 {
 constexpr double off_middle = 0.38; ///< share of a step where guards are looked at first
-constexpr double nearby     = 0.25; ///< share of its length by which a parabola errs about a turn at its end
-constexpr double a_little =
-    0.1; ///< share of a step by which the force that holds a measure errs in the time of an event
 
 /// To what an event at t in a step of length h is located: far below what any step's error does to its time.
 double resolution(double t, double h)
@@ -352,8 +349,9 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
     return false;
   for (int k = 0; k < 8; ++k)
   {
-    const double rise = (b.g - a.g) / (b.t - a.t), curvature = ((c.g - b.g) / (c.t - b.t) - rise) / (c.t - a.t);
-    double       t = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+    const double     rise = (b.g - a.g) / (b.t - a.t), curvature = ((c.g - b.g) / (c.t - b.t) - rise) / (c.t - a.t);
+    double           t      = 0.5 * (a.t + b.t) - 0.5 * rise / curvature;
+    constexpr double nearby = 0.25; // share of its length by which a parabola errs about a turn at its end
     if (!(curvature < 0. && t > a.t - nearby * (c.t - a.t) && t < c.t + nearby * (c.t - a.t)))
       return false;
     const double vertex = a.g + (t - a.t) * (rise + curvature * (t - b.t));
@@ -389,8 +387,10 @@ void EventDriver::take(const Crossing &crossing)
   const int    guard = crossing.guard;
   const double begin = integrator_.step_begin(), end = integrator_.time();
   const double finest = resolution(end, end - begin);
-  const double most   = looks_at_held_force(guard) ? a_little * (end - begin) : end - begin;
-  double       t      = crossing.t;
+  // share of a step by which the force that holds a measure errs in the time of an event
+  constexpr double a_little = 0.1;
+  const double     most     = looks_at_held_force(guard) ? a_little * (end - begin) : end - begin;
+  double           t        = crossing.t;
   integrator_.cut(t);
   // The state at the cut may be better than the dense output: move the cut until its own guard is zero.
   double slope = crossing.slope, t_last = t, g_last = 0.;

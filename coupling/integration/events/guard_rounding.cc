@@ -6,12 +6,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-/// A sum of a few terms, what an element makes of it, and the difference from a threshold.
-constexpr double roundings = 16.;
-} // namespace
-
 double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard,
                       const LocalState &at, double h)
 {
@@ -53,6 +47,8 @@ double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &int
     moves(moved.v[j], size_v[j]);
   }
   moves(moved.t, std::abs(at.t));
+  // A sum of a few terms, what an element makes of it, and the difference from a threshold.
+  constexpr double roundings = 16.;
   return roundings * eps / share * sum;
 }
 

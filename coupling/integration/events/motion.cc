@@ -7,11 +7,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-constexpr double rounding = 1e-12; ///< share of a run that the sum of its steps may leave
-} // namespace
-
 Motion::Motion(SecondOrderSystem &system, std::unique_ptr<TimeIntegrator> integrator)
     : system_(system), integrator_(std::move(integrator))
 {
@@ -32,7 +27,8 @@ void Motion::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v,
     chattering_time_ += driver_->chattering_time();
   }
   driver_.emplace(system_, *integrator_, events, observers_);
-  finish_ = std::isfinite(events.end) ? events.end - rounding * (events.end - t) : events.end;
+  constexpr double rounding = 1e-12; // share of a run that the sum of its steps may leave
+  finish_                   = std::isfinite(events.end) ? events.end - rounding * (events.end - t) : events.end;
   driver_->begin(t, q, v);
   for (RunObserver *observer : observers_)
     observer->begin();

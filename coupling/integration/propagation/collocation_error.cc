@@ -14,15 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    error_share  = 10; ///< the defect at the ends of a step against what it does to the measures
-constexpr double rounding     = 8. * std::numeric_limits<double>::epsilon();
-constexpr double least_pivot  = 0.25; ///< of I - S dp: its solution goes at most some four times as far as the motion
-constexpr double least_part   = 1e-6; ///< of the motion as a whole, below which a measure does not count for less
-constexpr int    most_usual   = 2;    ///< iterations
-constexpr int    steps_of_way = 16;   ///< between two looks at the way of the motion
-constexpr double newton_share = 1e-2; ///< of the square of the defect, which is of the order of the local error
-constexpr double least_part_left = 1e-11; ///< of the forces: over a hundred periods 1e-9 of the motion
-
 } // namespace
 
 void CollocationStep::note_defect()
@@ -38,6 +29,8 @@ double CollocationStep::part_left() const
 {
   if (s_ < 3 || context_.newton.share_of_error == 0.)
     return 1.;
+  constexpr double newton_share    = 1e-2;  // of the square of the defect, which is of the order of the local error
+  constexpr double least_part_left = 1e-11; // of the forces: over a hundred periods 1e-9 of the motion
   return std::max(newton_share * defect_part_ * defect_part_, least_part_left);
 }
 
@@ -59,9 +52,11 @@ bool CollocationStep::is_held(int measure) const
 
 double CollocationStep::size_of(const StepTable &table, const VectorXd &change, int iteration, double &part) const
 {
-  const double left = iteration < most_usual ? 0. : rounding / context_.newton.tolerance;
-  double       size = 0.;
-  part              = 0.;
+  constexpr double rounding   = 8. * std::numeric_limits<double>::epsilon(); // of sums of a few terms
+  constexpr int    most_usual = 2;                                           // iterations: one corrects, one confirms
+  const double     left       = iteration < most_usual ? 0. : rounding / context_.newton.tolerance;
+  double           size       = 0.;
+  part                        = 0.;
   for (int r = 0; r < n_u_; ++r)
   {
     const double own = is_held(r) ? 1. : 0.;
@@ -93,6 +88,7 @@ double CollocationStep::of_all(const StepTable &table, int row) const
 
 bool CollocationStep::is_sound(const StepTable &table)
 {
+  constexpr double least_pivot = 0.25; // of I - S dp: its solution goes at most some four times as far as the motion
   if (context_.system->forces().held().empty())
     return lu_.least_pivot() > least_pivot;
   dp_du_.setZero(); // what sticks writes nothing
@@ -139,6 +135,7 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   reach(end);
   grow_scale(end.u, end.v, table.h);
   estimate(table);
+  constexpr int steps_of_way = 16; // between two looks at the way of the motion
   // The way of the motion costs a pass over the modes: it is looked at where it may save the step, else now and then.
   if (context_.error_tolerance == 0. || (error_ <= context_.error_tolerance && age_of_way_++ % steps_of_way != 0))
     return;
@@ -165,8 +162,9 @@ void CollocationStep::reach(const LocalState &end)
 
 void CollocationStep::estimate(const StepTable &table)
 {
-  const bool   expected = is_expected(table.h);
-  const double way =
+  const bool       expected   = is_expected(table.h);
+  constexpr double least_part = 1e-6; // of the motion as a whole, below which a measure does not count for less
+  const double     way =
       std::max({context_.farthest, reached_.way, expected ? expected_.way : 0., least_part * context_.loads_way});
   const double least = least_part * std::max(way, context_.loads_way);
   const Index  last  = s_ * n_u_;
@@ -179,8 +177,9 @@ void CollocationStep::estimate(const StepTable &table)
       S_u += table.S_u(last + r, j * n_u_ + r);
       S_v += table.S_v(last + r, j * n_u_ + r);
     }
-    const double defect = std::abs(defect_[r]) / error_share, whole = way * context_.root_mobility[r];
-    const double du = std::max(std::abs(S_u), table.h * std::abs(S_v)) * defect * (is_held(r) ? 1. : mobile_[r]);
+    constexpr int error_share = 10; // the defect at the ends of a step against what it does to the measures
+    const double  defect = std::abs(defect_[r]) / error_share, whole = way * context_.root_mobility[r];
+    const double  du = std::max(std::abs(S_u), table.h * std::abs(S_v)) * defect * (is_held(r) ? 1. : mobile_[r]);
     if (du == 0.)
       continue;
     const double force = std::max({context_.force[r], reached_.p[r], expected ? expected_.p[r] : 0.});

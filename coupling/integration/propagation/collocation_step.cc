@@ -15,10 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double fresh_needed  = 0.15; ///< contraction above which the Jacobian is taken anew
-constexpr int    most_doubtful = 6;    ///< halvings
-constexpr double stalled       = 0.5;  ///< contraction above which corrections are rounding
-
 } // namespace
 
 CollocationStep::CollocationStep(PropagationContext &context, int stages)
@@ -74,6 +70,7 @@ void CollocationStep::begin(const VectorXd &x, const LocalState &at)
 
 bool CollocationStep::solve(const StepTable &table, LocalState &end)
 {
+  constexpr int most_doubtful = 6; // halvings
   // A step tried from here before was refused.  But it tells how far the motion goes by its end, and until then
   // scales are not below that: a motion that begins from rest, like t^3, would else have no step small enough.
   // One that errs by as much as it moves tells little, unless shorter ones do so too.
@@ -241,8 +238,11 @@ bool CollocationStep::iterate(const StepTable &table)
     const double contraction = iteration > 0 && before > 0. ? size / before : 0.01;
     const double left        = contraction < 1. ? contraction / (1. - contraction) : 1.;
     const double known       = iteration > 0 ? std::min(1., left) : 1.; // of the correction, that may be left
+    // contraction above which corrections are rounding: Newton's converge faster
+    constexpr double stalled = 0.5;
     if (size * known <= context_.newton.tolerance && (part * known <= part_left() || contraction > stalled))
       return true;
+    constexpr double fresh_needed = 0.15; // contraction above which the Jacobian is taken anew
     // A kept Jacobian that contracts badly is taken anew; a fresh one is, from its second use on.
     fresh  = iteration > 0 ? contraction > fresh_needed : false;
     before = size;

@@ -19,13 +19,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double no_stiffness = 1e-13; ///< eigenvalue of C scaled to unit diagonal, per coordinate, that counts as zero
-constexpr double negative     = 1e-8;  ///< the same, below zero: no rounding
-constexpr double no_coupling  = 1e-13; ///< off-diagonal of the modal damping against its diagonals
-constexpr double no_damping   = 1e-13; ///< modal damping against the largest
-constexpr double resonance    = 1e-8;  ///< |i Omega - lambda| / Omega below which the forced motion has no digits left
-constexpr double coinciding   = 1e10;  ///< condition of the eigenvectors
-constexpr double critical_ratio = 1e-12; ///< distance kept from critical damping, where two eigenvectors coincide
+constexpr double coinciding = 1e10; ///< condition of the eigenvectors
 
 [[noreturn]] void refuse(const std::string &reason)
 {
@@ -39,6 +33,9 @@ MatrixXd motions_without_stiffness(const MatrixXd &C)
   const VectorXd             d = C.diagonal().unaryExpr([](double c) { return c > 0. ? 1. / std::sqrt(c) : 1.; });
   const SymmetricEigenSolver modes(d.asDiagonal() * C * d.asDiagonal());
   Eigen::Index               n_r = 0;
+  // eigenvalue of C scaled to unit diagonal, per coordinate, that counts as zero
+  constexpr double no_stiffness = 1e-13;
+  constexpr double negative     = 1e-8; // the same, below zero: no rounding
   if (n > 0 && modes.eigenvalues()[0] < -negative)
     refuse("the stiffness matrix of the base is not positive semidefinite; give what pushes away as an element");
   while (n_r < n && modes.eigenvalues()[n_r] < no_stiffness * double(n))
@@ -119,6 +116,7 @@ void add_real_mode(const VectorXd &phi, const VectorXd &M_phi, double omega, dou
     to.from_v.row(column + 1) = M_phi;
     return;
   }
+  constexpr double critical_ratio = 1e-12; // distance kept from critical damping, where two eigenvectors coincide
   if (omega > 0. && std::abs(delta - omega) < critical_ratio * omega)
     delta = omega * (1. - critical_ratio);
   if (delta < omega)
@@ -300,6 +298,8 @@ void add_harmonic(const Excitation::Harmonic &harmonic, ModalBlocks &to, Eigen::
       Lambda << 0., 1., 0., 0.;
     const double distance =
         block.kind == ModalBlock::oscillating ? std::hypot(block.s, std::abs(block.w) - omega) : omega;
+    // |i Omega - lambda| / Omega below which the forced motion has no digits left
+    constexpr double resonance = 1e-8;
     if (distance < resonance * omega)
     {
       std::ostringstream message;
@@ -357,9 +357,11 @@ ModalBlocks modal_blocks(const MatrixXd &M, const MatrixXd &B, const MatrixXd &C
   // Modes whose damping couples them to none are kept real.
   const double     size_of_D = D.cwiseAbs().maxCoeff();
   std::vector<int> alone, coupled;
+  constexpr double no_damping = 1e-13; // modal damping against the largest
   for (Eigen::Index i = 0; i < n; ++i)
   {
-    double off = 0.;
+    double           off         = 0.;
+    constexpr double no_coupling = 1e-13; // off-diagonal of the modal damping against its diagonals
     for (Eigen::Index j = 0; j < n; ++j)
       if (j != i)
         off = std::max(off, std::abs(D(i, j)) - no_coupling * std::sqrt(std::abs(D(i, i) * D(j, j))));

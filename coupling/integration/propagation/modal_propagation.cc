@@ -12,15 +12,7 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double shortest_partial = 0.05; ///< of a step: a shorter way to the grid is joined with the next step
-constexpr double furthest_turn    = 3.2;  ///< [rad] of what moves a measure within a part of a step
-constexpr double looked_at        = 1e-3; ///< what a mode moves in a measure, of its largest excursion
-constexpr int    most_parts       = 4096; ///< of a step
-constexpr double few_differences  = 1e-3; ///< of a step: over a shorter one u moves too little for its rate to be read
-constexpr double safety           = 0.5;  ///< a step is doubled if its error, scaled to it, stays below this
-
-constexpr double of_tolerance = 0.1, of_fixed = 1e-6; ///< share of the excursions by which dense output may err
-constexpr double negligible = 1e-14;                  ///< error of the forces' interpolation, relative
+constexpr double safety = 0.5; ///< a step is doubled if its error, scaled to it, stays below this
 
 /// How fast the motions of a block turn or die away [1/s].
 double rate_of(const ModalBlock &block)
@@ -138,9 +130,10 @@ ModalPropagation::Target ModalPropagation::next_target() const
   }
   else
   {
-    const int64_t unit = int64_t(1) << (finest - rung);
-    target.tick        = (int64_t(std::floor((local_begin_.t - t_origin_) / spacing(rung))) + 1) * unit;
-    const auto time_of = [&](int64_t tick) { return t_origin_ + double(tick) * std::ldexp(step_, -finest); };
+    const int64_t unit       = int64_t(1) << (finest - rung);
+    target.tick              = (int64_t(std::floor((local_begin_.t - t_origin_) / spacing(rung))) + 1) * unit;
+    const auto       time_of = [&](int64_t tick) { return t_origin_ + double(tick) * std::ldexp(step_, -finest); };
+    constexpr double shortest_partial = 0.05; // of a step: a shorter way to the grid is joined with the next step
     if (time_of(target.tick) - local_begin_.t < shortest_partial * spacing(rung))
       target.tick += unit;
     target.h = time_of(target.tick) - local_begin_.t;
@@ -295,8 +288,10 @@ void ModalPropagation::interpolate(double t, LocalState &state) const
     return;
   }
   force_->interpolate((t - t_begin_) / h, state);
-  state.t            = t;
-  const bool is_read = h < few_differences * step_ || !is_smooth(h), holds = !system_.forces().held().empty();
+  state.t = t;
+  // of a step: over a shorter one u moves too little for its rate to be read
+  constexpr double few_differences = 1e-3;
+  const bool       is_read = h < few_differences * step_ || !is_smooth(h), holds = !system_.forces().held().empty();
   if (!is_read && !holds)
     return;
   const Eigen::VectorXd &x = state_at(t);
@@ -319,10 +314,12 @@ bool ModalPropagation::is_smooth(double h) const
 {
   if (h_smooth_ == h)
     return smooth_;
-  h_smooth_                     = h;
-  smooth_                       = true;
-  const double         share    = options_.tolerance > 0. ? of_tolerance * options_.tolerance : of_fixed;
-  const ModalMeasures &measures = context_.measures;
+  h_smooth_                         = h;
+  smooth_                           = true;
+  constexpr double     of_tolerance = 0.1, of_fixed = 1e-6; // share of the excursions by which dense output may err
+  const double         share      = options_.tolerance > 0. ? of_tolerance * options_.tolerance : of_fixed;
+  const ModalMeasures &measures   = context_.measures;
+  constexpr double     negligible = 1e-14; // error of the forces' interpolation, relative
   if (force_->interpolation_error(h * fastest_) < negligible)
     return smooth_;
   force_->end_state(x_work_);
@@ -343,9 +340,10 @@ bool ModalPropagation::is_smooth(double h) const
 /// its end, whatever their phase.
 int ModalPropagation::parts_of_step() const
 {
-  const double         h        = local_.t - t_begin_;
-  const ModalMeasures &measures = context_.measures;
-  double               most     = furthest_turn;
+  const double         h             = local_.t - t_begin_;
+  const ModalMeasures &measures      = context_.measures;
+  constexpr double     furthest_turn = 3.2; // [rad] of what moves a measure within a part of a step
+  double               most          = furthest_turn;
   if (!(h * fastest_ > most))
     return 1;
   for (const bool at_end : {false, true})
@@ -362,11 +360,13 @@ int ModalPropagation::parts_of_step() const
       const double x_1 = std::abs(x_work_[b]), x_2 = std::abs(x_work_[measures.n_p + b]);
       const auto   moved = [&](const auto &read)
       { return x_1 * read.row(b).cwiseAbs().array() + x_2 * read.row(measures.n_p + b).cwiseAbs().array(); };
+      constexpr double looked_at = 1e-3; // what a mode moves in a measure, of its largest excursion
       if (((moved(measures.read_u) + moved(measures.read_v) / rate).transpose() > looked_at * context_.scale.array())
               .any())
         most = h * rate;
     }
   }
+  constexpr int most_parts = 4096; // of a step
   return most > furthest_turn ? int(std::min(std::ceil(most / furthest_turn), double(most_parts))) : 1;
 }
 

@@ -9,8 +9,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int max_k = 10;
-
 /// A complex number with the plain product: std::complex checks every one for infinities.
 struct Complex
 {
@@ -101,6 +99,7 @@ void phi_of(const Number &z, int k, Number *phi)
 
 void phi_functions(const ModalBlock &block, double h, int k, Block2 *phi)
 {
+  constexpr int max_k = 10; // highest order: collocation of order 8 and its errors
   switch (block.kind)
   {
   case ModalBlock::oscillating:

@@ -14,9 +14,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    collocation_order = 4;    ///< where none is given
-constexpr double share_of_newton   = 1e-2; ///< Newton's tolerance in units of that of the error
-constexpr double finest            = 1e-13;
+constexpr int collocation_order = 4; ///< where none is given
 
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
@@ -140,6 +138,9 @@ std::unique_ptr<TimeIntegrator> PropagationMethod::make(const SecondOrderSystem 
   options.tolerance = o.tolerance;
   options.newton    = o.newton;
   options.modes     = o.modes;
+  // Newton's tolerance in units of that of the error: it counts little beside it
+  constexpr double share_of_newton = 1e-2;
+  constexpr double finest          = 1e-13; // below is rounding
   if (controlled(o))
     options.newton.tolerance = std::max(share_of_newton * o.tolerance, finest);
   else

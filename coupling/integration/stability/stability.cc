@@ -34,8 +34,7 @@ double highest(const std::function<long double(double)> &f, double a, double b)
   return 0.5 * (a + b);
 }
 
-constexpr long double pi          = 3.141592653589793238462643383279502884L;
-constexpr double      least_omega = 1e-6, largest_omega = 1e7; // omega h between which intervals are looked for
+constexpr long double pi = 3.141592653589793238462643383279502884L;
 
 CharacteristicRoots roots_of(const MethodOptions &options, const TestOscillator &o)
 {
@@ -120,7 +119,8 @@ struct Sample
 /// so that none is stepped over.
 std::vector<Sample> samples(const Margin &f)
 {
-  constexpr int       n = 600;
+  constexpr int       n           = 600;
+  constexpr double    least_omega = 1e-6, largest_omega = 1e7; // omega h between which intervals are looked for
   const double        a = std::log(least_omega), b = std::log(largest_omega);
   std::vector<Sample> grid(n + 1), all;
   for (int i = 0; i <= n; ++i)

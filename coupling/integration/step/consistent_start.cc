@@ -14,8 +14,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double closed = 1e-10; ///< share of its terms that a joint may be open by where rounding stops progress
-
 /// Largest g of a joint against the size of the numbers whose difference it is.
 double largest_gap(const Eigen::VectorXd &g, const std::vector<ConstraintBlock> &blocks)
 {
@@ -168,8 +166,9 @@ void ConsistentStart::project(Eigen::VectorXd &q, Eigen::VectorXd &v, LocalState
   for (int iteration = 0;; ++iteration)
   {
     system_.joints().constraints(local, g_, G_);
-    const double before = open;
-    open                = largest_gap(g_, G_.blocks());
+    const double before     = open;
+    open                    = largest_gap(g_, G_.blocks());
+    constexpr double closed = 1e-10; // share of its terms that a joint may be open by where rounding stops progress
     if (open <= rounding || (open <= closed && open >= 0.5 * before)) // nothing left but rounding
       break;
     if (!(open < std::numeric_limits<double>::infinity()) || iteration == max_iterations)

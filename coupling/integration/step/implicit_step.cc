@@ -13,13 +13,9 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double rounding         = 8. * std::numeric_limits<double>::epsilon();
-constexpr double joint_rounding   = 8.;   ///< times that of one number: several terms, enlarged by levers
-constexpr double share_of_joints  = 1e-3; ///< of the tolerance
-constexpr double most_left        = 1e-7; ///< of the excursion of a measure, however large the local error is
-constexpr double finest_tolerance = 1e-13;
-constexpr int    most_usual       = 3;    ///< iterations
-constexpr double weak_lever       = 1e-3; ///< share of the largest entry of G below which a measure hardly moves g
+constexpr double rounding       = 8. * std::numeric_limits<double>::epsilon();
+constexpr double joint_rounding = 8.;   ///< times that of one number: several terms, enlarged by levers
+constexpr double most_left      = 1e-7; ///< of the excursion of a measure, however large the local error is
 } // namespace
 
 void fail_singular(const SecondOrderSystem &system, double t)
@@ -70,7 +66,10 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   // What positions are wrong by, multipliers are by m/h^2 times that.
   if (G_.n_rows() > 0)
   {
-    options_.tolerance = std::max(share_of_joints * options_.tolerance, finest_tolerance);
+    // of the tolerance: multipliers are wrong by m / h^2 times what positions are
+    constexpr double share_of_joints  = 1e-3;
+    constexpr double finest_tolerance = 1e-13; // below is rounding
+    options_.tolerance                = std::max(share_of_joints * options_.tolerance, finest_tolerance);
     options_.share_of_error *= share_of_joints;
     most_left_ *= share_of_joints;
     // Friction by multipliers lags one iteration behind them, which the motion hardly shows.
@@ -183,9 +182,10 @@ void ImplicitStep::grow_scale(const StepForm &form, const LocalState &local, boo
   double of_joints = 0.;
   for (std::size_t b = 0; b < G_.blocks().size(); ++b)
   {
-    const ConstraintBlock &block = G_.blocks()[b];
-    const auto             G     = static_cast<const ConstraintJacobian &>(G_)[b];
-    const double           least = weak_lever * G.cwiseAbs().maxCoeff();
+    const ConstraintBlock &block      = G_.blocks()[b];
+    const auto             G          = static_cast<const ConstraintJacobian &>(G_)[b];
+    constexpr double       weak_lever = 1e-3; // share of the largest entry of G below which a measure hardly moves g
+    const double           least      = weak_lever * G.cwiseAbs().maxCoeff();
     if (least > 0.)
       of_joints = std::max(of_joints, joint_rounding * left * block.size * weak_lever / least);
     for (int k = 0; least > 0. && k < block.n_measures; ++k)
@@ -318,6 +318,7 @@ bool ImplicitStep::iterate(const Condensed &condensed, const LocalState &base, L
       correction_[h.measure] = 0.;
     }
     grow_scale(form, local, iteration == 0);
+    constexpr int most_usual = 3; // iterations: Newton is done, or rounding is to be allowed for
     if (iteration >= most_usual)
     {
       const double left = rounding / options_.tolerance;

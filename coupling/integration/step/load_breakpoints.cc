@@ -7,7 +7,6 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr int instants = 64;
 
 /// f_t + W p at t, for the measures of the begin.
 class Loads
@@ -45,7 +44,8 @@ private:
 
 LoadedMotion load_breakpoints(const SecondOrderSystem &system, const LocalState &at, double end)
 {
-  const double tau = (end - at.t) / instants;
+  constexpr int instants = 64; // loads that change faster are met by the events of their tables
+  const double  tau      = (end - at.t) / instants;
   if (!(tau > 0.) || !std::isfinite(tau))
     return {};
   Loads           loads(system, at);

@@ -16,10 +16,7 @@ namespace
 using Sparse   = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr double dependent        = 1e-14; ///< pivot of an equation of unit length: rounding, as in SmallLu
-constexpr double pivot_preference = 1e-4;  ///< of the diagonal, where it is not that much smaller than the column
-constexpr int    many_equations   = 24;    ///< on one coordinate: it is eliminated after them
-constexpr double per_fill         = 8.;    ///< time of a multiplication with indices against one in a dense row
+constexpr double pivot_preference = 1e-4; ///< of the diagonal, where it is not that much smaller than the column
 
 template <typename Use>
 void for_column(const Sparse &W, int column, const Use &use)
@@ -78,7 +75,8 @@ std::unique_ptr<SaddleMatrix> SaddleMatrix::for_joints(const SecondOrderSystem &
   {
     auto sparse = std::make_unique<SaddleMatrix>(system);
     // S G^T, its triangular solves, G S G^T and the factor of that.
-    const double condensed = n_u * n_u * n_c + n_c * n_c * n_c / 3.;
+    const double     condensed = n_u * n_u * n_c + n_c * n_c * n_c / 3.;
+    constexpr double per_fill  = 8.; // time of a multiplication with indices against one in a dense row
     return per_fill * sparse->work() < condensed ? std::move(sparse) : nullptr;
   }
   catch (const std::invalid_argument &)
@@ -231,6 +229,7 @@ void SaddleMatrix::order()
   const int       *begin = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();
   const int        N = size();
   std::vector<int> set(N, 0);
+  constexpr int    many_equations = 24; // on one coordinate: it is eliminated after them
   for (int j = 0; j < n_; ++j)
     if (std::count_if(rows + begin[j], rows + begin[j + 1], [this](int i) { return i >= n_; }) > many_equations)
       set[j] = 2;
@@ -334,7 +333,8 @@ bool SaddleMatrix::is_regular()
   const auto *pivots = static_cast<const double *>(factor_->numeric->Udiag);
   for (int k = 0; k < size(); ++k)
   {
-    failed_ = factor_->symbolic->Q[k];
+    failed_                    = factor_->symbolic->Q[k];
+    constexpr double dependent = 1e-14; // pivot of an equation of unit length: rounding, as in SmallLu
     if (failed_ < n_ ? !std::isfinite(pivots[k]) : !(std::abs(pivots[k]) > dependent) || !std::isfinite(pivots[k]))
       return false;
   }

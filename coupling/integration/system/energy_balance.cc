@@ -13,9 +13,6 @@ namespace
 constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
 constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
 
-constexpr double closed      = 1e-7; ///< share of the energy exchanged, for one step
-constexpr double converged   = 0.1;  ///< of what is open: what twice as many panels change
-constexpr int    most_panels = 4096;
 } // namespace
 
 EnergyBalance::EnergyBalance(const SecondOrderSystem &system) : system_(system)
@@ -106,15 +103,18 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
   integrate(integrator, 1);
   if (!(t_ - t_begin_ > rule.shortest))
     return;
-  stored_            = stored(integrator.instant(), in_elements_);
-  const double small = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
+  stored_                      = stored(integrator.instant(), in_elements_);
+  constexpr double closed      = 1e-7; // share of the energy exchanged, for one step
+  const double     small       = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
+  constexpr int    most_panels = 4096; // 2^12: a load that still changes the work is no function that can be integrated
   for (int panels = 2; (t_ - t_begin_) * 2. > panels * rule.shortest && panels <= most_panels; panels *= 2)
   {
     if (open() <= small)
       return;
     const Power before = work_;
     integrate(integrator, panels);
-    const double change = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
+    const double     change    = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
+    constexpr double converged = 0.1; // of what is open: what twice as many panels change
     if (change < converged * open())
       return; // what is open is the method's own
   }

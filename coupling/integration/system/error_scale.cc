@@ -12,14 +12,6 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double rounding      = 8. * std::numeric_limits<double>::epsilon();
-constexpr double measure_floor = 1e-3;  ///< of the excursions of the coordinates a measure is made of
-constexpr double group_floor   = 1e-6;  ///< of the group that moves most, in its energy norm
-constexpr double law_floor     = 1e-3;  ///< of what the excursions of other measures make of the law of a virtual one
-constexpr double uncoupled     = 1e-13; ///< entries of M, B, C below this part of the largest do not couple
-constexpr double rigid         = 1e-7;  ///< modes below this part of the highest frequency are rigid motions
-constexpr int    exact_masses  = 1000;  ///< coordinates up to which M_ii is computed and not estimated
-constexpr int    probes        = 64;
 
 double highest(const std::vector<SpectrumLine> &spectrum)
 {
@@ -33,8 +25,9 @@ double highest(const std::vector<SpectrumLine> &spectrum)
 
 double slowest_elastic(const std::vector<SpectrumLine> &spectrum)
 {
-  const double least  = rigid * highest(spectrum);
-  double       lowest = std::numeric_limits<double>::infinity();
+  constexpr double rigid  = 1e-7; // modes below this part of the highest frequency are rigid motions
+  const double     least  = rigid * highest(spectrum);
+  double           lowest = std::numeric_limits<double>::infinity();
   for (const SpectrumLine &line : spectrum)
     if (line.omega > least)
       lowest = std::min(lowest, line.omega);
@@ -81,6 +74,8 @@ void ErrorScale::find_masses()
   const int       n = system_.linear().size();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n), y(n);
   m_.setZero(n);
+  // coordinates up to which M_ii is computed and not estimated: n products, as fast as a factor
+  constexpr int exact_masses = 1000;
   if (n <= exact_masses)
     for (int i = 0; i < n; ++i)
     {
@@ -91,7 +86,8 @@ void ErrorScale::find_masses()
     }
   else
   {
-    std::mt19937 random(1);
+    std::mt19937  random(1);
+    constexpr int probes = 64; // the estimate of a diagonal by signs errs by 1/8 of the rest of its row
     for (int k = 0; k < probes; ++k)
     {
       for (int i = 0; i < n; ++i)
@@ -129,7 +125,8 @@ void ErrorScale::find_groups()
            {&LinearSystem::mass_times, &LinearSystem::damping_times, &LinearSystem::stiffness_times})
       {
         (system_.linear().*product)(x, y);
-        const double least = uncoupled * y.lpNorm<Eigen::Infinity>();
+        constexpr double uncoupled = 1e-13; // entries of M, B, C below this part of the largest do not couple
+        const double     least     = uncoupled * y.lpNorm<Eigen::Infinity>();
         for (int i = 0; i < n; ++i)
           if (group[i] < 0 && std::abs(y[i]) > least)
           {
@@ -292,12 +289,13 @@ bool ErrorScale::consider(double t, double h, const Motion &from, const Motion &
 std::pair<double, double> ErrorScale::invert(double h, const Excursion &of) const
 {
   const auto [E, V, change_of_speed, size, rate] = of;
-  const double floor                             = rounding / tolerance_;
-  const bool   moves                             = E > 0. && V > 0.;
-  const double chi                               = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
-  const double frequency                         = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
-  const double q                                 = std::max(E * chi, floor * std::max(size, h * rate));
-  const double v                                 = std::max(V * chi, floor * std::max(size * frequency, rate));
+  constexpr double rounding  = 8. * std::numeric_limits<double>::epsilon(); // of sums of a few terms
+  const double     floor     = rounding / tolerance_;
+  const bool       moves     = E > 0. && V > 0.;
+  const double     chi       = moves ? std::min(1., std::max(h * V / E, change_of_speed / V)) : 1.;
+  const double     frequency = moves ? std::min(1. / h, std::max(omega_n_, 10. * V / E)) : 1. / h;
+  const double     q         = std::max(E * chi, floor * std::max(size, h * rate));
+  const double     v         = std::max(V * chi, floor * std::max(size * frequency, rate));
   return {q > 0. ? 1. / q : 0., v > 0. ? 1. / v : 0.};
 }
 
@@ -321,6 +319,7 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
       double &largest = moved_[end_group_[it.row()]];
       largest         = std::max(largest, std::abs(moved[j]) * root_mass_[j]);
     }
+  constexpr double group_floor = 1e-6; // of the group that moves most, in its energy norm
   for (int g = 0; g < n_groups_; ++g)
     std::tie(inverse_q_[g], inverse_v_[g]) =
         invert(h, {std::max(bounded(scale_.q[g], scale_.v[g]), group_floor * most),
@@ -340,11 +339,12 @@ void ErrorScale::set_scales(double h, const Motion &from, const Motion &to, cons
       size = std::max(size, it.value() * std::abs(to.q[end_index_[it.row()]]));
       rate = std::max(rate, it.value() * std::abs(to.v[end_index_[it.row()]]));
     }
-    const double part = root_mass_[j] > 0. ? group_floor / root_mass_[j] : 0.;
-    way_[j]           = std::max({bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way, part * most});
-    speed_[j]         = std::max({scale_.u_rate[j], measure_floor * speed, part * fastest});
-    size_[j]          = size;
-    rate_[j]          = rate;
+    const double     part          = root_mass_[j] > 0. ? group_floor / root_mass_[j] : 0.;
+    constexpr double measure_floor = 1e-3; // of the excursions of the coordinates a measure is made of
+    way_[j]   = std::max({bounded(scale_.u[j], scale_.u_rate[j]), measure_floor * way, part * most});
+    speed_[j] = std::max({scale_.u_rate[j], measure_floor * speed, part * fastest});
+    size_[j]  = size;
+    rate_[j]  = rate;
     std::tie(inverse_u_[j], inverse_rate_[j]) =
         invert(h, {way_[j], speed_[j], std::abs(to.u_rate[j] - from.u_rate[j]), size, rate});
   }
@@ -355,10 +355,12 @@ void ErrorScale::set_scales_of_virtual(double h)
 {
   for (const Virtual &z : virtual_)
   {
-    const int    j   = z.measure;
-    const double law = law_floor * (z.by_u.dot(way_) + z.by_rate.dot(speed_));
-    const double way = std::max(way_[j], law), speed = z.time > 0. ? std::max(speed_[j], law / z.time) : speed_[j];
-    const double left =
+    const int j = z.measure;
+    // of what the excursions of other measures make of the law of a virtual one
+    constexpr double law_floor = 1e-3;
+    const double     law       = law_floor * (z.by_u.dot(way_) + z.by_rate.dot(speed_));
+    const double     way = std::max(way_[j], law), speed = z.time > 0. ? std::max(speed_[j], law / z.time) : speed_[j];
+    const double     left =
         z.by_u.dot(size_) + z.by_rate.dot(rate_) + z.by_rate.dot(joint_noise_) / (z.time + h); // h/(T + h) of noise/h
     const double size = std::max(size_[j], left);
     inverse_u_[j]     = invert(h, {way, speed, 0., size, rate_[j]}).first;

@@ -14,9 +14,7 @@ namespace
 
 using mechanism::OrthonormalDirectors;
 
-constexpr double rank_threshold = 1e-10; // of the pivots
-constexpr double taken_part     = 1e-6;  // coefficient with which an equation counts as used
-constexpr double near_dead      = 0.03;  // pivot: about the angle [rad] to the dead position
+constexpr double taken_part = 1e-6; // coefficient with which an equation counts as used
 
 bool makes_rigid(const ElementPlacement &placement)
 {
@@ -59,6 +57,7 @@ ConstraintRank::ConstraintRank(const Machine &machine, Eigen::MatrixXd rows) : m
       rows_.middleRows(first, n) *= 2.;
     first += n;
   }
+  constexpr double rank_threshold = 1e-10; // of the pivots of unit rows, but for rounding of levers
   qr_.setThreshold(rank_threshold);
   qr_.compute(rows_.transpose());
   dependent_ = int(rows_.rows() - qr_.rank());
@@ -148,7 +147,8 @@ std::string ConstraintRank::nearly_dependent() const
   const auto n = rows_.rows();
   if (n == 0 || n > rows_.cols())
     return "";
-  const double pivot = std::abs(qr_.matrixR()(n - 1, n - 1));
+  const double     pivot     = std::abs(qr_.matrixR()(n - 1, n - 1));
+  constexpr double near_dead = 0.03; // pivot: about the angle [rad] to the dead position
   return pivot < near_dead ? machine_.joints().name(qr_.colsPermutation().indices()[n - 1]) : "";
 }
 

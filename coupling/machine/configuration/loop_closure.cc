@@ -8,8 +8,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int most_rounds = 20;
-
 std::vector<int> slider_coordinates(const Machine &machine)
 {
   std::vector<int> sliders;
@@ -68,7 +66,8 @@ Eigen::VectorXd slider_solution(const Machine &machine, const Eigen::MatrixXd &J
 
 void close_chains(const Machine &machine, Eigen::VectorXd &q)
 {
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(machine.size());
+  const Eigen::VectorXd rest        = Eigen::VectorXd::Zero(machine.size());
+  constexpr int         most_rounds = 20; // Newton's: quadratic near the end, some rounds from any place that closes
   for (int i = 0; i < most_rounds; ++i)
   {
     const Closures chain = closures(machine, q, rest);

@@ -15,9 +15,6 @@ namespace
 
 constexpr double rounding = 1e-10; ///< of a row with scaled coordinates, against the whole row
 
-/// A journal crosses its play at speeds of gap times the angular speed of what turns; ten times that has another cause.
-constexpr double crossings = 10.;
-
 double fastest_turning(const Machine &machine, const Eigen::VectorXd &v)
 {
   double fastest = 0.;
@@ -117,6 +114,9 @@ std::vector<std::string> closing_warnings(const Machine &machine, const std::vec
   for (const PlacedPlay &own : plays(machine, q, v))
   {
     const double speed = own.rate().norm();
+    // A journal crosses its play at speeds of gap times the angular speed of what turns; ten times that has another
+    // cause.
+    constexpr double crossings = 10.;
     if (!own.play.both || !(own.play.gap > 0.) || speed <= crossings * own.play.gap * turning ||
         speed <= rounding * v.norm() || !is_free_to_move(machine, v_given, state, own.G))
       continue;

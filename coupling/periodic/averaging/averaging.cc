@@ -20,9 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double beside_resonance = 1.03; ///< times the period: an undamped base has no response at its resonance
-constexpr double far_away         = 0.5;  ///< of the amplitude: another motion
-
 class AveragingMethod final : public PeriodicMethod
 {
 public:
@@ -163,8 +160,10 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
     {
       if (!problem.period_is_unknown() || problem.interrupted())
         throw;
-      other = balanced(beside_resonance * solution.period);
+      constexpr double beside_resonance = 1.03; // times the period: an undamped base has no response at its resonance
+      other                             = balanced(beside_resonance * solution.period);
     }
+    constexpr double far_away = 0.5; // of the amplitude: another motion
     if (const double apart = distance_of(*solution.series, *other.series); apart <= far_away)
     {
       note << "harmonic balance with " << H << " harmonics differs from it by " << apart << " of its amplitude";

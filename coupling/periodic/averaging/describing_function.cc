@@ -107,10 +107,6 @@ constexpr double kronrod_weights[] = {0.022935322010529224963732008058970, 0.063
 constexpr double gauss_weights[]   = {0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
                                       0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
 
-constexpr double agreement   = 1e-13; ///< of two rules, of the largest force times the interval
-constexpr double noise       = 1e-8;  ///< most that intervals of rounding alone may err by, of the largest force [rad]
-constexpr int    most_halves = 52;    ///< of the quarter of a period: to rounding
-
 } // namespace
 
 DescribedForces::DescribedForces(const SecondOrderSystem &system, Eigen::VectorXd d)
@@ -163,9 +159,12 @@ void DescribedForces::add(double from, double to, int depth, bool twin_disagrees
     kronrod(ends[i], ends[i + 1], fine[i], rough[i]);
     error[i] = (fine[i] - rough[i]).cwiseAbs().maxCoeff();
   }
-  const double enough  = agreement * largest_ * (middle - from);
-  const bool   both    = error[0] > enough && error[1] > enough;
-  const bool   rounded = both && twin_disagrees && error[0] + error[1] <= noise * largest_;
+  constexpr double agreement   = 1e-13; // of two rules, of the largest force times the interval
+  const double     enough      = agreement * largest_ * (middle - from);
+  const bool       both        = error[0] > enough && error[1] > enough;
+  constexpr double noise       = 1e-8; // most that intervals of rounding alone may err by, of the largest force [rad]
+  const bool       rounded     = both && twin_disagrees && error[0] + error[1] <= noise * largest_;
+  constexpr int    most_halves = 52; // of the quarter of a period: to rounding
   for (int i = 0; i < 2; ++i)
     if (depth >= most_halves || rounded || error[i] <= enough)
       sum_ += fine[i];

@@ -18,13 +18,7 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    rest_iterations = 100, mean_iterations = 500;
 constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
-constexpr double symmetric     = 1e-9; ///< C - C^T beside C that moves the answer less than averaging itself errs
-constexpr double reach         = 1e3;  ///< of amplitudes searched, below that of the linear system
-constexpr double beyond        = 10.;  ///< the same above its amplitude in resonance
-constexpr double least_damping = 1e-4; ///< share of critical that is assumed at resonance, where a mode has less
-constexpr int    grid_points   = 1500;
 
 [[noreturn]] void refuse_averaging(const std::string &reason)
 {
@@ -62,8 +56,9 @@ void SlowFlow::find_rest()
   LocalState               state;
   state.resize(W_.cols());
   MatrixXd       dp_du = MatrixXd::Zero(W_.cols(), W_.cols()), dp_dv = dp_du;
-  const VectorXd load = system.linear().excitation().constant();
-  rest_               = VectorXd::Zero(M_.rows());
+  const VectorXd load           = system.linear().excitation().constant();
+  rest_                         = VectorXd::Zero(M_.rows());
+  constexpr int rest_iterations = 100; // Newton's, of piecewise linear laws: a branch each
   for (int k = 0; k < rest_iterations; ++k)
   {
     state.t = problem_.begin;
@@ -119,6 +114,7 @@ double SlowFlow::nearness(int mode, const VectorXd &omega, const MatrixXd &shape
 
 void SlowFlow::find_mode(int mode)
 {
+  constexpr double symmetric = 1e-9; // C - C^T beside C that moves the answer less than averaging itself errs
   if ((linear_C_ - linear_C_.transpose()).cwiseAbs().maxCoeff() > symmetric * linear_C_.cwiseAbs().maxCoeff())
     refuse_averaging("follower forces (loads with carried_by, friction under a moving load) make its modes "
                      "non-orthogonal; use shooting or harmonic-balance");
@@ -168,6 +164,7 @@ void SlowFlow::settle_mean(double a)
 {
   const VectorXd  load = problem_.system->linear().excitation().constant();
   DescribedForces described(*problem_.system, d_);
+  constexpr int   mean_iterations = 500; // a fixed point with contraction 0.94 still gets to rounding
   for (int k = 0; k < mean_iterations; ++k)
   {
     described.at(W_.transpose() * q_0_, a, omega_0_);
@@ -240,15 +237,19 @@ std::vector<double> SlowFlow::amplitudes(double from, double to)
 {
   if (!(to > from))
   {
-    const double push    = std::abs(load_) / (2. * omega_0_);
-    const double at_rest = 0.5 * std::abs(phi_.dot(linear_B_ * phi_)), base = 0.5 * std::abs(linear_damping_);
-    const double linear = push / std::hypot(omega_0_ - load_omega_, std::max(at_rest, least_damping * omega_0_));
+    const double     push    = std::abs(load_) / (2. * omega_0_);
+    const double     at_rest = 0.5 * std::abs(phi_.dot(linear_B_ * phi_)), base = 0.5 * std::abs(linear_damping_);
+    constexpr double least_damping = 1e-4; // share of critical that is assumed at resonance, where a mode has less
+    const double     linear = push / std::hypot(omega_0_ - load_omega_, std::max(at_rest, least_damping * omega_0_));
     // friction that damps small motions much damps large ones little
-    const double least = std::max(std::min(at_rest, base), least_damping * omega_0_);
-    from               = load_omega_ > 0. ? linear / reach : 1. / reach;
-    to                 = load_omega_ > 0. ? beyond * push / least : reach;
+    const double     least  = std::max(std::min(at_rest, base), least_damping * omega_0_);
+    constexpr double reach  = 1e3; // of amplitudes searched, below that of the linear system
+    from                    = load_omega_ > 0. ? linear / reach : 1. / reach;
+    constexpr double beyond = 10.; // the same above its amplitude in resonance
+    to                      = load_omega_ > 0. ? beyond * push / least : reach;
   }
-  const double        ratio = std::pow(to / from, 1. / (grid_points - 1));
+  constexpr int       grid_points = 1500; // amplitudes, about 1 % apart over six decades
+  const double        ratio       = std::pow(to / from, 1. / (grid_points - 1));
   std::vector<double> a(grid_points), value(grid_points), found;
   q_0_ = rest_;
   for (int i = 0; i < grid_points; ++i)

@@ -16,12 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double watched[]         = {0., 0.2, 0.5, 0.8, 1.}; ///< of an interval, where defects are looked at
-constexpr double share_of_point    = 0.1;   ///< of an interval that the defect at one of them stands for
-constexpr double repeats_by_itself = 1e-10; ///< det(E - e^(Lambda T)) of a block
-constexpr double keeps             = 0.3;   ///< of itself, a block that repeats after a period that is still unknown
-constexpr double longest_change    = 0.5;   ///< of T in a Newton step
-
 /// Makes an equation with these coefficients of forces as large as one.
 double scale_of(const Eigen::RowVectorXd &forces)
 {
@@ -65,9 +59,11 @@ PeriodicCollocation::PeriodicCollocation(const PeriodicProblem &problem, SharedM
 /// Whether a block repeats after the period; where that changes, whether it would after one near it.
 bool PeriodicCollocation::may_repeat_by_itself(Index b) const
 {
+  constexpr double repeats_by_itself = 1e-10; // det(E - e^(Lambda T)) of a block
   if (!period_changes_)
     return !(std::abs(closing_determinant(b)) > repeats_by_itself);
-  const auto e = whole_.E.row(b);
+  const auto       e     = whole_.E.row(b);
+  constexpr double keeps = 0.3; // of itself, a block that repeats after a period that is still unknown
   return modes_.blocks[std::size_t(b)].kind == ModalBlock::oscillating
              ? std::sqrt(std::abs(e[0] * e[3] - e[1] * e[2])) > keeps
              : std::max(std::abs(e[0]), std::abs(e[3])) > keeps;
@@ -304,7 +300,8 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
     const Index n    = u_0_.size(); // forces; free states and the period follow them
     const bool  done = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
                       (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
-    double part = 1.;
+    double           part           = 1.;
+    constexpr double longest_change = 0.5; // of T in a Newton step
     if (problem_.period_is_unknown())
       part = std::min(1., longest_change * period_ / std::abs(dP.tail(1)[0]));
     bool nearer = done;
@@ -383,8 +380,9 @@ VectorXd PeriodicCollocation::errors(const VectorXd &P)
   VectorXd       x    = begin_of(P), x_at(x.size());
   for (Index i = 0; i < n_intervals(); ++i)
   {
-    const StepTable &table = tables_[std::size_t(i)];
-    const VectorXd   P_i   = P.segment(i * width, width);
+    const StepTable &table     = tables_[std::size_t(i)];
+    const VectorXd   P_i       = P.segment(i * width, width);
+    constexpr double watched[] = {0., 0.2, 0.5, 0.8, 1.}; // of an interval, where defects are looked at
     for (const double part : watched)
     {
       if (part == 1.)
@@ -405,10 +403,11 @@ VectorXd PeriodicCollocation::errors(const VectorXd &P)
       // The defect over the whole interval moves the measures there, and by its impulse in the rest of the period.
       for (int j = 0; j < stages; ++j)
       {
-        const auto     moves  = table.S_u.block(stages * n_u_, j * n_u_, n_u_, n_u_);
-        const auto     pushes = table.S_v.block(stages * n_u_, j * n_u_, n_u_, n_u_);
-        const VectorXd way    = (moves * defect).cwiseAbs() + period_ / (2. * M_PI) * (pushes * defect).cwiseAbs();
-        errors[i]             = std::max(errors[i], share_of_point * way.cwiseQuotient(size).maxCoeff());
+        const auto       moves  = table.S_u.block(stages * n_u_, j * n_u_, n_u_, n_u_);
+        const auto       pushes = table.S_v.block(stages * n_u_, j * n_u_, n_u_, n_u_);
+        const VectorXd   way    = (moves * defect).cwiseAbs() + period_ / (2. * M_PI) * (pushes * defect).cwiseAbs();
+        constexpr double share_of_point = 0.1; // of an interval that the defect at one of them stands for
+        errors[i]                       = std::max(errors[i], share_of_point * way.cwiseQuotient(size).maxCoeff());
       }
     }
     x = x_at;

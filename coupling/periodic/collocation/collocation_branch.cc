@@ -15,14 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double      mesh_tolerance  = 1e-8;           ///< of PeriodicCollocation::errors()
-constexpr double      far_too_small   = 1. / (1 << 11); ///< an error of that, by which two intervals are one
-constexpr double      another         = 1e-6;           ///< distance of two mesh points, in periods
-constexpr double      located         = 1e-11;          ///< of an event, in periods
+constexpr double      mesh_tolerance  = 1e-8; ///< of PeriodicCollocation::errors()
+constexpr double      another         = 1e-6; ///< distance of two mesh points, in periods
 constexpr std::size_t least_intervals = 16, most_of_branch = 1600;
-constexpr int         rounds_of_first_mesh = 12;
-constexpr double      longest_move         = 0.2;  ///< of an event, in periods
-constexpr double      small_share          = 1e-3; ///< of the place of an event in the length of z
+constexpr double      small_share = 1e-3; ///< of the place of an event in the length of z
 
 bool equal(const std::vector<double> &a, const std::vector<double> &b, double moved)
 {
@@ -203,6 +199,7 @@ void CollocationBranch::begin_mesh(const PeriodicSolution &solution)
   for (std::size_t i = 1; i < least_intervals; ++i)
     points.push_back(double(i) / double(least_intervals));
   use_mesh(mesh_of(points), events);
+  constexpr int rounds_of_first_mesh = 12; // a mesh that is not fitted by then is taken as it is
   for (int round = 0; round < rounds_of_first_mesh; ++round)
   {
     y_                             = unknowns_of(solution);
@@ -224,7 +221,8 @@ std::vector<double> CollocationBranch::fitted(const std::vector<double> &events)
   bool dropped = false;
   for (std::size_t i = 0; i + 1 < mesh_.size(); ++i)
   {
-    const bool needed =
+    constexpr double far_too_small = 1. / (1 << 11); // an error of that, by which two intervals are one
+    const bool       needed =
         mesh_.size() <= least_intervals + events_.size() || dropped ||
         std::max(errors[Index(i)], errors[std::max<Index>(Index(i) - 1, 0)]) > far_too_small * mesh_tolerance;
     dropped = !needed;
@@ -243,6 +241,7 @@ void CollocationBranch::move_events(const std::vector<double> &events)
     return;
   if (events.size() != events_.size())
     throw ConvergenceFailure("the number of events changes" + by_shooting);
+  constexpr double longest_move = 0.2; // of an event, in periods
   for (std::size_t k = 0; k < events.size(); ++k)
     if (std::abs(events[k] - events_[k]) > longest_move)
       throw ConvergenceFailure("an event of the motion passes the beginning of the period" + by_shooting);
@@ -260,6 +259,7 @@ bool CollocationBranch::follow_motion(VectorXd &z)
   const PeriodicGuess       start   = start_of_motion();
   const PeriodPassage      &passage = flow_->pass(start.q, start.v, start.period, false);
   const std::vector<double> events  = event_points(passage.events, member_.problem.begin, passage.period);
+  constexpr double          located = 1e-11; // of an event, in periods
   if (events.size() != events_.size() || equal(events, events_, located))
     return false;
   move_events(events);

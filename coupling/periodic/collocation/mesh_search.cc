@@ -14,12 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    first_intervals = 16, most_at_first = 128, most_unknowns = 3000, most_rounds = 24;
-constexpr int    memory_samples = 256;
-constexpr double remembered =
-    1e-3; ///< share of the largest force above which memory counts; a branch kept up to its event is less
-constexpr double same_point = 1e-9; ///< of the period
-constexpr double far_off    = 1e-3; ///< error of a mesh that is no answer
 } // namespace
 
 VectorXd forces_along(PeriodFlow &flow, const PeriodicGuess &start, const std::vector<double> &mesh)
@@ -43,7 +37,8 @@ VectorXd forces_along(PeriodFlow &flow, const PeriodicGuess &start, const std::v
 std::vector<double> mesh_of(std::vector<double> mesh)
 {
   std::sort(mesh.begin(), mesh.end());
-  std::vector<double> kept = {0.};
+  std::vector<double> kept       = {0.};
+  constexpr double    same_point = 1e-9; // of the period: rounding of events
   for (const double s : mesh)
     if (s > kept.back() + same_point && s < 1. - same_point)
       kept.push_back(s);
@@ -76,7 +71,8 @@ std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const 
 {
   const LocalForces      &forces = problem.system->forces();
   std::vector<LocalState> states;
-  int                     held = -1;
+  int                     held           = -1;
+  constexpr int           memory_samples = 256; // of a period: forces that remember differ somewhere for a 256th of it
   flow.look_on(memory_samples,
                [&](const OrbitPoint &point)
                {
@@ -101,6 +97,8 @@ std::string why_no_mesh(const PeriodicProblem &problem, PeriodFlow &flow, const 
   {
     const double size  = largest.segment(block.first_measure, block.n_measures).maxCoeff();
     const double error = differs.segment(block.first_measure, block.n_measures).maxCoeff();
+    // share of the largest force above which memory counts; a branch kept up to its event is less
+    constexpr double remembered = 1e-3;
     if (!(error > remembered * size))
       continue;
     std::ostringstream text;
@@ -124,6 +122,7 @@ void MeshSearch::begin(const PeriodicGuess &guess)
   if (!problem_.period_is_unknown() || !(start.period > 0.))
     start.period = problem_.period;
   refuse_memory(start);
+  constexpr int first_intervals = 16, most_at_first = 128;
   for (int n = first_intervals;; n *= 2)
     try
     {
@@ -160,7 +159,8 @@ bool MeshSearch::refine()
     if (errors_[i] > options_.tolerance)
       grid_.push_back(0.5 * (before[std::size_t(i)] + before[std::size_t(i) + 1]));
   flow_.pass(q_, v_, collocation_.period(), false);
-  const Index width = PeriodicCollocation::stages * problem_.system->forces().directions().cols();
+  const Index   width         = PeriodicCollocation::stages * problem_.system->forces().directions().cols();
+  constexpr int most_unknowns = 3000;
   if (Index(grid_.size() + flow_.passage().events.size()) * width > most_unknowns)
     return false;
   set_mesh(grid_);
@@ -171,6 +171,7 @@ bool MeshSearch::refine()
 void MeshSearch::run(const PeriodicGuess &guess)
 {
   begin(guess);
+  constexpr int most_rounds = 24;
   for (int round = 1; round < most_rounds && error() > options_.tolerance && refine(); ++round)
     solve();
   PeriodicSolution found;
@@ -178,6 +179,7 @@ void MeshSearch::run(const PeriodicGuess &guess)
   found.q      = q_;
   found.v      = v_;
   refuse_rest(problem_, guess, found);
+  constexpr double far_off = 1e-3; // error of a mesh that is no answer
   if (!(error() <= far_off))
   {
     std::ostringstream text;

@@ -16,10 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double two_pi              = 2. * M_PI;
-constexpr double commensurate        = 1e-9; ///< of a frequency of the load with a harmonic, relative
-constexpr double no_response         = 1e-8; ///< |s - lambda|/|s| below which the response has no digits left
-constexpr double no_stiffness_turned = 1e-9; ///< |C turn| against |C| |turn|, term by term
+constexpr double two_pi = 2. * M_PI;
 
 [[noreturn]] void refuse_harmonics(const std::string &reason)
 {
@@ -68,7 +65,8 @@ void BaseResponse::check_turn(const PeriodicProblem &problem) const
   MatrixXd M, B, C;
   if (problem.turn.size() == 0 || problem.turn.isZero(0.) || !problem.system->linear().dense_matrices(M, B, C))
     return;
-  const VectorXd force = C * problem.turn, terms = C.cwiseAbs() * problem.turn.cwiseAbs();
+  const VectorXd   force = C * problem.turn, terms = C.cwiseAbs() * problem.turn.cwiseAbs();
+  constexpr double no_stiffness_turned = 1e-9; // |C turn| against |C| |turn|, term by term
   for (Eigen::Index i = 0; i < force.size(); ++i)
     if (std::abs(force[i]) > no_stiffness_turned * terms[i])
       refuse_harmonics("a motion that rotates in every period stretches a linear spring at " +
@@ -99,7 +97,8 @@ void BaseResponse::gather_loads(const PeriodicProblem &problem)
   }
   for (const Excitation::Harmonic &harmonic : load.harmonics())
   {
-    const double periods = harmonic.omega * problem.period / two_pi, whole = std::round(periods);
+    const double     periods = harmonic.omega * problem.period / two_pi, whole = std::round(periods);
+    constexpr double commensurate = 1e-9; // of a frequency of the load with a harmonic, relative
     if (!(whole >= 1.) || std::abs(periods - whole) > commensurate * whole || problem.period_is_unknown())
     {
       std::ostringstream message;
@@ -156,7 +155,8 @@ void BaseResponse::check_resonance() const
     const ModalBlock &block = modes_.blocks[b];
     if (block.kind != ModalBlock::oscillating)
       continue;
-    const double h = std::round(std::abs(block.w) / omega_);
+    const double     h           = std::round(std::abs(block.w) / omega_);
+    constexpr double no_response = 1e-8; // |s - lambda|/|s| below which the response has no digits left
     if (h < 1. || h > harmonics_ || std::hypot(block.s, std::abs(block.w) - h * omega_) > no_response * h * omega_)
       continue;
     std::ostringstream message;

@@ -18,8 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double negligible_force = 1e-6; ///< range of a force, of the largest: its error is not looked at
-
 /// Place of cos h (of sin h with sine = 1) among c_0, c_1, s_1, ...
 int place_of(int h, int sine)
 {
@@ -343,10 +341,11 @@ HarmonicBalance::LeftOut HarmonicBalance::left_out(const VectorXd &z)
     sum += square;
     sampled += square;
   }
-  LeftOut        left{sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff(), 0.,
+  LeftOut          left{sum.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff(), 0.,
                sampled.cwiseSqrt().cwiseQuotient(scale.head(n_u_)).maxCoeff()};
-  const VectorXd ranges = forces_->ranges(), changes = forces_->changes(here, u, 2. * M_PI / period_);
-  const double   least = negligible_force * ranges.maxCoeff();
+  const VectorXd   ranges = forces_->ranges(), changes = forces_->changes(here, u, 2. * M_PI / period_);
+  constexpr double negligible_force = 1e-6; // range of a force, of the largest: its error is not looked at
+  const double     least            = negligible_force * ranges.maxCoeff();
   for (int i = 0; i < n_u_; ++i)
     if (ranges[i] > least)
       left.forces = std::max(left.forces, changes[i] / ranges[i]);

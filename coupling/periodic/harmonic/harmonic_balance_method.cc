@@ -20,15 +20,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double shortest_share  = 1. / 256.; ///< of a Newton step
-constexpr double floor_of_steps  = 1e-13;     ///< a Newton step that is rounding, relative
-constexpr double closes_well     = 1e-5;      ///< of a period whose multipliers are those of the motion
-constexpr double near_by         = 0.1;       ///< distance of two motions that are one, of their size
-constexpr double poor_hill       = 1e-3;      ///< error of Hill's multipliers above which a period is integrated
-constexpr double another_motion  = 0.3;       ///< distance of two motions, of the unknowns
-constexpr double remembered      = 1e-9;      ///< share of the force above which memory counts
-constexpr int    most_samples    = 16384;     ///< of a period: kinks leave 1e-8 of their force then
-constexpr int    first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500;
+constexpr int first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500;
 
 double largest_share(const VectorXd &r, const VectorXd &scale)
 {
@@ -40,6 +32,8 @@ bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd 
                  VectorXd &z, double norm)
 {
   VectorXd r;
+  // of a Newton step: a direction that does not help by then helps nowhere
+  constexpr double shortest_share = 1. / 256.;
   for (double share = 1.; share >= shortest_share; share *= 0.5)
   {
     const VectorXd next = z + share * step;
@@ -86,7 +80,8 @@ HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &op
     const VectorXd step = -lu_solution(J, r);
     if (!step.allFinite())
       break;
-    const bool rounding = largest_share(step, scale) <= floor_of_steps;
+    constexpr double floor_of_steps = 1e-13; // a Newton step that is rounding, relative
+    const bool       rounding       = largest_share(step, scale) <= floor_of_steps;
     if (rounding || !search_line(balance, step, scale, balance.period_is_unknown(), z, r.cwiseQuotient(scale).norm()))
     {
       newton.converged = newton.converged || rounding;
@@ -125,6 +120,7 @@ void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &s
   const double         closing = closing_error(passage.q - solution.q - problem.turn, passage.v - solution.v,
                                                2. * M_PI / solution.period, passage.fastest);
   solution.multipliers         = multipliers_of(passage.monodromy, problem);
+  constexpr double closes_well = 1e-5; // of a period whose multipliers are those of the motion
   if (closing <= closes_well)
     return;
   PeriodicOptions near = without_lead_in({});
@@ -133,7 +129,8 @@ void multipliers_by_a_period(const PeriodicProblem &problem, PeriodicSolution &s
   {
     const PeriodicSolution closed =
         shooting_method().solve(problem, {solution.q, solution.v, solution.period}, near).front();
-    const double omega = 2. * M_PI / solution.period;
+    const double     omega   = 2. * M_PI / solution.period;
+    constexpr double near_by = 0.1; // distance of two motions that are one, of their size
     if (std::hypot(omega * (closed.q - solution.q).norm(), (closed.v - solution.v).norm()) <=
         near_by * std::hypot(omega * solution.q.norm(), solution.v.norm()))
     {
@@ -175,7 +172,8 @@ void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, 
       hill_multipliers(problem, 2. * M_PI / balance.period(), balance.harmonics(), balance.derivatives());
   solution.multipliers = hill.multipliers;
   // The shift in time shows what the truncation leaves; far too few harmonics make a stable motion unstable.
-  const double shift = solution.trivial_multiplier ? (hill.multipliers.array() - 1.).abs().minCoeff() : 0.;
+  const double     shift     = solution.trivial_multiplier ? (hill.multipliers.array() - 1.).abs().minCoeff() : 0.;
+  constexpr double poor_hill = 1e-3; // error of Hill's multipliers above which a period is integrated
   if (std::max(hill.left_out, shift) > poor_hill)
     multipliers_by_a_period(problem, solution);
 }
@@ -372,6 +370,7 @@ void BalanceSearch::grow()
       newton_ = newton;
       continue;
     }
+    constexpr double another_motion = 0.3; // distance of two motions, of the unknowns
     if ((z_ - start).norm() > another_motion * start.norm())
       others_ = "with fewer than " + std::to_string(tried) + " harmonics another solution was found than with these";
     left_out_ = balance_.left_out(z_);
@@ -381,6 +380,7 @@ void BalanceSearch::grow()
 /// Few samples of a near jump feed back into the harmonics kept; a tenth of what these leave out is little enough.
 void BalanceSearch::sample_finely()
 {
+  constexpr int most_samples = 16384; // of a period: kinks leave 1e-8 of their force then
   while (left_out_.samples > std::max(options_.tolerance, 0.1 * left_out_.motion) &&
          balance_.samples() < most_samples && !problem_.interrupted())
   {
@@ -398,7 +398,8 @@ void BalanceSearch::sample_finely()
 
 void BalanceSearch::check_memory()
 {
-  const HarmonicForces::Memory memory = balance_.memory(z_);
+  const HarmonicForces::Memory memory     = balance_.memory(z_);
+  constexpr double             remembered = 1e-9; // share of the force above which memory counts
   if (!(memory.share > remembered))
     return;
   std::ostringstream message;

@@ -17,12 +17,11 @@ using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int least_samples = 64, smooth_share = 8;        ///< samples for each harmonic: laws of degree 7 are exact
-constexpr int least_of_branches = 1024, branch_share = 32; ///< kinks feed back from far above H
-
 int samples_for(const PeriodicProblem &problem, int harmonics, int samples)
 {
-  const bool branches = problem.system->events().save_history().size() > 0;
+  const bool    branches      = problem.system->events().save_history().size() > 0;
+  constexpr int least_samples = 64, smooth_share = 8;        // samples for each harmonic: laws of degree 7 are exact
+  constexpr int least_of_branches = 1024, branch_share = 32; // kinks feed back from far above H
   if (samples == 0)
     return power_of_two(branches ? std::max(least_of_branches, branch_share * harmonics)
                                  : std::max(least_samples, smooth_share * harmonics));

@@ -21,9 +21,6 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-constexpr double small_outside = 1e-11;
-constexpr int    chosen_rows = 300, largest_rows = 800;
-
 /// A_k of the neighbourhood of the motion, k >= 0 [2n x 2n].
 class Neighbourhood
 {
@@ -133,10 +130,12 @@ HillMultipliers hill_multipliers(const PeriodicProblem &problem, double omega, i
   const auto          m = 2 * near.n();
   HillMultipliers     result;
   MatrixXd            monodromy;
+  constexpr int       largest_rows = 800; // eigenvalues of so many take some seconds
   for (int N = std::max(4, harmonics); result.harmonics == 0 || m * (2 * N + 1) <= largest_rows; N += (N + 1) / 2)
   {
-    monodromy        = projected(hill_matrix(near, N), m, result.left_out);
-    result.harmonics = N;
+    monodromy                      = projected(hill_matrix(near, N), m, result.left_out);
+    result.harmonics               = N;
+    constexpr double small_outside = 1e-11; // share of the projections on rest harmonics: rounding of their sums
     if (result.left_out < small_outside)
       break;
   }
@@ -148,6 +147,7 @@ HillMultipliers hill_multipliers(const PeriodicProblem &problem, double omega, i
 
 FloquetWay floquet_way(const PeriodicProblem &problem, int harmonics)
 {
+  constexpr int chosen_rows = 300; // eigenvalues of so many take less time than a period of shooting
   return 2. * problem.system->linear().size() * (2. * harmonics + 1.) <= chosen_rows ? FloquetWay::hill
                                                                                      : FloquetWay::shooting;
 }

@@ -25,9 +25,6 @@ using Complex = std::complex<double>;
 using Long    = std::complex<long double>;
 using LongXcd = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr int    refinements = 2;
-constexpr double settled     = 1e-9; ///< last correction, relative, that tells a solution from a failed one
-
 /// F, and what the equations of the measures and of E have on their right-hand side.
 template <typename Matrix>
 struct Unknowns
@@ -215,7 +212,8 @@ std::optional<Solution> refined(const LinearisedSystem &parts, const AtFrequency
   const Index cols = F.cols();
   Solution    x =
       equations.solve({F.cast<Complex>(), MatrixXcd::Zero(parts.n_u(), cols), MatrixXcd::Zero(parts.E.rows(), cols)});
-  double change = 0.;
+  double        change      = 0.;
+  constexpr int refinements = 2; // in long double: the first corrects, the second tells by how much that was wrong
   for (int k = 0; k < refinements; ++k)
   {
     const Residual r     = residual(parts, omega, F, x);
@@ -228,6 +226,7 @@ std::optional<Solution> refined(const LinearisedSystem &parts, const AtFrequency
       if (const double size = x.q.col(c).norm(); size > 0. || !std::isfinite(size))
         change = std::max(change, std::isfinite(size) ? delta.q.col(c).norm() / size : INFINITY);
   }
+  constexpr double settled = 1e-9; // last correction, relative, that tells a solution from a failed one
   if (!(change < settled) || !x.q.allFinite() || !x.p.allFinite() || !x.mu.allFinite())
     return std::nullopt;
   return x;

@@ -9,15 +9,12 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double golden        = 0.6180339887498949;
-constexpr double width_of_top  = 1e-8; ///< relative: a parabola is flat to 1e-16 of its height there
-constexpr double width_of_side = 1e-7; ///< of the width of the peak
-constexpr double undamped      = 1e-7; ///< damping ratio that the width of the top leaves of none
-
 /// The highest place in [a, b].
 double top(const std::function<double(double)> &f, double a, double b)
 {
-  double x = b - golden * (b - a), y = a + golden * (b - a), at_x = f(x), at_y = f(y);
+  constexpr double golden       = 0.6180339887498949; // (sqrt 5 - 1) / 2
+  constexpr double width_of_top = 1e-8;               // relative: a parabola is flat to 1e-16 of its height there
+  double           x = b - golden * (b - a), y = a + golden * (b - a), at_x = f(x), at_y = f(y);
   while (b - a > width_of_top * b)
     if (at_x < at_y)
     {
@@ -35,7 +32,8 @@ double top(const std::function<double(double)> &f, double a, double b)
 /// Where f falls through a level between `high`, where it is above, and `low`, where it is below.
 double crossing(const std::function<double(double)> &f, double level, double high, double low)
 {
-  const double begin = std::abs(high - low);
+  constexpr double width_of_side = 1e-7; // of the width of the peak
+  const double     begin         = std::abs(high - low);
   while (std::abs(high - low) > width_of_side * std::min(begin, std::abs(high)) * 1e-2 && 0.5 * (high + low) != high &&
          0.5 * (high + low) != low)
   {
@@ -82,12 +80,13 @@ std::vector<ResponsePeak> response_peaks(const std::function<double(double)> &am
     if (!(samples[i] > samples[i - 1]) || !(samples[i] >= samples[i + 1]))
       continue;
     ResponsePeak peak;
-    peak.frequency_hz  = top(finite, frequencies[i - 1], frequencies[i + 1]);
-    peak.amplitude     = finite(peak.frequency_hz);
-    const double level = peak.amplitude / std::sqrt(2.);
-    const double below = flank(finite, level, peak.frequency_hz, frequencies, samples, i, -1),
-                 above = flank(finite, level, peak.frequency_hz, frequencies, samples, i, 1);
-    peak.damping_ratio = (above - below) / (2. * peak.frequency_hz);
+    peak.frequency_hz         = top(finite, frequencies[i - 1], frequencies[i + 1]);
+    peak.amplitude            = finite(peak.frequency_hz);
+    const double level        = peak.amplitude / std::sqrt(2.);
+    const double below        = flank(finite, level, peak.frequency_hz, frequencies, samples, i, -1),
+                 above        = flank(finite, level, peak.frequency_hz, frequencies, samples, i, 1);
+    peak.damping_ratio        = (above - below) / (2. * peak.frequency_hz);
+    constexpr double undamped = 1e-7; // damping ratio that the width of the top leaves of none
     if (peak.damping_ratio < undamped)
     {
       peak.damping_ratio = 0.;

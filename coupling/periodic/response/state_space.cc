@@ -17,9 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double dependent_rows = 1e-10; ///< of G, relative
-constexpr double least_mass     = 1e-13; ///< pivot of M_r at unit diagonal
-
 /// Columns that span G q = 0, of coordinates scaled by their masses.
 MatrixXd free_of(const MatrixXd &G, const MatrixXd &M)
 {
@@ -31,6 +28,7 @@ MatrixXd free_of(const MatrixXd &G, const MatrixXd &M)
   for (Index e = 0; e < rows.rows(); ++e)
     if (const double size = rows.row(e).norm(); size > 0.)
       rows.row(e) /= size;
+  constexpr double dependent_rows = 1e-10; // of G, relative
   return scale.asDiagonal() * LeastSquaresSolver(rows, dependent_rows).null_space();
 }
 
@@ -47,6 +45,7 @@ MatrixXd divided_by_mass(const MatrixXd &M_r, const MatrixXd &R)
     size = 1. / std::sqrt(size);
   }
   Eigen::FullPivLU<MatrixXd> lu(scale.asDiagonal() * M_r * scale.asDiagonal());
+  constexpr double           least_mass = 1e-13; // pivot of M_r at unit diagonal
   lu.setThreshold(least_mass);
   if (!lu.isInvertible())
     throw std::invalid_argument("a motion has no mass, although each coordinate has: the machine has no form x' = A x "

@@ -18,15 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-constexpr Index  most_coordinates = 400;
-constexpr double rounding         = 1e-11; ///< eigenvalue of a matrix of unit diagonal that is no less than zero
-constexpr double symmetric        = 1e-12; ///< difference from the transpose, of the largest entry
-constexpr double dependent        = 1e-10; ///< rows of G that others contain
-constexpr double at_rest          = 1e-6;  ///< |s| / sigma
-constexpr double no_mass = 3e-5; ///< |theta|: infinite s, of which rounding leaves its cube root in chains of three
-constexpr double least_growth   = 1e-7;  ///< Re s / |s|
-constexpr double beside_nothing = 1.234; ///< keeps sigma off the eigenvalues of plain examples
-
 struct Matrices
 {
   MatrixXd M, B, C;
@@ -36,6 +27,7 @@ struct Matrices
 
 bool is_symmetric(const MatrixXd &A)
 {
+  constexpr double symmetric = 1e-12; // difference from the transpose, of the largest entry
   return (A - A.transpose()).cwiseAbs().maxCoeff() <= symmetric * A.cwiseAbs().maxCoeff();
 }
 
@@ -49,7 +41,8 @@ bool is_nowhere_negative(const MatrixXd &A)
       return false;
     else if (S(i, i) > 0.)
       scale[i] = 1. / std::sqrt(S(i, i));
-  S = scale.asDiagonal() * S * scale.asDiagonal();
+  S                         = scale.asDiagonal() * S * scale.asDiagonal();
+  constexpr double rounding = 1e-11; // eigenvalue of a matrix of unit diagonal that is no less than zero
   S.diagonal().array() += rounding;
   return S.llt().info() == Eigen::Success;
 }
@@ -72,6 +65,7 @@ double middle_speed(const Matrices &of)
       sum += 0.5 * std::log(std::abs(of.C(i, i)) / of.M(i, i));
       ++count;
     }
+  constexpr double beside_nothing = 1.234; // keeps sigma off the eigenvalues of plain examples
   return beside_nothing * (count > 0 ? std::exp(sum / count) : 1.);
 }
 
@@ -88,7 +82,8 @@ Matrices free_coordinates(const Matrices &of, const MatrixXd &G, double sigma)
     for (Index e = 0; e < rows.rows(); ++e)
       if (const double size = rows.row(e).norm(); size > 0.)
         rows.row(e) /= size;
-    basis = basis * LeastSquaresSolver(rows, dependent).null_space();
+    constexpr double dependent = 1e-10; // rows of G that others contain
+    basis                      = basis * LeastSquaresSolver(rows, dependent).null_space();
   }
   const auto projected = [&](const MatrixXd &A) { return MatrixXd(basis.transpose() * A * basis); };
   return {projected(of.M), projected(of.B), projected(of.C)};
@@ -109,6 +104,8 @@ MatrixXd inverted(const Matrices &of, double sigma)
 
 bool grows(const Complex &s, double sigma)
 {
+  constexpr double at_rest      = 1e-6; // |s| / sigma
+  constexpr double least_growth = 1e-7; // Re s / |s|
   return std::abs(s) > at_rest * sigma && s.imag() >= 0. && s.real() > least_growth * std::abs(s);
 }
 
@@ -125,6 +122,7 @@ std::optional<std::vector<Complex>> unstable_modes(const MatrixXd &M, const Matr
   const Matrices free  = free_coordinates(whole, G, sigma);
   if (free.M.rows() == 0 || is_held_and_damped(free))
     return found;
+  constexpr Index most_coordinates = 400; // eigenvalues of twice as many states take some seconds
   if (free.M.rows() > most_coordinates)
     return std::nullopt;
   const MatrixXd T = inverted(free, sigma);
@@ -133,6 +131,7 @@ std::optional<std::vector<Complex>> unstable_modes(const MatrixXd &M, const Matr
   const GeneralEigenSolver solver(T, WithVectors::no);
   if (!solver.converged())
     return std::nullopt;
+  constexpr double no_mass = 3e-5; // |theta|: infinite s, of which rounding leaves its cube root in chains of three
   for (const Complex &theta : solver.eigenvalues())
     if (std::abs(theta) > no_mass)
       if (const Complex s = sigma * (1. + 1. / theta); grows(s, sigma))

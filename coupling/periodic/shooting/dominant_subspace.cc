@@ -18,13 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double first_share   = 0.1;  ///< of itself that a fast motion keeps over a period
-constexpr int    large         = 20;   ///< coordinates from which on the choice pays
-constexpr double ritz_residual = 1e-8; ///< to which the largest multipliers are known
-constexpr double ritz_told     = 1e-6; ///< to which those are that are told
-constexpr double decides       = 0.7;  ///< of the largest one, from which on multipliers count as large
-constexpr double shift_in_time = 1e-6; ///< distance from 1 of its multiplier
-
 /// e^(Lambda T) of a block.
 Block2 carried(const ModalBlock &block, double period)
 {
@@ -139,7 +132,11 @@ MatrixXd DominantSubspace::dominant() const
 
 bool mostly_fast(DominantSubspace &motions, const PeriodicProblem &problem)
 {
+  // of itself that a fast motion keeps over a period: Newton's error falls by as much without it
+  constexpr double first_share = 0.1;
   motions.choose(first_share, problem.period);
+  // coordinates from which on the choice pays: directions cost a step's solution each
+  constexpr int large = 20;
   return problem.turn.size() >= large && motions.size() < problem.turn.size();
 }
 
@@ -152,21 +149,25 @@ void LargestMultipliers::take(MatrixXd images)
   residuals_.resize(values_.size());
   for (Index k = 0; k < values_.size(); ++k)
     residuals_[k] = (outside * eigen.eigenvectors().col(k)).norm() / eigen.eigenvectors().col(k).norm();
-  double largest = 0.; // but for that of the shift in time
+  double           largest       = 0.;   // but for that of the shift in time
+  constexpr double shift_in_time = 1e-6; // distance from 1 of its multiplier
   for (const auto &mu : values_)
     if (std::abs(mu - 1.) > shift_in_time)
       largest = std::max(largest, std::abs(mu));
-  leaves_ = 0.;
+  leaves_                  = 0.;
+  constexpr double decides = 0.7; // of the largest one, from which on multipliers count as large
   for (Index k = 0; k < values_.size(); ++k)
     if (std::abs(values_[k]) >= decides * largest)
       leaves_ = std::max(leaves_, residuals_[k]);
-  converged_ = leaves_ <= ritz_residual;
-  Z_         = orthonormal_columns(images, Z_.cols());
+  constexpr double ritz_residual = 1e-8; // to which the largest multipliers are known
+  converged_                     = leaves_ <= ritz_residual;
+  Z_                             = orthonormal_columns(images, Z_.cols());
 }
 
 Eigen::VectorXcd LargestMultipliers::values() const
 {
   std::vector<std::complex<double>> kept;
+  constexpr double                  ritz_told = 1e-6; // to which those are that are told
   for (Index k = 0; k < values_.size(); ++k)
     if (residuals_[k] <= std::max(ritz_told, leaves_))
       kept.push_back(values_[k]);

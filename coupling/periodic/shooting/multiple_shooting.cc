@@ -15,15 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_halved  = 12;
-constexpr int    few_segments = 8, many_segments = 32;
-constexpr long   least_steps            = 1000;   ///< that a segment may take
-constexpr double shorter                = 0.25;   ///< the next step must be, by this share of the part taken
-constexpr double longest_step_of_states = 2.;     ///< mean step of a state, of the fastest speed
-constexpr double left_by_steps          = 1e-7;   ///< gaps that rounding and the steps' tolerance may leave at worst
-constexpr long   runs_away              = 16;     ///< steps of a segment astray, of those at the start
-constexpr long   all_steps              = 4;      ///< of a period in one go, of those that the segments took
-constexpr double off_round              = 0.0377; ///< of a segment, see SegmentEquations::share()
+constexpr long least_steps = 1000; ///< that a segment may take
 } // namespace
 
 CyclicSystem::CyclicSystem(const std::vector<MatrixXd> &A, const MatrixXd &b, Index phase)
@@ -104,6 +96,7 @@ double SegmentEquations::period_of(const VectorXd &z) const
 /// Off the round shares at which symmetric motions have their events: an event where two segments meet belongs to none.
 double SegmentEquations::share(int i) const
 {
+  constexpr double off_round = 0.0377; // of a segment, see SegmentEquations::share()
   return i == 0 ? 0. : i == M_ ? 1. : (i - off_round) / M_;
 }
 
@@ -202,7 +195,8 @@ void SegmentEquations::evaluate(const VectorXd &z)
 
 void SegmentEquations::expect_no_more()
 {
-  problem_.most_steps = std::max(least_steps, runs_away * steps_ / M_);
+  constexpr long runs_away = 16; // steps of a segment astray, of those at the start
+  problem_.most_steps      = std::max(least_steps, runs_away * steps_ / M_);
 }
 
 CyclicSystem SegmentEquations::matrix() const
@@ -221,9 +215,10 @@ PeriodicSolution SegmentEquations::solution() const
 
 double SegmentEquations::closing_in_one(const VectorXd &z)
 {
-  const Index  n               = problem_.turn.size();
-  const double period          = period_of(z);
-  const long   most            = problem_.most_steps;
+  const Index    n             = problem_.turn.size();
+  const double   period        = period_of(z);
+  const long     most          = problem_.most_steps;
+  constexpr long all_steps     = 4; // of a period in one go, of those that the segments took
   problem_.most_steps          = std::max(least_steps, all_steps * steps_);
   const PeriodPassage &passage = flow_.pass(z.head(n) / omega_, z.segment(n, n), period, false);
   problem_.most_steps          = most;
@@ -246,18 +241,21 @@ double length(const PeriodicProblem &problem, double speed, VectorXd dz)
 /// z - part dz with the largest part of 1, 1/2, 1/4 ... behind which the same matrix gives a shorter step.
 bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, VectorXd &z, double tolerance)
 {
-  const CyclicSystem matrix = equations.matrix();
-  const VectorXd     dz     = matrix.solve(equations.residual());
-  const double       speed  = equations.fastest();
-  const double       before = length(problem, speed, dz);
-  const double       most   = longest_step_of_states * std::sqrt(equations.segments()) * speed;
-  double             part   = dz.allFinite() ? std::min(1., most / before) : 0.;
+  const CyclicSystem matrix                 = equations.matrix();
+  const VectorXd     dz                     = matrix.solve(equations.residual());
+  const double       speed                  = equations.fastest();
+  const double       before                 = length(problem, speed, dz);
+  constexpr double   longest_step_of_states = 2.; // mean step of a state, of the fastest speed
+  const double       most                   = longest_step_of_states * std::sqrt(equations.segments()) * speed;
+  double             part                   = dz.allFinite() ? std::min(1., most / before) : 0.;
+  constexpr int      most_halved            = 12; // 2^-12: a direction that does not help by then helps nowhere
   for (int k = 0; k < most_halved && part > 0.; ++k, part *= 0.5)
     try
     {
       const VectorXd next = z - part * dz;
       equations.evaluate(next);
-      const double after = length(problem, speed, matrix.solve(equations.residual()));
+      const double     after   = length(problem, speed, matrix.solve(equations.residual()));
+      constexpr double shorter = 0.25; // the next step must be, by this share of the part taken
       if (equations.closing() <= tolerance || after <= (1. - shorter * part) * before)
       {
         z = next;
@@ -307,6 +305,7 @@ PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicPr
       equations.evaluate(z);
       break;
     }
+  constexpr double left_by_steps = 1e-7; // gaps that rounding and the steps' tolerance may leave at worst
   if (!(equations.closing() <= std::max(options.tolerance, left_by_steps)))
   {
     std::ostringstream text;
@@ -326,9 +325,11 @@ PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicPr
 PeriodicSolution shoot_in_segments(const PeriodicProblem &problem, const PeriodicGuess &guess,
                                    const PeriodicOptions &options)
 {
-  const int few        = options.segments > 0 ? options.segments : few_segments,
-            many       = options.segments > 0 ? options.segments : many_segments;
-  std::string failures = "multiple shooting does not converge";
+  constexpr int few_segments  = 8;  // of a period: growth over a segment is the 8th root
+  constexpr int many_segments = 32; // tried where few do not converge
+  const int     few           = options.segments > 0 ? options.segments : few_segments,
+            many              = options.segments > 0 ? options.segments : many_segments;
+  std::string failures        = "multiple shooting does not converge";
   for (const auto &[segments, follows] : {std::pair(few, true), std::pair(many, true), std::pair(many, false)})
     try
     {

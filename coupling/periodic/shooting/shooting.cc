@@ -17,10 +17,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_halvings = 12;
-constexpr double as_integrated = 1e-7;  ///< closing error that rounding and the steps' tolerance may leave at worst
-constexpr double at_rest       = 1e-6;  ///< speed of a motion, of its guess
-constexpr double free_to_move  = 1e-11; ///< singular value of Phi - E, of the largest
 } // namespace
 
 ShootingEquations::ShootingEquations(const PeriodicProblem &problem, const MethodOptions &integration, double omega)
@@ -133,7 +129,8 @@ void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, con
   if (!problem.period_is_unknown() || !problem.turn.isZero(0.))
     return;
   const double omega = 2. * M_PI / found.period, moves = found.v.norm(),
-               meant = guess.v.norm() + omega * guess.q.norm();
+               meant       = guess.v.norm() + omega * guess.q.norm();
+  constexpr double at_rest = 1e-6; // speed of a motion, of its guess
   if (!(moves > at_rest * meant))
     throw NoPeriodicMotion(
         "the search converged to rest, which has no period; begin closer to the intended motion (--lead-in)");
@@ -156,6 +153,7 @@ namespace
 std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
 {
   const SymmetricEigenSolver squares(jacobian.transpose() * jacobian);
+  constexpr double           free_to_move = 1e-11; // singular value of Phi - E, of the largest
   if (squares.eigenvalues()[0] > free_to_move * free_to_move * squares.eigenvalues().tail(1)[0])
     return "";
   const Index n = linear.size();
@@ -183,8 +181,9 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
 /// z - damping dz with the least damping that closes better.
 bool step_closer(ShootingEquations &equations, VectorXd &z, const VectorXd &dz)
 {
-  const double before = equations.residual().norm();
-  double       part   = 1.;
+  const double  before        = equations.residual().norm();
+  double        part          = 1.;
+  constexpr int most_halvings = 12; // 2^-12: a direction that does not help by then helps nowhere
   for (int k = 0; k < most_halvings; ++k, part *= 0.5)
   {
     const VectorXd next = z - part * dz;
@@ -223,6 +222,7 @@ PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &prob
       break;
     }
   }
+  constexpr double as_integrated = 1e-7; // closing error that rounding and the steps' tolerance may leave at worst
   if (!(equations.closing() <= std::max(options.tolerance, as_integrated)))
     give_up(equations, problem, iteration);
   PeriodicSolution solution = equations.solution("shooting");

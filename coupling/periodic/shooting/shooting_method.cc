@@ -13,14 +13,6 @@ namespace
 {
 using Eigen::VectorXd;
 
-constexpr double fewer         = 0.1;  ///< of the share, where the motion does not close well
-constexpr double least_share   = 1e-4; ///< below it all motions are slow
-constexpr double good          = 0.3;  ///< residual behind a step, of that before, with which its matrix is kept
-constexpr double coarse_steps  = 1e-6; ///< tolerance of the steps at first
-constexpr double coarse_goal   = 1e-6; ///< closing error at which the fine steps begin
-constexpr double smallest_part = 1e-3; ///< of a step that is halved
-constexpr int    ritz_rounds   = 6;
-
 /// Newton's method on steps of one fineness, its matrix kept while the motion closes well.
 class ChordNewton
 {
@@ -68,8 +60,9 @@ void ChordNewton::form(const VectorXd &z)
 /// one; residual behind, of that before.
 double ChordNewton::step(VectorXd &z, bool formed_here)
 {
-  const double   before = equations_.residual().norm();
-  const VectorXd dz     = slow_.correction(equations_.residual());
+  const double     before        = equations_.residual().norm();
+  const VectorXd   dz            = slow_.correction(equations_.residual());
+  constexpr double smallest_part = 1e-3; // of a step that is halved
   for (double part = 1.; part > smallest_part; part *= 0.5)
   {
     const VectorXd next = z - part * dz;
@@ -102,7 +95,8 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
   while (equations_.closing() > goal && iterations_ < most && !problem_.interrupted())
   {
     ++iterations_;
-    const double left = step(z, here);
+    const double     left = step(z, here);
+    constexpr double good = 0.3; // residual behind a step, of that before, with which its matrix is kept
     if (left < good || equations_.closing() <= goal)
     {
       here = false;
@@ -110,6 +104,8 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
     }
     if (here && slow_.all() && left >= 1.)
       return false;
+    constexpr double fewer       = 0.1;  // of the share, where the motion does not close well
+    constexpr double least_share = 1e-4; // below it all motions are slow
     if (here && !slow_.all())
       slow_.choose(slow_.share() > least_share ? fewer * slow_.share() : 0., problem_.period);
     form(z);
@@ -123,13 +119,15 @@ bool ChordNewton::close(VectorXd &z, double goal, int most)
 PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &slow, PeriodicGuess near,
                             const PeriodicOptions &options)
 {
-  MethodOptions coarse = options.integration;
-  coarse.tolerance     = std::max(coarse.tolerance, coarse_steps);
-  const double omega   = 2. * M_PI / problem.period;
+  MethodOptions    coarse       = options.integration;
+  constexpr double coarse_steps = 1e-6; // tolerance of the steps at first
+  coarse.tolerance              = std::max(coarse.tolerance, coarse_steps);
+  const double omega            = 2. * M_PI / problem.period;
   ChordNewton  roughly(problem, coarse, slow, omega), finely(problem, options.integration, slow, omega);
   lead_in(roughly.equations().flow(), problem, options, near);
-  VectorXd   z      = roughly.equations().unknowns(near.q, near.v, near.period);
-  const bool closes = roughly.close(z, coarse_goal, options.iterations);
+  VectorXd         z           = roughly.equations().unknowns(near.q, near.v, near.period);
+  constexpr double coarse_goal = 1e-6; // closing error at which the fine steps begin
+  const bool       closes      = roughly.close(z, coarse_goal, options.iterations);
   if (!slow.formed())
     roughly.form(z);
   LargestMultipliers multipliers(slow.dominant(), omega);
@@ -139,6 +137,7 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &sl
     ShootingEquations all(problem, options.integration);
     return shoot(all, problem, all.unknowns(near.q, near.v, near.period), options);
   }
+  constexpr int ritz_rounds = 6; // of iteration: a share of 0.1 falls to 1e-6
   for (int round = 0; round < ritz_rounds && !multipliers.converged(); ++round)
     finely.evaluate(z);
   PeriodicSolution solution = finely.equations().solution("shooting");

@@ -29,15 +29,11 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double singular     = 1e-9;                      // eigenvalue of the scaled S below which a motion is rigid
-constexpr double aim          = 0.6;                       // of the tolerance: what a mesh is made for
-constexpr double least_growth = 2.2, greatest_growth = 5.; // of the cells from mesh to mesh
-constexpr double greatest_graded = 3.;                     // of those that are graded: rough estimates grade badly
-constexpr double finest          = 1e-3;                   // smallest element over the size of the first mesh
-constexpr double filled          = 0.9; // of the coordinates allowed, where a mesh is cut down to them
-constexpr double clearly_finer   = 1.5; // times the coordinates, at least, of a mesh that is not cut down
-constexpr double least_k = 0.5, usual_k = 1., greatest_k = 4. / 3.; // of error ~ n^-k, to tell how many would do
-constexpr int    most_trials = 4;
+constexpr double greatest_graded = 3.;   // of those that are graded: rough estimates grade badly
+constexpr double finest          = 1e-3; // smallest element over the size of the first mesh
+constexpr double filled          = 0.9;  // of the coordinates allowed, where a mesh is cut down to them
+constexpr double clearly_finer   = 1.5;  // times the coordinates, at least, of a mesh that is not cut down
+constexpr int    most_trials     = 4;
 
 void require(bool holds, const std::string &message)
 {
@@ -77,7 +73,8 @@ MatrixXd compliance(const ReducedFrame &frame)
       if (interface.coordinate[k] >= 0)
         scale[interface.coordinate[k]] = 1. / reach_of(frame.interfaces);
   const SymmetricEigenSolver S(scale.asDiagonal() * frame.C.topLeftCorner(n1, n1) * scale.asDiagonal());
-  const double               largest = S.eigenvalues().size() > 0 ? S.eigenvalues().maxCoeff() : 0.;
+  const double               largest  = S.eigenvalues().size() > 0 ? S.eigenvalues().maxCoeff() : 0.;
+  constexpr double           singular = 1e-9; // eigenvalue of the scaled S below which a motion is rigid
   const VectorXd inverse = S.eigenvalues().unaryExpr([&](double s) { return s > singular * largest ? 1. / s : 0.; });
   const MatrixXd U       = scale.asDiagonal() * S.eigenvectors();
   return U * inverse.asDiagonal() * U.transpose();
@@ -216,9 +213,10 @@ const ConvergedQuantity &worst(const std::vector<ConvergedQuantity> &quantities)
 std::string enough(const ConvergedQuantity &worst, int n_coordinates, double tolerance)
 {
   if (worst.bound() <= tolerance)
-    return ""; // but no other mesh to compare with
-  const double k = std::isnan(worst.order) ? usual_k : std::clamp(worst.order, least_k, greatest_k);
-  const double n = n_coordinates * std::pow(worst.bound() / tolerance, 1. / k);
+    return "";                                                        // but no other mesh to compare with
+  constexpr double least_k = 0.5, usual_k = 1., greatest_k = 4. / 3.; // of error ~ n^-k, to tell how many would do
+  const double     k = std::isnan(worst.order) ? usual_k : std::clamp(worst.order, least_k, greatest_k);
+  const double     n = n_coordinates * std::pow(worst.bound() / tolerance, 1. / k);
   if (!(n < 1e12))
     return "";
   const double digits = std::pow(10., std::floor(std::log10(n)) - 1.);
@@ -418,10 +416,12 @@ MeshConvergence converge_mesh(fem::FrameSpecification specification, const Reduc
       result.stopped = std::to_string(options.max_meshes) + " meshes is the limit";
       break;
     }
-    begin               = cpu_seconds();
-    const double growth = std::clamp(bound / (aim * options.tolerance), least_growth, greatest_growth);
-    mesh                = meshes.next(last, mesh->takes_one_size, growth, phases);
-    result.stopped      = meshes.stopped();
+    begin                         = cpu_seconds();
+    constexpr double aim          = 0.6;                       // of the tolerance: what a mesh is made for
+    constexpr double least_growth = 2.2, greatest_growth = 5.; // of the cells from mesh to mesh
+    const double     growth = std::clamp(bound / (aim * options.tolerance), least_growth, greatest_growth);
+    mesh                    = meshes.next(last, mesh->takes_one_size, growth, phases);
+    result.stopped          = meshes.stopped();
   }
   if (options.compliances)
     result.at_points = at_points(specification);

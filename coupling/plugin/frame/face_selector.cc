@@ -17,8 +17,6 @@ using fem::SurfaceSelector;
 using fem::operator+, fem::operator-, fem::operator*;
 using fem::Vector3;
 
-constexpr double by_default = 1e-4; ///< tolerance of selectors, of the model's diagonal
-
 /// To 0.1 um, or of directions to 1e-7: selectors hold within far more.
 double rounded_off(double x)
 {
@@ -153,6 +151,7 @@ std::vector<int> found_by(const SurfaceSelector &selector, const std::vector<fem
 
 FaceSelector selector_of(const fem::Face &face, const std::vector<fem::Face> &faces, double diagonal)
 {
+  constexpr double by_default = 1e-4; // tolerance of selectors, of the model's diagonal
   for (const double tolerance : {by_default, 1e-5, 1e-6})
     for (SurfaceSelector selector : candidates(face, tolerance * diagonal))
     {

@@ -20,18 +20,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    most_modes       = 6;    // whose stresses are looked at: each costs as much as a static solution
-constexpr int    most_raised      = 24;   // that are compared with degree three
-constexpr int    guard_modes      = 4;    // beyond them, which keep the last ones of a projection good
-constexpr double coarse           = 0.02; // error from which it is a warning, with a way out
-constexpr double long_beside_wall = 2.; // elements over thickness, above which stresses miss much of what bending errs
-constexpr double thin             = 0.05; // share of the skin on walls thinner than the elements from which they count
-/// Coordinates of degree three up to which a comparison is worth what it costs, two to three and a half times the
-/// reduction (docs/theory/mesh_error.md): some 15 CPU s where stresses do not see how walls bend, and 3 s of bodies,
-/// which they judge well.
-constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
-constexpr double bytes_per_cell = 1e5; // of the matrices, while they are summed up
-
 struct Modes
 {
   int        n_rigid;
@@ -52,6 +40,7 @@ Modes modes_of(const ReducedModel &reduced)
 Eigen::VectorXd by_stresses(const Modes &modes, const ReducedModel &reduced, const fem::MeshError &mesh_error)
 {
   std::vector<int> looked_at;
+  constexpr int    most_modes = 6; // whose stresses are looked at: each costs as much as a static solution
   for (int j = 0, count = std::min(modes.within, most_modes); j < count; ++j)
     looked_at.push_back(modes.n_rigid + (count > 1 ? j * (modes.within - 1) / (count - 1) : 0));
   Eigen::VectorXd share = mesh_error.of_cells(reduced.basis.T * modes.ritz.V(Eigen::all, looked_at)).colwise().sum();
@@ -65,12 +54,19 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
 {
   const double n         = fem::raised_coordinates(mesh_error.mesh(), double(frame.M.rows())),
                available = fem::available_memory();
+  // Coordinates of degree three up to which a comparison is worth what it costs, two to three and a half times the
+  // reduction (docs/theory/mesh_error.md): some 15 CPU s where stresses do not see how walls bend, and 3 s of bodies,
+  // which they judge well.
+  constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
+  constexpr double bytes_per_cell = 1e5; // of the matrices, while they are summed up
   if (n > (thin_walls ? most_of_walls : most_of_bodies) ||
       2. * bytes_per_cell * mesh_error.mesh().n_cells() > available)
     return {};
-  const int count         = std::min(modes.within, most_raised),
-            taken         = std::min<int>(count + guard_modes, int(modes.ritz.omega.size()) - modes.n_rigid);
-  const Eigen::MatrixXd X = reduced.basis.T * modes.ritz.V.middleCols(modes.n_rigid, taken);
+  constexpr int most_raised = 24; // that are compared with degree three
+  constexpr int guard_modes = 4;  // beyond them, which keep the last ones of a projection good
+  const int     count       = std::min(modes.within, most_raised),
+            taken           = std::min<int>(count + guard_modes, int(modes.ritz.omega.size()) - modes.n_rigid);
+  const Eigen::MatrixXd X   = reduced.basis.T * modes.ritz.V.middleCols(modes.n_rigid, taken);
   Eigen::VectorXd       raised;
   try
   {
@@ -115,8 +111,10 @@ MeshErrorEstimate modal_mesh_error(const ReducedModel &reduced, const fem::Frame
 MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatrices &frame,
                              const fem::MeshError &mesh_error, const fem::Mesh &mesh)
 {
-  const fem::WallThickness walls      = fem::wall_thickness(mesh);
-  const bool               thin_walls = walls.thin_share > thin;
+  const fem::WallThickness walls = fem::wall_thickness(mesh);
+  // share of the skin on walls thinner than the elements from which they count
+  constexpr double thin               = 0.05;
+  const bool       thin_walls         = walls.thin_share > thin;
   const auto [error, highest, raised] = modal_mesh_error(reduced, frame, mesh_error, thin_walls);
   bool        warns                   = false;
   std::string text                    = "mesh: " + std::to_string(reduced.frame.n_full) + " coordinates";
@@ -135,6 +133,9 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
               rounded(walls.median_ratio, 3) + " times on average (thinnest wall " +
               rounded(1000. * walls.thinnest, 3) + " mm)" +
               (raised ? "" : ", whose bending error the stresses do not show");
+    constexpr double coarse = 0.02; // error from which it is a warning, with a way out
+    // elements over thickness, above which stresses miss much of what bending errs
+    constexpr double long_beside_wall = 2.;
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)
       text += std::string("; `gestell modes --converge 0.01` of a frame from CAD refines until they are within 1 %") +

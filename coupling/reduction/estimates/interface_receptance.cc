@@ -21,11 +21,6 @@ using Eigen::VectorXd;
 using Complex   = std::complex<double>;
 using Fractions = InterfaceReceptance::Fractions;
 
-constexpr double nominal_zeta = 0.01;
-constexpr double least_moment = 1e-12; // of a moment, beside that of all modes
-constexpr int    spread       = 100;   // frequencies all over the range
-constexpr double around[] = {-3., -2., -1.5, -1., -0.7, -0.4, -0.2, 0., 0.2, 0.4, 0.7, 1., 1.5, 2., 3.}; // half widths
-
 /**
  * Gaussian quadrature with the moments A = sum f f^T and B = sum f f^T nu of a sum whose nu lie in [0, highest]: of
  * s below 1 / highest it is a lower bound.  Directions in which A is negligible are left out.
@@ -48,10 +43,12 @@ Fractions gauss(const MatrixXd &A, const MatrixXd &B, double highest, double neg
 std::vector<ReceptanceFrequency> receptance_frequencies(const RefinedModes &refined, const fem::ModalRatios &zeta,
                                                         double highest)
 {
-  const auto ratio = [&](int mode, double omega)
+  constexpr double nominal_zeta = 0.01; // of frames without damping: that of welded steel
+  const auto       ratio        = [&](int mode, double omega)
   { return zeta.any() ? std::max(1e-4, zeta.at(mode, omega)) : nominal_zeta; };
   std::vector<ReceptanceFrequency> result;
-  int                              mode = 0;
+  int                              mode   = 0;
+  constexpr int                    spread = 100; // frequencies all over the range, besides those about modes
   for (int i = 1; i <= spread; ++i)
   {
     const double omega = highest * i / spread;
@@ -59,6 +56,8 @@ std::vector<ReceptanceFrequency> receptance_frequencies(const RefinedModes &refi
       ++mode;
     result.push_back({omega, ratio(mode, omega)});
   }
+  // half widths
+  constexpr double around[] = {-3., -2., -1.5, -1., -0.7, -0.4, -0.2, 0., 0.2, 0.4, 0.7, 1., 1.5, 2., 3.};
   for (int j = 0; j < refined.omega.size() && refined.omega(j) <= 1.05 * highest; ++j)
     for (const double t : around)
     {
@@ -115,6 +114,7 @@ MatrixXd InterfaceReceptance::moment(int k, int m) const
 /// What is rounding in P_k.
 double InterfaceReceptance::negligible(int k) const
 {
+  constexpr double least_moment = 1e-12; // of a moment, beside that of all modes: rounding of their sum
   return least_moment * moments_[k - 1].trace();
 }
 

@@ -19,13 +19,9 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    first_modes     = 30;
-constexpr int    most_modes      = 200;
-constexpr double growth          = 1.5;
-constexpr double reach           = 1.5; // highest fixed-interface mode over the limit, at least
-constexpr double rule            = 3.5; // the book's
-constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
-constexpr double allowed_doubt   = 0.1; // of the receptance of the full frame, as a share of the tolerance
+constexpr int    most_modes = 200;
+constexpr double reach      = 1.5; // highest fixed-interface mode over the limit, at least
+constexpr double rule       = 3.5; // the book's
 
 } // namespace
 
@@ -33,6 +29,7 @@ double highest_of_interest(const ReductionOptions &options, const RefinedModes &
 {
   if (options.frequency > 0. || refined.omega.size() == 0)
     return two_pi * options.frequency;
+  constexpr int default_elastic = 12; // modes of interest if no frequency is given
   return refined.omega(std::min<int>(default_elastic, refined.omega.size()) - 1);
 }
 
@@ -89,6 +86,7 @@ Judgement judge_receptance(const InterfaceReceptance &receptance, int m, bool mo
   const double doubt = receptance.uncertainty();
   judgement.shortcoming =
       "an error of the interface's receptance of " + percent(receptance.error(m, Inside::modes) + doubt);
+  constexpr double allowed_doubt = 0.1; // of the receptance of the full frame, as a share of the tolerance
   if (doubt >= allowed_doubt * tolerance)
     return judgement;
   const InsideCount modes  = receptance.fewest(tolerance - doubt, Inside::modes),
@@ -255,7 +253,9 @@ ModeSelection enough(const Look &look, ReductionBasis &basis, const InterfaceSta
 ModeSelection select_modes(ReductionBasis &basis, FixedInterfaceModes &fixed, const InterfaceStatics &statics,
                            const fem::FrameMatrices &frame, const ReductionOptions &options)
 {
-  const int n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
+  const int        n_modes = with_mass(frame, basis.q1), most = std::min(n_modes, most_modes);
+  constexpr int    first_modes = 30;  // at the first look; five more get to most_modes
+  constexpr double growth      = 1.5; // from try to try: all of them together cost three times the last at most
   for (int m = std::min(first_modes, most);; m = std::min(most, int(std::ceil(growth * m))))
   {
     statics.begin("fixed-interface modes", double(m) / most);

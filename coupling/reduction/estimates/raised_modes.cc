@@ -13,13 +13,6 @@ namespace gestell::coupling
 namespace
 {
 
-/// Of the lowest omega^2, added where rigid motions are free: far from it, and far above rounding.
-constexpr double shift_share = 0.1;
-
-/// What elements of degree three leave of the error of quadratic ones lies between nothing, in smooth fields, and
-/// (2 / 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
-constexpr double left_over = 1.25;
-
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// Y <- A^-1 Y, by all ranks there are, which empty A.
@@ -44,7 +37,9 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
     Y.row(frame.place[i]) = X.row(i);
   Y                       = symmetric_product(frame.M, Y);
   const Eigen::MatrixXd F = Y;
-  const double          s = floats ? shift_share * omega[0] * omega[0] : 0.;
+  // Of the lowest omega^2, added where rigid motions are free: far from it, and far above rounding.
+  constexpr double shift_share = 0.1;
+  const double     s           = floats ? shift_share * omega[0] * omega[0] : 0.;
   if (floats)
     frame.C += s * frame.M;
   frame.C.makeCompressed();
@@ -58,6 +53,9 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
 
 double error_by_raising(double omega, double raised)
 {
+  // What elements of degree three leave of the error of quadratic ones lies between nothing, in smooth fields, and (2 /
+  // 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
+  constexpr double left_over = 1.25;
   return left_over * std::max(0., omega / raised - 1.);
 }
 

@@ -19,8 +19,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int most_rounds = 4; // of finding modes that were missing
-
 /// Of modes that end below the highest frequency of interest.
 void warn_of_few_modes(ReductionSpace &space, const ReductionOptions &options)
 {
@@ -131,6 +129,8 @@ ReductionSpace CraigBampton::basis(const fem::FrameMatrices &frame, const Reduct
                                    InterfaceStatics &statics)
 {
   FixedInterfaceModes fixed(statics.held, frame, statics.basis.q1);
+  // of finding modes that were missing: one suffices, unless a search misses some again
+  constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds; ++round)
   {
     ReductionSpace space = (options.n_modes < 0 ? chosen : counted)(fixed, statics, frame, options);

@@ -11,8 +11,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rounding = 1e-6; // size of a shape beside what it was made from
-
 VectorXd mass_of(const MatrixXd &W, const MatrixXd &MW)
 {
   return (W.array() * MW.array()).colwise().sum();
@@ -31,8 +29,9 @@ int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &fra
     W -= basis.fixed_modes() * (M_modes.transpose() * W);
 
   const SymmetricEigenSolver mass(W.transpose() * symmetric_product(frame.M, W));
-  const auto                 dropped = (mass.eigenvalues().array() <= rounding * rounding).count();
-  const auto                 kept    = W.cols() - dropped;
+  constexpr double           rounding = 1e-6; // size of a shape beside what it was made from
+  const auto                 dropped  = (mass.eigenvalues().array() <= rounding * rounding).count();
+  const auto                 kept     = W.cols() - dropped;
   if (kept == 0)
     return 0;
   W = W * mass.eigenvectors().rightCols(kept) * mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();

@@ -28,11 +28,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr double free_below = 1e-13; // x^T C x / x^T D x
-constexpr double shift      = 1e-9;  // C + shift D can be factored whatever is free
-constexpr int    candidates = 12;    // a frame in one piece has six rigid motions; a loose part adds six
-constexpr int    rounds     = 6;     // of inverse iteration: free motions gain a factor of about 100 in each
-
 /// Columns turned into a basis of their span that is orthonormal in the diagonal inner product D.
 MatrixXd orthonormal(const MatrixXd &X, const VectorXd &D)
 {
@@ -44,17 +39,20 @@ MatrixXd orthonormal(const MatrixXd &X, const VectorXd &D)
 /// Motions of least x^T C x / x^T D x, D the diagonal of C, that are free.
 MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
 {
-  SparseMatrix shifted = lower;
+  SparseMatrix     shifted = lower;
+  constexpr double shift   = 1e-9; // C + shift D can be factored whatever is free
   shifted.diagonal() += shift * D;
   const SparseCholesky factor(shifted);
 
-  const int n = int(D.size()), k = std::min(candidates, n);
-  MatrixXd  X(n, k);
+  constexpr int candidates = 12; // a frame in one piece has six rigid motions; a loose part adds six
+  const int     n = int(D.size()), k = std::min(candidates, n);
+  MatrixXd      X(n, k);
   for (int j = 0; j < k; ++j)
     for (int i = 0; i < n; ++i)
       X(i, j) = std::fmod(0.6180339887498949 * (i + 1.) * (j + 1.) * (j + 1.), 1.) - 0.5;
 
-  VectorXd quotient;
+  VectorXd      quotient;
+  constexpr int rounds = 6; // of inverse iteration: free motions gain a factor of about 100 in each
   for (int round = 0; round < rounds; ++round)
   {
     X = D.asDiagonal() * X;
@@ -65,7 +63,8 @@ MatrixXd energy_free_motions(const SparseMatrix &lower, const VectorXd &D)
     X        = (X * ritz.eigenvectors()).eval();
     quotient = ritz.eigenvalues();
   }
-  int n_free = 0;
+  constexpr double free_below = 1e-13; // x^T C x / x^T D x
+  int              n_free     = 0;
   while (n_free < k && quotient(n_free) < free_below)
     ++n_free;
   return X.leftCols(n_free);

@@ -20,24 +20,22 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    modes_at_once   = 20;
-constexpr int    default_elastic = 12;  // modes of interest if no frequency is given
-constexpr double reach           = 1.5; // highest mode over the highest frequency of interest
-constexpr int    most_rounds     = 4;   // of finding modes that were missing
-
 /// Circular frequency up to which modes are kept, infinite if their number is given or there are too few to tell.
 double highest_kept(const ReductionOptions &options, const VectorXd &omega)
 {
   if (options.n_modes >= 0)
     return INFINITY;
+  constexpr double reach = 1.5; // highest mode over the highest frequency of interest
   if (options.frequency > 0.)
     return reach * two_pi * options.frequency;
+  constexpr int default_elastic = 12; // modes of interest if no frequency is given
   return omega.size() >= default_elastic ? reach * omega[default_elastic - 1] : INFINITY;
 }
 
 /// Finds `most`, or until one lies above the highest that is to be kept.
 void find_enough(FreeInterfaceModes &modes, const ReductionOptions &options, int most)
 {
+  constexpr int modes_at_once = 20; // asked for at a time, until one lies above what is kept
   for (int count = options.n_modes >= 0 ? most : std::min(modes_at_once, most);;
        count     = std::min(count + modes_at_once, most))
   {
@@ -117,6 +115,8 @@ FreeModes free_modes(const ReductionBasis &basis, FixedInterfaceFrame &held, con
     modes.find(0); // all there are, fewer if masses are missing
     most = std::min<int>(most, modes.found().omega.size());
   }
+  // of finding modes that were missing: one suffices, unless a search misses some again
+  constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds; ++round)
   {
     find_enough(modes, options, most);

@@ -14,10 +14,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// eigenvalues of S scaled to unit diagonal
-constexpr double singular   = 1e-11; // of motions without stiffness
-constexpr double suspicious = 1e-6;  // of motions that may be; above it none is, which saves a search through C
-
 VectorXd to_unit_diagonal(const MatrixXd &S)
 {
   return S.diagonal().unaryExpr([](double s) { return s > 0. ? 1. / std::sqrt(s) : 1.; });
@@ -31,11 +27,13 @@ MatrixXd motions_without_stiffness(const MatrixXd &S, const ReductionBasis &basi
     return MatrixXd(basis.T.rows(), 0);
   const VectorXd             d = to_unit_diagonal(S);
   const SymmetricEigenSolver scaled(d.asDiagonal() * S * d.asDiagonal());
+  constexpr double suspicious = 1e-6; // of motions that may be; above it none is, which saves a search through C
   if (scaled.eigenvalues()(0) > suspicious)
     return MatrixXd(basis.T.rows(), 0);
   if (frame.rigid_motions.cols() == 6)
     return fem::free_displacements(frame);
-  const auto count = (scaled.eigenvalues().array() <= singular).count();
+  constexpr double singular = 1e-11; // eigenvalues of S scaled to unit diagonal, of motions without stiffness
+  const auto       count    = (scaled.eigenvalues().array() <= singular).count();
   return basis.constraint_modes() * (d.asDiagonal() * scaled.eigenvectors().leftCols(count));
 }
 

@@ -14,8 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr int lanes = 8; // columns that travel together
-
 MatrixXd symmetric(const MatrixXd &A)
 {
   return 0.5 * (A + A.transpose());
@@ -28,7 +26,8 @@ void symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &
   assert(A.isCompressed() && A.cols() == X.rows());
   const auto                                   n     = A.cols();
   const int                                   *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
-  const auto                                  *a = A.valuePtr();
+  const auto                                  *a     = A.valuePtr();
+  constexpr int                                lanes = 8;   // columns that travel together
   Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X, eight columns of it, lies together
   Y.resize(n, X.cols());
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)

@@ -22,26 +22,6 @@ using Eigen::ArrayXXd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Part of a deflection from which a doubt is worth a word: five times what the reduction leaves by default.
-constexpr double worth_a_word = 0.05;
-
-/// Of the most work that a force does, from which its deflection counts: a tenth of the size in deflections of one
-/// kind.
-constexpr double counts = 0.01;
-
-/// Of the flexibility at every place, below which a mode does not count: a hundredth of worth_a_word and less.
-constexpr double takes_part = 1e-4;
-
-/// Damping ratio where the frame has none, as the reduction's own estimate of receptances takes it.
-constexpr double undamped = 0.01;
-
-/// Damping ratio to which oscillators are limited that would not swing.
-constexpr double overdamped = 0.99;
-
-constexpr double looks_in_period = 32.; ///< of the range's limit
-
-constexpr int most_named = 3;
-
 /// Two digits.
 std::string percent_of(double share)
 {
@@ -133,6 +113,8 @@ void ForceBandwidthCheck::take_modes(const ReducedFrame &frame)
   const ArrayXXd share = (w.transpose() * V * omega.cwiseInverse().asDiagonal()).array().square(); // of flexibilities
   const ArrayXd  whole = share.rowwise().sum().max(std::numeric_limits<double>::min());
   std::vector<Eigen::Index> taken;
+  // Of the flexibility at every place, below which a mode does not count: a hundredth of worth_a_word and less.
+  constexpr double takes_part = 1e-4;
   for (Eigen::Index k = 0; k < p; ++k)
     if ((share.col(k) / whole).maxCoeff() > takes_part)
       taken.push_back(k);
@@ -151,8 +133,11 @@ void ForceBandwidthCheck::take_modes(const ReducedFrame &frame)
       *load = (Phi.transpose() * *load).eval();
 
   const ArrayXd zeta = (Phi.transpose() * frame.B * Phi).diagonal().array() / (2. * model);
-  const ArrayXd own  = (zeta > 0.).select(zeta, undamped).min(overdamped);
-  ArrayXd       both(2 * model.size()), ratios(2 * model.size());
+  // Damping ratio where the frame has none, as the reduction's own estimate of receptances takes it.
+  constexpr double undamped   = 0.01;
+  constexpr double overdamped = 0.99; // Damping ratio to which oscillators are limited that would not swing.
+  const ArrayXd    own        = (zeta > 0.).select(zeta, undamped).min(overdamped);
+  ArrayXd          both(2 * model.size()), ratios(2 * model.size());
   both << model, full;
   ratios << own, own;
   bank_ = OscillatorBank(both, ratios);
@@ -189,10 +174,11 @@ void ForceBandwidthCheck::begin()
   if (places_.empty())
     return;
   const Eigen::Index n = Eigen::Index(places_.size()), modes = shapes_.cols();
-  t_ = t_step_ = integrator_.time();
-  pace_        = 1. / (looks_in_period * limit_);
-  p_           = measured();
-  impulse_     = VectorXd::Zero(p_.size());
+  t_ = t_step_                     = integrator_.time();
+  constexpr double looks_in_period = 32.; // of the range's limit
+  pace_                            = 1. / (looks_in_period * limit_);
+  p_                               = measured();
+  impulse_                         = VectorXd::Zero(p_.size());
   force_.resize(modes);
   input_.resize(2 * modes);
   bank_.begin(inputs(measured(), t_));
@@ -280,6 +266,11 @@ void ForceBandwidthCheck::finish(RunOutcome &outcome)
   const ArrayXd            work   = (most_ - least_) * deflection_;
   for (std::size_t i = 0; i < places_.size(); ++i)
   {
+    // Part of a deflection from which a doubt is worth a word: five times what the reduction leaves by default.
+    constexpr double worth_a_word = 0.05;
+    // Of the most work that a force does, from which its deflection counts: a tenth of the size in deflections of one
+    // kind.
+    constexpr double counts = 0.01;
     if (!(doubt(i, 0) > worth_a_word && work[Eigen::Index(i)] > counts * work.maxCoeff()))
       continue;
     doubtful.push_back(i);
@@ -291,6 +282,7 @@ void ForceBandwidthCheck::finish(RunOutcome &outcome)
   std::sort(doubtful.begin(), doubtful.end(), [&](auto i, auto j) { return doubt(i, 0) > doubt(j, 0); });
   std::ostringstream text;
   text << "forces change faster than the reduced frame, made to hold up to " << limit_ << " Hz, can follow: ";
+  constexpr int most_named = 3; // places of one message
   for (std::size_t k = 0; k < std::min<std::size_t>(doubtful.size(), most_named); ++k)
   {
     const Place &place = places_[doubtful[k]];

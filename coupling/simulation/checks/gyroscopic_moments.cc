@@ -9,8 +9,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double considerable = 0.02; // kappa
-
 /// w [n] of the rotation about e.
 Eigen::VectorXd rotation_about(const Machine &machine, const Marker &marker, const Vector3 &e)
 {
@@ -50,6 +48,8 @@ void check_tilting_rotors(const Machine &machine, const Eigen::VectorXd &v, RunO
     };
     const double kappa =
         column[body.coordinate] * speed * speed * std::sqrt(std::max(0., flexibility(w_a) * flexibility(w_b)));
+    // kappa: 2 % of the moments that hold the axis, twice what frames are reduced to
+    constexpr double considerable = 0.02;
     if (!(kappa > considerable))
       continue;
     std::ostringstream text;

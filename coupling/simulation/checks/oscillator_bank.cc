@@ -8,11 +8,6 @@ namespace gestell::coupling
 
 using Eigen::ArrayXd;
 
-namespace
-{
-constexpr double same_step = 1e-9; ///< differences of times are rounding
-} // namespace
-
 OscillatorBank::OscillatorBank(const ArrayXd &omega, const ArrayXd &zeta) : omega_(omega), zeta_(zeta) {}
 
 void OscillatorBank::begin(const ArrayXd &u)
@@ -36,6 +31,7 @@ void OscillatorBank::prepare(double h)
 /// The ramp's own solution is x = u - late, x' = u'.
 void OscillatorBank::advance(double h, const ArrayXd &u)
 {
+  constexpr double same_step = 1e-9; // differences of times are rounding
   if (std::abs(h - h_) > same_step * h)
     prepare(h);
   for (Eigen::Index k = 0; k < u.size(); ++k) // one pass: this goes along with every step of a run

@@ -11,11 +11,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-constexpr double last_part = 0.01; // of both oil columns together: as near to an end as a piston gets
-} // namespace
-
 PistonLimits::PistonLimits(const Machine &machine, const TimeIntegrator &integrator)
     : machine_(machine), integrator_(integrator)
 {
@@ -41,7 +36,8 @@ PistonLimits::PistonLimits(const Machine &machine, const TimeIntegrator &integra
     const auto *cylinder = law_of<mechanism::HydraulicCylinder>(placement);
     if (!cylinder)
       continue;
-    const double a = cylinder->lower_end(), b = cylinder->upper_end(), near = last_part * (b - a);
+    constexpr double last_part = 0.01; // of both oil columns together: as near to an end as a piston gets
+    const double     a = cylinder->lower_end(), b = cylinder->upper_end(), near = last_part * (b - a);
     for (const std::string chamber : {"a", "b"})
       add("pressure_" + chamber, 1., 0., "hydraulic-pressure",
           "the pressure in chamber " + std::string(chamber == "a" ? "A" : "B") + " falls below zero",

@@ -20,7 +20,6 @@ namespace
 {
 
 constexpr double harmless = 1e-10; // growth per step that 1e9 steps may have
-constexpr double rounding = 1e-14; // of step weights, sums of a few terms of order one
 
 // --- one mode
 
@@ -104,7 +103,8 @@ Eigen::MatrixXd balance(const LinearMachine &machine, const StepWeights &w, doub
 /// No motion x r^k: the balance is positive definite.
 bool balanced(const LinearMachine &machine, const MethodOptions &options, double h, double r)
 {
-  const StepWeights w = *method_of(options).step_weights(options, r);
+  const StepWeights w        = *method_of(options).step_weights(options, r);
+  constexpr double  rounding = 1e-14; // of step weights, sums of a few terms of order one
   if (machine.B.rows() == 0 || (w.damping > -rounding && w.stiffness > -rounding)) // for any motion
     return true;
   if (std::abs(w.damping) < rounding)

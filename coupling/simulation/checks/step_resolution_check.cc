@@ -17,16 +17,10 @@ namespace
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-constexpr double  steps_of_period = 10.;                                     ///< below which it is worth a word
-constexpr double  differs         = 1. / 40.;                                ///< D of R: 2.4 % at ten steps a period
-constexpr double  often           = 0.25;                                    ///< share of the steps
-constexpr double  seen            = 0.5;                                     ///< share of R
-constexpr double  negligible      = 1e-9;                                    ///< R, of the largest force
-constexpr double  most_looks = 5000., least_looks = 200., most_forces = 1e6; ///< evaluated at the looks
-constexpr double  same       = 1e-6; ///< forces before and after a turn, of their range
-constexpr int     most_named = 3;
-constexpr double  inside[]   = {0.25, 0.5, 0.75};
-const char *const resolution = "step-resolution";
+constexpr double  steps_of_period = 10.;      ///< below which it is worth a word
+constexpr double  differs         = 1. / 40.; ///< D of R: 2.4 % at ten steps a period
+constexpr double  negligible      = 1e-9;     ///< R, of the largest force
+const char *const resolution      = "step-resolution";
 
 template <typename... Parts>
 std::string words(const Parts &...parts)
@@ -101,7 +95,8 @@ struct Steps
 
 Steps steps_of(double begin, double end, double h, Eigen::Index n)
 {
-  const double number = std::max(1., std::floor((end - begin) / h));
+  const double     number     = std::max(1., std::floor((end - begin) / h));
+  constexpr double most_looks = 5000., least_looks = 200., most_forces = 1e6; // evaluated at the looks
   return {begin, h, number, std::min(number, std::clamp(most_forces / double(n), least_looks, most_looks))};
 }
 
@@ -146,7 +141,8 @@ void add_of_time(const LocalForces &forces, const LocalState &state, double begi
   AtTime             at(forces, state);
   if (!depend_on_time(at, steps, n))
     return;
-  Looks looks(n);
+  Looks            looks(n);
+  constexpr double inside[] = {0.25, 0.5, 0.75};
   for (int k = 0; k < steps.size(); ++k)
   {
     looks.end(at(steps[k]));
@@ -165,12 +161,15 @@ void add_of_time(const LocalForces &forces, const LocalState &state, double begi
       difference = difference.max((at(steps[k] + part * h) - (1. - part) * first - part * last).array().abs());
     looks.compare(difference);
   }
-  const double least = negligible * looks.largest();
-  std::string  before;
-  int          n_named = 0;
+  const double  least = negligible * looks.largest();
+  std::string   before;
+  int           n_named    = 0;
+  constexpr int most_named = 3; // forces, a message each
   for (Eigen::Index i = 0; i < n && n_named < most_named; ++i)
   {
-    const bool hidden = looks.seen_range(i) < seen * looks.range(i);
+    constexpr double seen   = 0.5; // share of R
+    const bool       hidden = looks.seen_range(i) < seen * looks.range(i);
+    constexpr double often  = 0.25; // share of the steps
     if (!(looks.range(i) > least) || !(hidden || looks.n_differing(i) > often * steps.size()))
       continue;
     const std::string element = forces.element_of(int(i));
@@ -213,7 +212,8 @@ Eigen::Index turning_with(const LocalForces &forces, const LocalState &last, int
     if (k == 0)
       first = p;
   }
-  const double least = negligible * seen_forces.largest();
+  const double     least = negligible * seen_forces.largest();
+  constexpr double same  = 1e-6; // forces before and after a turn, of their range
   for (Eigen::Index i = 0; i < p.size(); ++i)
     if (seen_forces.range(i) > least && std::abs(p[i] - first[i]) <= same * seen_forces.range(i))
       return i;

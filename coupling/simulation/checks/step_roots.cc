@@ -17,12 +17,7 @@ namespace
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int    most_degree = 3;     ///< of step weights in r: Wilson's
-constexpr double no_weight   = 1e-14; ///< a coefficient that is rounding of sums of a few terms of order one
-/// Growth of a step that is none: of a motion at rest (r = 1) and of a stiff one (r = -1) two roots meet, which
-/// rounding parts by its root, 1e-8, times their condition.  At a limit of the step |r| rises as the root of what is
-/// beyond it.
-constexpr double harmless_of_double = 1e-6;
+constexpr int most_degree = 3; ///< of step weights in r: Wilson's
 
 /// Coefficients of r^0, r^1 ...: columns of mass, damping and stiffness by their values at four r.
 Eigen::Matrix<double, most_degree + 1, 3> coefficients(const MethodOptions &options)
@@ -52,8 +47,9 @@ std::optional<GrowingMotion> growing_step(const LinearMachine &machine, const Me
   const Index p = machine.C.rows();
   if (p == 0)
     return {};
-  const auto w = coefficients(options);
-  int        n = most_degree;
+  const auto       w         = coefficients(options);
+  constexpr double no_weight = 1e-14; // a coefficient that is rounding of sums of a few terms of order one
+  int              n         = most_degree;
   while (n > 1 && std::abs(w(n, 0)) < no_weight)
     --n;
   std::vector<MatrixXd> P;
@@ -68,6 +64,10 @@ std::optional<GrowingMotion> growing_step(const LinearMachine &machine, const Me
   const GeneralEigenSolver solver(companion);
   Index                    fastest;
   const double             radius = solver.eigenvalues().cwiseAbs().maxCoeff(&fastest);
+  // Growth of a step that is none: of a motion at rest (r = 1) and of a stiff one (r = -1) two roots meet, which
+  // rounding parts by its root, 1e-8, times their condition. At a limit of the step |r| rises as the root of what is
+  // beyond it.
+  constexpr double harmless_of_double = 1e-6;
   if (std::log(radius) <= 2. * own_growth(machine) * h + harmless_of_double)
     return {};
   return GrowingMotion{radius, solver.eigenvectors().col(fastest).head(p).cwiseAbs()};

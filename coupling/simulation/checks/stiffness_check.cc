@@ -17,8 +17,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double weight_rounding = 1e-14; // of step weights, sums of a few terms of order one
-
 double stored(const mechanism::Element &element, const Eigen::VectorXd &u, const Eigen::VectorXd &v)
 {
   const Eigen::VectorXd        at_rest = Eigen::VectorXd::Zero(u.size());
@@ -32,7 +30,8 @@ StiffnessCheck::StiffnessCheck(const Machine &machine, const TimeIntegrator &int
                                const MethodOptions &options)
     : machine_(machine), integrator_(integrator), options_(options)
 {
-  const auto weights = method_of(options).step_weights(options, -1.);
+  const auto       weights         = method_of(options).step_weights(options, -1.);
+  constexpr double weight_rounding = 1e-14; // of step weights, sums of a few terms of order one
   if (!weights || controlled(options) || is_large(machine) ||
       weights->stiffness > -weight_rounding) // stable at every stiffness
     return;

@@ -7,13 +7,6 @@
 namespace gestell::fem
 {
 
-namespace
-{
-
-constexpr std::size_t deepest_sets = 200;
-
-} // namespace
-
 void InpSets::add(const std::string &set, const std::string &entry)
 {
   std::size_t number      = 0;
@@ -74,6 +67,7 @@ void InpSets::resolve(const std::string &name, Set &set)
     throw std::invalid_argument("set " + ring + "\"" + name +
                                 "\", and so itself; remove one of these lines from the sets.");
   }
+  constexpr std::size_t deepest_sets = 200; // each takes some of the stack
   if (open_.size() >= deepest_sets)
     throw std::invalid_argument("sets are nested more than " + std::to_string(deepest_sets) +
                                 " levels deep, down to \"" + name + "\"; list the numbers.");

@@ -9,9 +9,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double same_plane  = 2e-6; // of the model
-constexpr double most_bricks = 3e7;
-
 /// Heights that differ by rounding are one plane.
 std::vector<double> planes_of(std::vector<double> levels, double tolerance)
 {
@@ -96,9 +93,11 @@ BrickLattice brick_lattice(const PlateSolids &solids, double diagonal, const std
     for (const PlateFace &face : solids.faces)
       if (face.direction == d)
         levels.push_back(face.level);
-    lattice.planes[d] = planes_of(levels, same_plane * diagonal);
+    constexpr double same_plane = 2e-6; // of the model
+    lattice.planes[d]           = planes_of(levels, same_plane * diagonal);
     n *= std::max(0, lattice.n(d));
   }
+  constexpr double most_bricks = 3e7; // 240 MB of marks
   if (n < 1. || n > most_bricks)
     throw NotSwept("the planes of its faces make " + text(n) + " bricks");
   lattice.solid.assign(std::size_t(lattice.n(0)) * lattice.n(1) * lattice.n(2), -1);

@@ -9,14 +9,8 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double along_edge = 0.7;      // width of the cell along an edge, of the thickness of the wall
-constexpr double narrowest  = 1. / 16.; // the same at most, of the size
-constexpr double at_minor   = 3.;       // times as wide along a plane beyond which most goes on
-constexpr double growth     = 4.;       // from cell to cell
-constexpr double jump       = 4.;       // from the narrow cells to those amid them
-constexpr double room       = 3.;       // widths of a cell that must be left where it is added
-constexpr double thick      = 1. / 4.;  // of the size: such walls have two cells through them
-constexpr double rounding   = 1e-9;
+constexpr double growth   = 4.; // from cell to cell
+constexpr double rounding = 1e-9;
 
 /// Narrow cells that grow from a plane.
 struct Growing
@@ -34,7 +28,8 @@ struct Growing
 /// Adds the narrower ones first, at both planes alike.
 void grow(Growing &low, Growing &high, double width, double size)
 {
-  const auto left = [&] { return (width - low.along.back() - high.along.back()) * (1. + rounding); };
+  const auto       left = [&] { return (width - low.along.back() - high.along.back()) * (1. + rounding); };
+  constexpr double room = 3.; // widths of a cell that must be left where it is added
   for (double next = std::min(low.next, high.next); next < size && left() >= room * next;
        next        = std::min(low.next, high.next))
   {
@@ -50,18 +45,23 @@ void grow(Growing &low, Growing &high, double width, double size)
 
 std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, bool even)
 {
-  const double edge   = std::min(along_edge * sheet.thickness, narrowest * size);
-  const auto   within = [&](bool minor) { return minor ? at_minor * edge : edge; };
-  Growing      low{within(sheet.mostly_goes_on[0])}, high{within(sheet.mostly_goes_on[1])};
-  const bool   is_wall = sheet.width() <= sheet.thickness * (1. + rounding);
+  constexpr double along_edge = 0.7;      // width of the cell along an edge, of the thickness of the wall
+  constexpr double narrowest  = 1. / 16.; // the same at most, of the size
+  const double     edge       = std::min(along_edge * sheet.thickness, narrowest * size);
+  constexpr double at_minor   = 3.; // times as wide along a plane beyond which most goes on
+  const auto       within     = [&](bool minor) { return minor ? at_minor * edge : edge; };
+  Growing          low{within(sheet.mostly_goes_on[0])}, high{within(sheet.mostly_goes_on[1])};
+  const bool       is_wall = sheet.width() <= sheet.thickness * (1. + rounding);
   if (!is_wall)
     grow(low, high, sheet.width(), size);
 
-  const double amid   = sheet.width() - low.along.back() - high.along.back();
-  const double narrow = std::min(low.next, high.next) / growth;
-  const double wide   = low.along.size() + high.along.size() > 2 ? std::min(size, jump * narrow) : size;
-  const int    least  = !is_wall ? 1 : std::max(layers, sheet.width() > thick * size ? 2 : 1);
-  int          n      = std::max(least, static_cast<int>(std::ceil(amid / wide - rounding)));
+  const double     amid   = sheet.width() - low.along.back() - high.along.back();
+  const double     narrow = std::min(low.next, high.next) / growth;
+  constexpr double jump   = 4.; // from the narrow cells to those amid them
+  const double     wide   = low.along.size() + high.along.size() > 2 ? std::min(size, jump * narrow) : size;
+  constexpr double thick  = 1. / 4.; // of the size: such walls have two cells through them
+  const int        least  = !is_wall ? 1 : std::max(layers, sheet.width() > thick * size ? 2 : 1);
+  int              n      = std::max(least, static_cast<int>(std::ceil(amid / wide - rounding)));
 
   if (even && (n + low.along.size() + high.along.size()) % 2 == 1)
     ++n;

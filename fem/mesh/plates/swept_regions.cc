@@ -12,7 +12,6 @@ namespace
 {
 
 constexpr std::array<double, 4> margins = {0.75, 0.5, 0.3, 0.15}; // about a hole, of its half width
-constexpr double                near    = 0.6;                    // of the margin: a plane that close bounds the region
 constexpr double                same    = 1e-7;                   // [m] rounding
 
 /// A box about holes, along their axis and in the plane of the plate.
@@ -106,6 +105,7 @@ Box widened(const Box &box, double margin, const BrickLattice &lattice)
     wide.max[k] += aside;
     for (const double plane : lattice.planes[(box.direction + 1 + k) % 3])
     {
+      constexpr double near = 0.6; // of the margin: a plane that close bounds the region
       if (std::abs(plane - wide.min[k]) < near * aside && plane < box.min[k] - margins.back() * half)
         wide.min[k] = plane;
       if (std::abs(plane - wide.max[k]) < near * aside && plane > box.max[k] + margins.back() * half)

@@ -12,8 +12,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double slender = 3.; // width over thickness of a wall
-
 struct Walls
 {
   std::set<std::pair<int, int>> sheets; // direction across, number
@@ -24,8 +22,9 @@ struct Walls
 /// @param widths  of the sheets of a brick across the three directions
 void count(const std::array<double, 3> &widths, const std::array<int, 3> &sheet, double volume, Walls &walls)
 {
-  const auto   thin      = static_cast<int>(std::min_element(widths.begin(), widths.end()) - widths.begin());
-  const double thickness = widths[thin];
+  const auto       thin      = static_cast<int>(std::min_element(widths.begin(), widths.end()) - widths.begin());
+  const double     thickness = widths[thin];
+  constexpr double slender   = 3.; // width over thickness of a wall
   if (std::min(widths[(thin + 1) % 3], widths[(thin + 2) % 3]) < slender * thickness)
     return;
   walls.sheets.insert({thin, sheet[thin]});
