@@ -15,9 +15,7 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int         usual_points = 100, rows_of_branches = 128;
-constexpr std::size_t most_left  = 16;   ///< points at which branches leave that are followed
-constexpr double      same_place = 1e-6; ///< of the range, of the period
+constexpr std::size_t most_left = 16; ///< points at which branches leave that are followed
 
 using coupling::PeriodicSolution;
 
@@ -66,6 +64,7 @@ public:
   /// Whether none left there before; it does from now on.
   bool is_new(const coupling::SpecialMotion &special)
   {
+    constexpr double same_place = 1e-6; // of the range, of the period: to where special points are located
     for (const coupling::SpecialMotion &known : points_)
       if (known.kind == special.kind && std::abs(known.parameter - special.parameter) <= same_place * range_ &&
           std::abs(known.solution.period - special.solution.period) <= same_place * known.solution.period)
@@ -117,6 +116,7 @@ private:
     coupling::PeriodicProblem problem = member->problem;
     problem.period                    = point.solution.period;
     problem.ratio                     = point.solution.ratio;
+    constexpr int rows_of_branches    = 128; // of a period: extremes to (pi / 128)^2 / 2 = 0.03 %
     PeriodicEntry entry = entry_of(member->prepared->machine, problem, point.solution, signals, rows_of_branches);
     entry.branch        = number_;
     entry.parameter     = point.parameter;
@@ -137,6 +137,7 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
   coupling::ContinuationOptions along;
   along.from                         = family.from();
   along.to                           = family.to();
+  constexpr int usual_points         = 100; // of a curve: a step of 1 % of the range
   along.points                       = request.points > 0 ? request.points : usual_points;
   constexpr int most_turns_per_point = 10; // points of a branch, of those from end to end
   along.most                         = std::max(along.most, most_turns_per_point * along.points);

@@ -20,8 +20,7 @@ namespace
 using coupling::BodyKind;
 using Eigen::VectorXd;
 
-constexpr double equal_speeds  = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
-constexpr double drifting_runs = 100.; ///< in which what turns comes round at least once
+constexpr double equal_speeds = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
 
 /// Angles [rad] that may turn round and move at the start: of rotors, and of planar bodies, which may swing as well.
 struct MovingAngles
@@ -40,7 +39,8 @@ struct MovingAngles
   /// Planar bodies that would not come round in many runs.
   void leave_out_drifting(const coupling::InitialState &start, double run)
   {
-    const auto drifts = [&](int i) { return std::abs(start.v[i]) * drifting_runs * run < 2. * M_PI; };
+    constexpr double drifting_runs = 100.; // in which what turns comes round at least once
+    const auto       drifts        = [&](int i) { return std::abs(start.v[i]) * drifting_runs * run < 2. * M_PI; };
     planar.erase(std::remove_if(planar.begin(), planar.end(), drifts), planar.end());
   }
 };

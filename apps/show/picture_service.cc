@@ -128,10 +128,6 @@ std::string AnimatedPng::bytes() const
 
 namespace fs = std::filesystem;
 
-constexpr double shown_size    = 0.05; ///< largest displacement as part of the machine's size
-constexpr int    swing_frames  = 24;
-constexpr double mode_in_files = 1.; ///< modes are written as they are shown
-
 void enclose(const Parts &parts, double *box)
 {
   for (const auto &part : parts)
@@ -262,12 +258,15 @@ public:
     }
     if (series.rests)
       most = 0.;
-    const double size  = diagonal(box);
-    double       times = series.rests                ? 0.
-                         : series.swings             ? mode_in_files
-                         : request_.enlargement > 0. ? request_.enlargement
-                         : most > 0. && size > 0.    ? round_number(shown_size * size / most)
-                                                     : 1.;
+    const double size = diagonal(box);
+    // largest displacement as part of the machine's size, as in pictures of a report
+    constexpr double shown_size    = 0.05;
+    constexpr double mode_in_files = 1.; // modes are written as they are shown
+    double           times         = series.rests                ? 0.
+                                     : series.swings             ? mode_in_files
+                                     : request_.enlargement > 0. ? request_.enlargement
+                                     : most > 0. && size > 0.    ? round_number(shown_size * size / most)
+                                                                 : 1.;
     renderer_.look_at(box);
     series.swings ? mode(series, times, most) : motion(series, times, most);
     return files_;
@@ -301,7 +300,8 @@ private:
     tell_file(series.name + ".png");
     if (!request_.films)
       return;
-    const auto film = film_of(series);
+    const auto    film         = film_of(series);
+    constexpr int swing_frames = 24; // of a swing: one second of a film
     for (int k = 0; k < swing_frames; ++k)
       film->add(
           renderer_.draw(parts, times * std::sin(2. * M_PI * k / swing_frames), most, words, Renderer::Sizes::unknown));

@@ -18,11 +18,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_corrections = 30;
-constexpr double seated           = 1e-9; ///< correction, against the size of q: the equilibrium is found later
-constexpr double near_rounding    = 1e-6; ///< likewise: where corrections so small fall no more, rounding is left
-constexpr double no_force = 1e-9; ///< of a play, against all forces: rounding, as in the equilibrium of static starts
-
 /// A play as an ideal joint, s = target.
 struct Seat
 {
@@ -75,12 +70,15 @@ private:
   {
     for (const PlacedPlay &own : placed())
       balance_.leave_out(own.first_measure, own.n_measures);
-    double before = std::numeric_limits<double>::infinity();
+    double        before           = std::numeric_limits<double>::infinity();
+    constexpr int most_corrections = 30; // Newton's: a few, unless plays open and close in turn
     for (int k = 0; k < most_corrections; ++k)
     {
       const double size = correct(placed()), scale = std::max(q_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff(), 1e-3);
       if (!std::isfinite(size))
         return false;
+      constexpr double seated        = 1e-9; // correction, against the size of q: the equilibrium is found later
+      constexpr double near_rounding = 1e-6; // likewise: where corrections so small fall no more, rounding is left
       if (size <= seated * scale || (size <= near_rounding * scale && size > 0.3 * before))
         return true;
       before = size;
@@ -138,6 +136,8 @@ private:
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       const double force = seats_[i].force.norm();
+      // of a play, against all forces: rounding, as in the equilibrium of static starts
+      constexpr double no_force = 1e-9;
       if (force > no_force * balance_.forces().sum())
         seats_[i].target = -(own[i].play.gap + own[i].structure->yielding(force)) / force * seats_[i].force;
     }

@@ -20,8 +20,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double dependent = 1e-10; ///< pivot of rows scaled to unit masses that counts as zero
-constexpr double torn      = 0.01; ///< opening of a closed chain beside the motions that make it; deflections make 1e-3
+constexpr double torn = 0.01; ///< opening of a closed chain beside the motions that make it; deflections make 1e-3
 
 /// Linear demands A x = b on a motion, for several right-hand sides at once.
 struct Demands
@@ -45,6 +44,7 @@ public:
   {
     if (demands.A.rows() == 0 || Z_.cols() == 0)
       return 0;
+    constexpr double         dependent = 1e-10; // pivot of rows scaled to unit masses that counts as zero
     const LeastSquaresSolver solver(demands.A * Z_, dependent);
     X_ += Z_ * solver.solve(demands.b - demands.A * X_);
     Z_ = Z_ * solver.null_space();

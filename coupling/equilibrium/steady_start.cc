@@ -66,9 +66,6 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   return result;
 }
 
-/// Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
-constexpr double least_singular = 1e-9;
-
 /// DrivenEquilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
 class DrivenEquilibrium
 {
@@ -161,7 +158,9 @@ private:
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
     matrix_                    = row_scale_.asDiagonal() * part * scale_.asDiagonal();
-    solver_                    = LeastSquaresSolver(matrix_, least_singular);
+    // Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
+    constexpr double least_singular = 1e-9;
+    solver_                         = LeastSquaresSolver(matrix_, least_singular);
   }
 
   Machine         &machine_;

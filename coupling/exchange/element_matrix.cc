@@ -36,8 +36,6 @@ std::string value_of(std::string_view line, const std::string &key)
   return "";
 }
 
-constexpr std::size_t most_directions = 6; // of a node: else nodes times directions would fill the memory
-
 class ElementReader
 {
 public:
@@ -104,6 +102,7 @@ private:
         from     = 1;
       }
       directions.clear();
+      constexpr std::size_t most_directions = 6; // of a node: else nodes times directions would fill the memory
       if (fields.size() - from > most_directions)
         file_.fail("a node has " + std::to_string(fields.size() - from) + " directions; a node has at most 6 DOFs");
       for (; from < fields.size(); ++from)

@@ -156,8 +156,6 @@ private:
   ModelNodes            nodes_;
 };
 
-constexpr int most_files = 1000, deepest_file = 20; ///< that include each other
-
 std::string elsewhere(long node)
 {
   return "node " + std::to_string(node) + " already has another position; remove one of them";
@@ -240,6 +238,7 @@ public:
     fem::InpLines lines(name);
     if (!lines.opened())
       throw std::invalid_argument(name + ": cannot be read; another file names it as INPUT, check its path");
+    constexpr int most_files = 1000, deepest_file = 20; // that include each other
     if (depth > deepest_file || ++n_files_ > most_files)
       throw std::invalid_argument(
           name + ": is one of more than " + std::to_string(most_files) + " files, or " + std::to_string(deepest_file) +

@@ -15,10 +15,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    spare_modes  = 10;   ///< above the lines, so that a line may rise past others
-constexpr double none         = 1e-9; ///< frequency beside the highest one that rounding leaves of none
-constexpr double longest_turn = 0.09; ///< [rad] of a step on the way to a position
-
 struct Position
 {
   InitialState state; ///< closed, and deflected if there is an equilibrium
@@ -115,10 +111,12 @@ private:
         next.modes.no_equilibrium = error.what();
         next.state                = relaxed(next.state, x);
       }
-    next.modes.modes = linearised_modes(machine_, next.state.q, how, options_.lines + spare_modes);
-    double highest   = 0.;
+    constexpr int spare_modes = 10; // above the lines, so that a line may rise past others
+    next.modes.modes          = linearised_modes(machine_, next.state.q, how, options_.lines + spare_modes);
+    double highest            = 0.;
     for (const Mode &mode : next.modes.modes)
       highest = std::max(highest, mode.frequency_hz);
+    constexpr double none = 1e-9; // frequency beside the highest one that rounding leaves of none
     for (Mode &mode : next.modes.modes)
       if (mode.frequency_hz < none * highest)
         mode.frequency_hz = 0.;
@@ -164,9 +162,11 @@ private:
   /// In steps that keep a linkage on its branch; where that way is barred, at once.
   InitialState assembled(double x, const Position &from)
   {
-    const double longest = coordinate_.unit == "rad" ? std::min(longest_turn, std::abs(step_)) : std::abs(step_);
-    const double begin   = from.modes.x;
-    const int    parts   = std::max(1, int(std::ceil(std::abs(x - begin) / longest - 1e-9)));
+    // [rad] of a step on the way to a position: 5 degrees, in which Newton's method follows joints
+    constexpr double longest_turn = 0.09;
+    const double     longest = coordinate_.unit == "rad" ? std::min(longest_turn, std::abs(step_)) : std::abs(step_);
+    const double     begin   = from.modes.x;
+    const int        parts   = std::max(1, int(std::ceil(std::abs(x - begin) / longest - 1e-9)));
     try
     {
       InitialState state = from.state;

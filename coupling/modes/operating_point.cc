@@ -161,8 +161,7 @@ Slope extrapolated_slope(const std::function<double(double)> &f, double first_st
 
 constexpr double first_way = 1e-4; ///< first step, of a large motion; of rates and accelerations ten and a hundred
                                    ///< times as large, with such a motion in a second
-constexpr double smooth   = 1e-5;  ///< error of a slope beside the largest one of its kind that a kink leaves
-constexpr double rounding = 1e-12; ///< what it leaves of a value in quotients with the smallest step
+constexpr double smooth = 1e-5;    ///< error of a slope beside the largest one of its kind that a kink leaves
 
 /// Whether the slope of f jumps at 0: second differences over h fall with the step where f is smooth.
 bool has_kink(const std::function<double(double)> &f, double first_step)
@@ -203,12 +202,13 @@ public:
         x[i] = there + d;
         return value();
       };
-      const Slope slope = extrapolated_slope(moved, first_step);
-      kink              = kink || has_kink(moved, first_step);
-      x[i]              = there;
-      weights[i]        = slope.value;
-      largest           = std::max(largest, std::abs(slope.value));
-      worst             = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
+      const Slope slope         = extrapolated_slope(moved, first_step);
+      kink                      = kink || has_kink(moved, first_step);
+      x[i]                      = there;
+      weights[i]                = slope.value;
+      largest                   = std::max(largest, std::abs(slope.value));
+      constexpr double rounding = 1e-12; // what it leaves of a value in quotients with the smallest step
+      worst                     = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
     }
     if (kink || worst > smooth * largest)
       throw std::invalid_argument("\"" + signal_.name +

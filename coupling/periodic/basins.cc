@@ -16,8 +16,6 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double lost = 1e4; ///< sizes of the largest motion and start: a state there has run away
-
 /// A motion that starts may settle to: its states (Omega q, q') at the begins of all its periods.
 struct Attractor
 {
@@ -116,7 +114,8 @@ public:
   /// @return number of the motion
   int settle(VectorXd q, VectorXd v)
   {
-    const double far = lost * std::max(largest_, state_of(q, v).norm());
+    constexpr double lost = 1e4; // sizes of the largest motion and start: a state there has run away
+    const double     far  = lost * std::max(largest_, state_of(q, v).norm());
     for (periods_ = 0; periods_ <= most_; ++periods_)
     {
       const VectorXd x = state_of(q, v);

@@ -31,9 +31,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double left_out_of_branch    = 1e-8; ///< of the motion, above which harmonics are added
-constexpr double near_by               = 0.3;  ///< distance of a motion with more harmonics, of the unknowns
-constexpr int    points_until_next_try = 8;    ///< where no more harmonics have a solution
+constexpr double left_out_of_branch = 1e-8; ///< of the motion, above which harmonics are added
 
 class ShootingBranch final : public BranchEquations
 {
@@ -146,8 +144,9 @@ public:
     for (int next = more_harmonics(member_.problem, harmonics_); next > 0; next = more_harmonics(member_.problem, next))
     {
       balance_->set_harmonics(next);
-      const VectorXd start = balance_->filled_up(Z.col(0), harmonics_);
-      VectorXd       z     = start;
+      const VectorXd   start   = balance_->filled_up(Z.col(0), harmonics_);
+      VectorXd         z       = start;
+      constexpr double near_by = 0.3; // distance of a motion with more harmonics, of the unknowns
       if (!solve_balance(*balance_, options_, z).converged || (z - start).norm() > near_by * start.norm())
         continue;
       const VectorXd tangent = balance_->filled_up(Z.col(1), harmonics_);
@@ -157,7 +156,8 @@ public:
       return true;
     }
     balance_->set_harmonics(harmonics_);
-    points_to_rest_ = points_until_next_try;
+    constexpr int points_until_next_try = 8; // where no more harmonics have a solution
+    points_to_rest_                     = points_until_next_try;
     return false;
   }
 

@@ -18,9 +18,8 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double box_reach    = 5.;   ///< of the box, in the largest excursions of the motion that the guess leads to
-constexpr double astray       = 4.;   ///< distance from the middle of the box, in its size, at which a start is lost
-constexpr double coarse       = 1e-6; ///< tolerance of the steps far from a solution
+constexpr double box_reach    = 5.; ///< of the box, in the largest excursions of the motion that the guess leads to
+constexpr double astray       = 4.; ///< distance from the middle of the box, in its size, at which a start is lost
 constexpr int    usual_starts = 64;
 constexpr double off          = 0.3; ///< of the largest excursions: so far
 
@@ -214,7 +213,8 @@ private:
   }
   static MethodOptions rough(MethodOptions integration)
   {
-    integration.tolerance = std::max(integration.tolerance, coarse);
+    constexpr double coarse = 1e-6; // tolerance of the steps far from a solution
+    integration.tolerance   = std::max(integration.tolerance, coarse);
     return integration;
   }
 

@@ -104,8 +104,6 @@ using Eigen::VectorXd;
 
 constexpr int    usual_lead_in = 10;   ///< periods
 constexpr double near_enough   = 0.01; ///< closing error at which the lead-in ends
-constexpr double kick          = 0.5;  ///< of the velocities, for the second start
-constexpr double same          = 1e-4; ///< distance of two motions, of their size, within which they are one
 
 /// One period; the state behind it, whole turns taken off, becomes the next start.
 double one_period(PeriodFlow &flow, const PeriodicProblem &problem, PeriodicGuess &at)
@@ -248,6 +246,7 @@ public:
       not_settled(first, problem);
     std::vector<PeriodicSolution> found = {reported(problem, first, options)};
     PeriodicGuess                 other = first.at;
+    constexpr double              kick  = 0.5; // of the velocities, for the second start
     other.v *= 1. + kick;
     if (problem.period_is_unknown())
       return found; // a drive that is kicked only needs long to come back
@@ -263,8 +262,9 @@ public:
 private:
   static bool alike(const PeriodicGuess &a, const PeriodicGuess &b, const PeriodicProblem &problem)
   {
-    const double omega = 2. * M_PI / problem.period;
-    const double size  = std::sqrt(omega * omega * a.q.squaredNorm() + a.v.squaredNorm());
+    const double     omega = 2. * M_PI / problem.period;
+    const double     size  = std::sqrt(omega * omega * a.q.squaredNorm() + a.v.squaredNorm());
+    constexpr double same  = 1e-4; // distance of two motions, of their size, within which they are one
     return std::sqrt(omega * omega * (a.q - b.q).squaredNorm() + (a.v - b.v).squaredNorm()) <= same * size;
   }
 };

@@ -13,7 +13,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double consistent = 1e-9; ///< turns
 constexpr double still      = 1e-9; ///< speed of what does not turn, of the speeds that it is the difference of
 constexpr double not_at_all = 1e-9; ///< share of a coordinate in a shift of unit length
 
@@ -54,7 +53,8 @@ public:
     increments = invariance_.nearest(omega_ * period, whole);
     for (std::size_t k = 0; k < invariance_.dependences().size(); ++k)
     {
-      const AngleDependence &d = invariance_.dependences()[k];
+      const AngleDependence &d          = invariance_.dependences()[k];
+      constexpr double       consistent = 1e-9; // turns: rounding of sums of numbers up to 64
       if (std::abs(d.of.dot(increments) - whole[Index(k)]) <= 2. * M_PI * consistent * (1. + size(d) * period))
         continue;
       why = of_turns(d, rate(d) * period, period);

@@ -32,9 +32,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr std::chrono::milliseconds told_again{100};
-constexpr size_t                    words_kept = 4096; // of the child's standard error
-
 struct Pipe
 {
   int read_end = -1, write_end = -1;
@@ -183,7 +180,8 @@ public:
     pollfd polled[] = {{messages_, POLLIN, 0}, {words_, POLLIN, 0}};
     while (polled[0].fd >= 0 && !answer_) // a child of another thread may hold the other end
     {
-      const int n = ::poll(polled, 2, int(told_again.count()));
+      constexpr std::chrono::milliseconds told_again{100}; // a tenth of a second: what a person sees as steady
+      const int                           n = ::poll(polled, 2, int(told_again.count()));
       if (ended.requested())
         return false;
       if (const auto now = std::chrono::steady_clock::now(); progress_ && now - reported_ >= told_again)
@@ -233,6 +231,7 @@ private:
     const ssize_t n = ::read(words_, buffer, sizeof buffer);
     if (n > 0)
       said_.append(buffer, static_cast<std::size_t>(n));
+    constexpr size_t words_kept = 4096; // of the child's standard error: its last page
     if (said_.size() > words_kept)
       said_.erase(0, said_.size() - words_kept);
     return n > 0 || (n < 0 && errno == EINTR);

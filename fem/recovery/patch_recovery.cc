@@ -16,8 +16,7 @@ namespace
 
 using Stress = Eigen::Matrix<double, 6, 1>;
 
-constexpr int    monomials = 10;   // 1 x y z xx yy zz xy yz zx
-constexpr double ridge     = 1e-6; // of the quadratic monomials, which small patches do not all determine
+constexpr int monomials = 10; // 1 x y z xx yy zz xy yz zx
 
 using Monomials = Eigen::Matrix<double, monomials, 1>;
 
@@ -162,6 +161,7 @@ public:
 
     const Columns                               P      = monomials_of(x);
     Eigen::Matrix<double, monomials, monomials> normal = P * P.transpose();
+    constexpr double ridge = 1e-6;             // of the quadratic monomials, which small patches do not all determine
     normal.diagonal().tail<6>() *= 1. + ridge; // z^2 is a constant to samples at z = +-a: then it is left out
     coefficients_ = normal.ldlt().solve(P * stress.transpose()).transpose();
   }

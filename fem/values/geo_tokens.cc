@@ -12,8 +12,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr std::size_t longest_text = 1000; // gmsh's buffer has 1024 bytes
-
 /// Signs of two and three characters, the longest first; all others have one.
 constexpr std::array<const char *, 16> long_signs = {
     "...", "+=", "-=", "*=", "/=", "++", "--", "==", "!=", "<=", ">=", ">>", "<<", "::", "||", "&&"};
@@ -142,7 +140,8 @@ private:
     const std::size_t end = script_.find(quote, here_ + 1);
     if (end == std::string::npos)
       refuse_(line_, "begins a string that does not end");
-    const std::string text = script_.substr(here_ + 1, end - here_ - 1);
+    const std::string     text         = script_.substr(here_ + 1, end - here_ - 1);
+    constexpr std::size_t longest_text = 1000; // gmsh's buffer has 1024 bytes
     if (text.size() > longest_text)
       refuse_(line_, "has a string of more than " + std::to_string(longest_text) + " bytes, which gmsh truncates");
     if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' && c != '\t'; }))

@@ -49,8 +49,6 @@ struct ChartCommandOptions
   ReductionChart           reductions;       ///< these are compared instead of methods of integration
 };
 
-constexpr double resolved_above = 10.; ///< times the error of the reference
-
 double option_value(const std::string &option, const std::string &text, Kind dimension)
 {
   const auto no_parameter = [](const std::string &) { return std::optional<Quantity>(); };
@@ -193,8 +191,10 @@ public:
         point.failure = "no reference to measure its error against";
       else if (point.failure.empty())
       {
-        point.error    = scaled_error(result.values, reference_);
-        point.resolved = point.error >= resolved_above * model_.reference_error;
+        point.error = scaled_error(result.values, reference_);
+        // times the error of the reference, which is then within a tenth of the point's height
+        constexpr double resolved_above = 10.;
+        point.resolved                  = point.error >= resolved_above * model_.reference_error;
       }
       points.push_back(point);
       if (result.cpu_s > problem_.cpu_limit || (point.failure.empty() && !point.resolved))

@@ -12,9 +12,6 @@ namespace gestell::apps
 namespace
 {
 
-/// What rounding may leave of the last step, relative to the run.
-constexpr double rounding = 1e-12;
-
 /// Takes the samples of a run from the dense output of each step.
 class Sampler : public coupling::RunObserver
 {
@@ -30,7 +27,8 @@ public:
 
   void step() override
   {
-    const double now = integrator_.time(), slack = rounding * (problem_.samples.back() - problem_.begin);
+    constexpr double rounding = 1e-12; // What rounding may leave of the last step, relative to the run.
+    const double     now = integrator_.time(), slack = rounding * (problem_.samples.back() - problem_.begin);
     for (; next_ < problem_.samples.size() && problem_.samples[next_] <= now + slack; ++next_)
     {
       const double t      = std::min(problem_.samples[next_], now);

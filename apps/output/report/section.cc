@@ -9,8 +9,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int rows_of_a_screen = 30; ///< of a table that is not scrolled: 900 pixels, the height of a screen
-
 struct PartHtml
 {
   Pictures &pictures;
@@ -21,7 +19,8 @@ struct PartHtml
   }
   std::string operator()(const HtmlTable &table) const
   {
-    const std::string html = table.is_empty() ? "" : table.html();
+    const std::string html             = table.is_empty() ? "" : table.html();
+    constexpr int     rows_of_a_screen = 30; // of a table that is not scrolled: 900 pixels, the height of a screen
     return std::count(html.begin(), html.end(), '\n') > rows_of_a_screen ? table.scrolled_html()
                                                                          : html; // a row is a line
   }

@@ -17,7 +17,6 @@ namespace
 {
 
 constexpr double one_instant = 1e-9; ///< of the run: its rounding
-constexpr double coarsest    = 0.1;  ///< distance of rows, of the time they are summed over: trapezoids within 1 %
 
 bool is_force(const coupling::Signal &signal)
 {
@@ -68,6 +67,7 @@ public:
   {
     const std::size_t next = next_of(e);
     const auto       *from = at(e), *to = at(next);
+    constexpr double  coarsest = 0.1; // distance of rows, of the time they are summed over: trapezoids within 1 %
     if (!from || !to || !fine_between(rows_, from->t, to->t, coarsest))
       return std::nan("");
     double     sum = 0., t = from->t, F = from->after[s];

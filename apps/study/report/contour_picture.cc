@@ -15,8 +15,7 @@ namespace
 
 constexpr double contour_left = 66., contour_top = 30., contour_side = 260., contour_width = 340.,
                  contour_height = 340.;
-constexpr int    contour_cells  = 52; ///< along a side
-constexpr double lightest = 0.04, darkest = 0.62;
+constexpr int contour_cells     = 52; ///< along a side
 
 struct Point2
 {
@@ -84,6 +83,8 @@ public:
 private:
   double opacity(std::size_t band) const
   {
+    constexpr double lightest = 0.04; // opacity: a band is seen beside the paper
+    constexpr double darkest  = 0.62; // opacity: lines and rings are seen upon it
     return lightest + darkest * static_cast<double>(band) / static_cast<double>(paths_.size());
   }
 

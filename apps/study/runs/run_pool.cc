@@ -23,9 +23,6 @@ namespace
 
 constexpr int most_jobs = 1024;
 
-/// Whoever kills a process for its memory leaves this one alone; whoever kills all takes no longer.
-constexpr std::chrono::milliseconds all_are_killed{50};
-
 /// What the processes share.
 struct Shared
 {
@@ -258,6 +255,8 @@ private:
     worker.pipe = -1;
     int status  = 0;
     waitpid(worker.process, &status, 0);
+    // Whoever kills a process for its memory leaves this one alone; whoever kills all takes no longer.
+    constexpr std::chrono::milliseconds all_are_killed{50};
     if (WIFSIGNALED(status) && !stop_)
       std::this_thread::sleep_for(all_are_killed);
     const long at = shared_->current[number];

@@ -123,11 +123,7 @@ ModeSearch::Gap DeflatedSearch::gap_above(int count) const
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr const char *prefix        = "reduction_";
-constexpr double      tolerance     = 1e-10; // relative residual of 1 / omega^2; the frequencies are far better
-constexpr double      least_squares = 1e-8;  // the same of methods that multiply by C, whose residuals stop at rounding
-constexpr int         max_restarts  = 1000;
-constexpr int         spare_vectors = 20; // of the space beyond the modes wanted, at least
+constexpr const char *prefix = "reduction_";
 
 /// Hands over what a callback threw, or tells what PETSc did not like.
 void require_done(const ModeProblem &problem, PetscErrorCode code, const std::string &eigensolver)
@@ -192,6 +188,8 @@ public:
     require(EPSSetOptionsPrefix(eps, prefix));
     require(EPSSetType(eps, slepc_name().c_str()));
     require(EPSSetPurify(eps, PETSC_FALSE)); // one solution per mode, for directions without mass only
+    constexpr double tolerance    = 1e-10;   // relative residual of 1 / omega^2; the frequencies are far better
+    constexpr int    max_restarts = 1000;    // a safety net: searches end after some tens, or not at all
     require(EPSSetTolerances(eps, tolerance, max_restarts));
     require(EPSSetFromOptions(eps));
     set_transformation();
@@ -216,7 +214,9 @@ public:
   {
     const QuietPetsc quiet;
     const bool       krylov = !is(own_block_lanczos) && !preconditioned();
-    const int        space  = std::min(size(), count + std::max(count, spare_vectors));
+    // of the space beyond the modes wanted, at least: a few modes alone make a poor space
+    constexpr int spare_vectors = 20;
+    const int     space         = std::min(size(), count + std::max(count, spare_vectors));
     require(EPSSetDimensions(get(), count, krylov ? space : PETSC_DEFAULT, PETSC_DEFAULT));
     require(EPSSolve(get()));
   }
@@ -315,6 +315,8 @@ private:
     require(EPSGetST(get(), &st));
     if (preconditioned())
     {
+      // the same of methods that multiply by C, whose residuals stop at rounding
+      constexpr double least_squares = 1e-8;
       require(EPSSetTolerances(get(), least_squares, PETSC_DEFAULT));
       require(EPSSetWhichEigenpairs(get(), EPS_SMALLEST_REAL));
       require(STSetType(st, STPRECOND));

@@ -17,8 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double unknown_contraction = 1e-2; ///< assumed of Newton where it has not been seen, and at best
-constexpr int    pieces_at_kinks     = 128;  ///< of the way of a step: the energy of a contact is met to some 1e-5
-constexpr double noticeable          = 1e-2; ///< departure of a law from a parabola, relative to its force
 
 /**
  * One unknown force per measure and step: linear between the ends, or its mean along the way of the step.
@@ -277,6 +275,7 @@ private:
       const double at_begin = second - slope * way + bend * way * way;
       const double size =
           std::max({std::abs(first_.p[r]), std::abs(second), std::abs(end_.p[r]), std::abs(at_begin_.p[r])});
+      constexpr double noticeable = 1e-2; // departure of a law from a parabola, relative to its force
       if (std::max(std::abs(at_end - end_.p[r]), std::abs(at_begin - at_begin_.p[r])) > noticeable * size)
         return true;
     }
@@ -297,6 +296,7 @@ private:
     {
       // Mean along the way by Gauss' rule; where a kink lies on it, in many short pieces.
       mean_of_law(1);
+      constexpr int pieces_at_kinks = 128; // of the way of a step: the energy of a contact is met to some 1e-5
       if (kink_on_the_way())
         mean_of_law(pieces_at_kinks);
     }

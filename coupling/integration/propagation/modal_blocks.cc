@@ -19,8 +19,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double coinciding = 1e10; ///< condition of the eigenvectors
-
 [[noreturn]] void refuse(const std::string &reason)
 {
   throw std::invalid_argument("exact propagation: " + reason);
@@ -158,7 +156,8 @@ public:
     while (n_0_ < n_ && omega[n_0_] == 0.)
       ++n_0_;
     find_eigenvectors(state_matrix(D));
-    inverse_ = X_.partialPivLu().inverse();
+    inverse_                    = X_.partialPivLu().inverse();
+    constexpr double coinciding = 1e10; // condition of the eigenvectors: beyond it six digits are left of 16
     if (!inverse_.allFinite() || !(X_.norm() * inverse_.norm() < coinciding * double(X_.rows())))
       refuse("two modes of the damped system coincide in frequency, damping and shape (critical damping across modes); "
              "change a damper slightly, or take the method bdf");

@@ -16,8 +16,6 @@ namespace
 using Sparse   = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr double pivot_preference = 1e-4; ///< of the diagonal, where it is not that much smaller than the column
-
 template <typename Use>
 void for_column(const Sparse &W, int column, const Use &use)
 {
@@ -35,7 +33,9 @@ struct SaddleMatrix::Factor
     klu_defaults(&common);
     common.btf   = 0;  // one block: a mechanism of several parts is no other case
     common.scale = -1; // see scale()
-    common.tol   = pivot_preference;
+    // of the diagonal, where it is not that much smaller than the column: fill against four digits
+    constexpr double pivot_preference = 1e-4;
+    common.tol                        = pivot_preference;
   }
   ~Factor() { clear(); }
   Factor(const Factor &)            = delete;

@@ -19,8 +19,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int    most_iterations = 60;
-constexpr double closed          = 1e-10; ///< share of its terms that counts as closed where rounding stops progress
+constexpr double closed = 1e-10; ///< share of its terms that counts as closed where rounding stops progress
 
 /// Value of a measure, or of a rate: of a measure or of a rigid body's rotation.
 struct Demand
@@ -275,6 +274,7 @@ private:
     Eigen::MatrixXd rows;
     const Free      free(machine_, known_.q_given);
     evaluate(measures_, residual, rows, false);
+    constexpr int most_iterations = 60; // Newton's with halved steps: a few tens from afar, a few near by
     for (int k = 0; k < most_iterations && residual.size() > 0 && !free.index.empty(); ++k)
     {
       const LeastSquaresSolver solver(free.scaled(rows), 1e-12);

@@ -29,12 +29,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double greatest_graded = 3.;   // of those that are graded: rough estimates grade badly
-constexpr double finest          = 1e-3; // smallest element over the size of the first mesh
-constexpr double filled          = 0.9;  // of the coordinates allowed, where a mesh is cut down to them
-constexpr double clearly_finer   = 1.5;  // times the coordinates, at least, of a mesh that is not cut down
-constexpr int    most_trials     = 4;
-
 void require(bool holds, const std::string &message)
 {
   if (!holds)
@@ -300,23 +294,27 @@ public:
    */
   std::optional<fem::Mesh> next(const Computed &last, bool by_itself, double growth, const Progress &progress)
   {
-    const double last_size = specification_.mesh.size;
-    const double n0        = last.level.n_coordinates;
-    const double allowed   = std::min<double>(options_.max_coordinates, fitting());
-    const double room      = filled * allowed;
-    double       wanted    = (by_itself ? growth : std::min(growth, greatest_graded)) * n0;
-    double       ratio     = wanted / n0;
+    const double     last_size       = specification_.mesh.size;
+    const double     n0              = last.level.n_coordinates;
+    const double     allowed         = std::min<double>(options_.max_coordinates, fitting());
+    constexpr double filled          = 0.9; // of the coordinates allowed, where a mesh is cut down to them
+    const double     room            = filled * allowed;
+    constexpr double greatest_graded = 3.; // of those that are graded: rough estimates grade badly
+    double           wanted          = (by_itself ? growth : std::min(growth, greatest_graded)) * n0;
+    double           ratio           = wanted / n0;
     for (int trial = 1;; ++trial)
     {
-      fem::Mesh    mesh  = by_itself ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
-      const double nodes = fem::number_of_nodes(mesh);
-      const double n     = n0 * nodes / n_nodes_; // some nodes are held, and have no coordinates
-      const bool   fits  = n <= allowed;
+      fem::Mesh        mesh  = by_itself ? finer_everywhere(last_size, ratio, progress) : finer(last, ratio, progress);
+      const double     nodes = fem::number_of_nodes(mesh);
+      const double     n     = n0 * nodes / n_nodes_; // some nodes are held, and have no coordinates
+      const bool       fits  = n <= allowed;
+      constexpr double clearly_finer = 1.5; // times the coordinates, at least, of a mesh that is not cut down
       if (fits && n >= (trial > 1 ? distinctly_finer : clearly_finer) * n0)
       {
         n_nodes_ = nodes;
         return mesh;
       }
+      constexpr int most_trials = 4; // of a size: gmsh makes as many cells as wanted but for some ten per cent
       if (trial == most_trials || (!fits && room < distinctly_finer * n0))
       {
         stopped_ =
@@ -339,9 +337,10 @@ private:
   fem::Mesh finer(const Computed &last, double growth, const Progress &progress) const
   {
     fem::Refinement refinement;
-    refinement.growth   = growth;
-    refinement.largest  = first_size_;
-    refinement.smallest = finest * first_size_;
+    refinement.growth       = growth;
+    refinement.largest      = first_size_;
+    constexpr double finest = 1e-3; // smallest element over the size of the first mesh
+    refinement.smallest     = finest * first_size_;
     return fem::make_mesh(specification_, progress, fem::refine(*last.mesh_error, last.eta2, refinement));
   }
 

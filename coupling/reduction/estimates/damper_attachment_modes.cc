@@ -21,10 +21,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr Index  chunk    = 16;    // columns solved for at a time
-constexpr double rounding = 1e-12; // of the mass of a shape, beside what it was made from
-constexpr double share    = 0.5;   // of the tolerance, left to directions that get no shape
-
 enum Kind
 {
   in_C,
@@ -65,7 +61,8 @@ public:
       W -= W_ * (W_.transpose() * MW);
     }
     const SymmetricEigenSolver left(mass());
-    const Index                kept = (left.eigenvalues().array() > rounding).count();
+    constexpr double           rounding = 1e-12; // of the mass of a shape, beside what it was made from
+    const Index                kept     = (left.eigenvalues().array() > rounding).count();
     W_.conservativeResize(Eigen::NoChange, W_.cols() + kept);
     W_.rightCols(kept) =
         W * left.eigenvectors().rightCols(kept) * left.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
@@ -117,7 +114,8 @@ public:
     MatrixXd        parts(forced.rows(), 2 * n1_);
     parts << forced.real(), forced.imag();
     const SymmetricEigenSolver energy(parts.transpose() * G_ * parts);
-    Index                      kept = 1; // |H r^T C22^-1 r H| is no more than the trace
+    constexpr double           share = 0.5; // of the tolerance, left to directions that get no shape
+    Index                      kept  = 1;   // |H r^T C22^-1 r H| is no more than the trace
     while (kept < 2 * n1_ && energy.eigenvalues().head(2 * n1_ - kept).sum() > share * tolerance * answer.H.norm())
       ++kept;
     const MatrixXd a = parts * energy.eigenvectors().rightCols(std::min(kept, most));
@@ -157,6 +155,7 @@ private:
       A->conservativeResize(n, n);
     G_.conservativeResize(3 * n, 3 * n);
     Q_.conservativeResize(basis_.m(), 3 * n);
+    constexpr Index chunk = 16; // columns solved for at a time, as blocks of the factor
     for (Index j = n - columns; j < n; j += chunk)
       extend(j, std::min(chunk, n - j));
   }

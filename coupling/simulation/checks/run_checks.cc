@@ -27,9 +27,6 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double seldom_skipped = 1e-4; ///< share of a run whose events need not be located
-constexpr double often_skipped  = 0.1;  ///< share of controlled steps that go over events
-
 /// Switches that were thrown at the start, or never.
 class SwitchCheck : public RunObserver
 {
@@ -70,7 +67,9 @@ public:
     if (total[rejected] > 0. && !controlled(options_.method))
       outcome.warn("divided-steps", "run.step",
                    "Newton failed in " + std::to_string(long(total[rejected])) + " steps; they were divided");
-    const double share = total[chatter_time] / (std::max(options_.end, motion_.time()) - options_.begin);
+    const double     share          = total[chatter_time] / (std::max(options_.end, motion_.time()) - options_.begin);
+    constexpr double seldom_skipped = 1e-4; // share of a run whose events need not be located
+    constexpr double often_skipped  = 0.1;  // share of controlled steps that go over events
     // Controlled steps that go over events still keep their tolerance.
     if (total[chatter] == 0. ||
         (controlled(options_.method) ? total[chatter] < often_skipped * total[steps] : share < seldom_skipped))

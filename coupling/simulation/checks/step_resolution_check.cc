@@ -17,9 +17,8 @@ namespace
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-constexpr double  steps_of_period = 10.;      ///< below which it is worth a word
-constexpr double  differs         = 1. / 40.; ///< D of R: 2.4 % at ten steps a period
-constexpr double  negligible      = 1e-9;     ///< R, of the largest force
+constexpr double  steps_of_period = 10.;  ///< below which it is worth a word
+constexpr double  negligible      = 1e-9; ///< R, of the largest force
 const char *const resolution      = "step-resolution";
 
 template <typename... Parts>
@@ -54,6 +53,7 @@ public:
   /// A second look at the same steps, when ranges are known.
   void compare(const ArrayXd &largest_difference)
   {
+    constexpr double differs = 1. / 40.; // D of R: 2.4 % at ten steps a period
     for (Eigen::Index i = 0; i < low_.size(); ++i)
       differ_[std::size_t(i)] += largest_difference[i] > differs * range(i);
   }

@@ -8,9 +8,6 @@ namespace
 
 using Eigen::VectorXd;
 
-constexpr int    probes     = 7;
-constexpr double same_value = 1e-9; ///< after a shift, against the largest change
-
 /// Values as functions of the time alone.
 struct Changes
 {
@@ -20,7 +17,8 @@ struct Changes
   Changes(const Values &values, double begin, double span, double shift)
   {
     const VectorXd first = values(begin);
-    changes = differs = VectorXd::Zero(first.size());
+    changes = differs    = VectorXd::Zero(first.size());
+    constexpr int probes = 7; // instants, off each other's fractions of the span
     for (int k = 1; k <= probes; ++k)
     {
       const double   t   = begin + span * (k - 0.37) / probes;
@@ -34,7 +32,8 @@ struct Changes
 
   bool depend(Eigen::Index from, Eigen::Index n) const
   {
-    const double change = n > 0 ? changes.segment(from, n).maxCoeff() : 0.;
+    const double     change     = n > 0 ? changes.segment(from, n).maxCoeff() : 0.;
+    constexpr double same_value = 1e-9; // after a shift, against the largest change
     return change > 0. && differs.segment(from, n).maxCoeff() > same_value * change;
   }
 };

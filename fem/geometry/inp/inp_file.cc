@@ -20,9 +20,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr std::size_t deepest_include = 100, most_includes = 10000;
-constexpr std::size_t largest_number = 2147483647;
-
 class Reader
 {
 public:
@@ -62,6 +59,8 @@ private:
     const std::string itself = std::filesystem::weakly_canonical(path).string();
     if (!open_.insert(itself).second)
       refuse("\"" + path + "\" includes itself.");
+    constexpr std::size_t deepest_include = 100;   // each is an open file
+    constexpr std::size_t most_includes   = 10000; // a file that includes itself by several names would not end
     if (open_.size() > deepest_include || ++n_files_ > most_includes)
       refuse("files are nested more than " + std::to_string(deepest_include) + " levels deep, or included more than " +
              std::to_string(most_includes) + " times; write the mesh into one file.");
@@ -246,7 +245,8 @@ private:
 
   std::size_t number(const std::string &field) const
   {
-    const std::size_t result = whole(field);
+    const std::size_t     result         = whole(field);
+    constexpr std::size_t largest_number = 2147483647; // of a node or element: gmsh and the mesh count by int
     if (result > largest_number)
       refuse("number " + field + " of a node or an element is larger than " + std::to_string(largest_number) +
              "; number them from 1.");

@@ -15,8 +15,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double frontal_delaunay = 6.; // number of gmsh; that of quadrilaterals, 8, crashes in 4.8
-
 /// A model of gmsh beside the one that is current, for as long as this lives.
 class ModelAside
 {
@@ -26,6 +24,7 @@ public:
     gmsh::model::getCurrent(before_);
     gmsh::option::getNumber("Mesh.Algorithm", algorithm_);
     gmsh::model::add("section of a plate");
+    constexpr double frontal_delaunay = 6.; // number of gmsh; that of quadrilaterals, 8, crashes in 4.8
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay);
   }
   ~ModelAside()

@@ -21,9 +21,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double worst_corner = 0.02; // corner_quality() of cells around holes
-constexpr double lost_volume  = 0.03; // of a solid: the polygon of a hole that takes half of a plate leaves 0.026 to it
-
 using Limits = std::array<std::vector<std::vector<double>>, 3>; // of each sheet
 
 class Sweeping
@@ -51,6 +48,7 @@ public:
           add_block(*sheet, lattice_.solid[brick]);
     for (const SweptRegion &region : lattice_.regions)
       add_region(region);
+    constexpr double worst_corner = 0.02; // corner_quality() of cells around holes
     for (int cell = 0; cell < mesh.n_cells(); ++cell)
       if (corner_quality(mesh, cell) < worst_corner)
         throw NotSwept("cells around the hole near " + text(mesh.points[mesh.corners(cell)[0]]) + " m would fold");
@@ -143,6 +141,8 @@ private:
         const auto at = [&](int k) -> const Vector3 & { return mesh.points[mesh.corners(cell)[piece[k]]]; };
         volumes[mesh.cell_solid[cell]] += dot(at(1) - at(0), cross(at(2) - at(0), at(3) - at(0))) / 6.;
       }
+    // of a solid: the polygon of a hole that takes half of a plate leaves 0.026 to it
+    constexpr double lost_volume = 0.03;
     for (std::size_t i = 0; i < volumes.size(); ++i)
       if (std::abs(volumes[i] - model_.solids[i].volume) > lost_volume * model_.solids[i].volume)
         throw std::invalid_argument(

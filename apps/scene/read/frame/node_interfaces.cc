@@ -8,8 +8,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double same_place = 1e-6; // [m]
-
 /// Those of frames from geometry, where they stand.
 std::vector<fem::InterfaceSpecification> interfaces_of(const FrameRequest &frame)
 {
@@ -50,6 +48,7 @@ public:
     double squared = 0.;
     for (int d = 0; d < 3; ++d)
       squared += std::pow((*point.at)[d] - node->second[d], 2);
+    constexpr double same_place = 1e-6; // [m] files have positions to micrometres
     if (squared > same_place * same_place)
       refuse(point.marker, "a point beside it would move with its rotation too: leave 'at' out, or give it the "
                            "'position' of the interface");
