@@ -64,7 +64,7 @@ coupling::Machine flying_mass(double gap, double omega_contact)
   return machine;
 }
 
-constexpr int flight_steps = 4000;
+constexpr int flight_steps = 4000; ///< some five hundred flights from stop to stop
 
 /// Kinetic energy in flight relative to the start, step by step; it is kept from the last flight during a contact.
 std::vector<double> flight_energy(const NamedMethod &method, double omega_contact_h, bool locate)

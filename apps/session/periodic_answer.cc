@@ -21,7 +21,7 @@ namespace gestell::apps
 
 namespace
 {
-constexpr int harmonics_told = 10; ///< of the drive
+constexpr int harmonics_told = 10; ///< of the drive: a line of text; the file has all
 
 using coupling::PeriodicSolution;
 

@@ -15,7 +15,8 @@ namespace gestell::apps
 
 namespace
 {
-constexpr std::size_t most_left = 16; ///< points at which branches leave that are followed
+/// points at which branches leave that are followed: each branch costs as much as the first
+constexpr std::size_t most_left = 16;
 
 using coupling::PeriodicSolution;
 

@@ -21,7 +21,7 @@ namespace
 {
 
 constexpr double most_twist = 0.5;       ///< [rad] of a clutch, shaft or contact: highly elastic couplings stand 0.3
-constexpr double most_turns = 4. * M_PI; ///< [rad] of a torsion spring on the ground
+constexpr double most_turns = 4. * M_PI; ///< [rad] of a torsion spring on the ground: two turns
 
 using coupling::ElementPlacement;
 using mechanism::KlossMotor;
@@ -178,7 +178,7 @@ std::optional<UnexpectedValue> RunMagnitudes::judged_slip(const Watched         
                                "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start",
                            std::abs(slip) / most};
   };
-  constexpr double standstill = 0.05; // of the synchronous speed
+  constexpr double standstill = 0.05; // of the synchronous speed: slower than any drive runs
   const bool       turns      = std::abs(1. - value.first) > standstill;
   if (turns && std::abs(value.first) > most)
     return unexpected("at the start", value.first, "1 at standstill, or ");

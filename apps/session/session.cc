@@ -84,7 +84,7 @@ coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared
   }
 }
 
-constexpr int orbit_rows = 512; ///< of a period
+constexpr int orbit_rows = 512; ///< of a period: extremes to (pi / 512)^2 / 2 = 2e-5
 
 /// The solutions by a second method, compared with the first of them.
 void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeating,

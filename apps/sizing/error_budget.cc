@@ -14,9 +14,9 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double coarser    = 1.5; ///< size of the cells of the second mesh
-constexpr double mesh_order = 1.5; ///< in their size
-constexpr double no_part    = 0.;
+/// size of the cells of the second mesh: a third of the coordinates in solids, so it costs little
+constexpr double coarser    = 1.5;
+constexpr double mesh_order = 1.5; ///< in the size of the cells: between 1 of edges and 2 and more of smooth fields
 
 using Differs = std::optional<std::string>; ///< the event in which two models differ; none: in none
 
@@ -186,7 +186,7 @@ Comparison BudgetMaker::raised()
 {
   ModelVariant variant          = finest_;
   variant.modes                 = run_.modes;
-  constexpr int coarsest_raised = 3; // powers of the ratio of sizes
+  constexpr int coarsest_raised = 3; // powers of the ratio of sizes: 1.5^3 = 3.4 times as coarse
   for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= coarser)
   {
     if (k > 0 && !mesh_can_change(scene_))
@@ -281,7 +281,7 @@ Comparison BudgetMaker::finer_steps()
 BudgetPart BudgetMaker::part_of(std::size_t output, const Comparison &comparison, BudgetEntry &entry) const
 {
   if (comparison.exact)
-    return {no_part, comparison.reason};
+    return {0., comparison.reason};
   if (!comparison.second)
     return {std::nullopt, comparison.reason};
   const double v = comparison.first->values[output], w = comparison.second->values[output];
@@ -326,12 +326,12 @@ JudgedModel BudgetMaker::make()
   for (std::size_t i = 0; i < outputs_.size(); ++i)
   {
     BudgetEntry entry;
-    entry.output    = outputs_[i].text;
-    entry.unit      = run_.units[i];
-    entry.value     = run_.values[i];
-    entry.bracket   = {entry.value, entry.value};
-    entry.time      = outputs_[i].of_signal() ? part_of(i, *time, entry) : BudgetPart{no_part, "not integrated"};
-    entry.reduction = part_of(i, modes, entry);
+    entry.output              = outputs_[i].text;
+    entry.unit                = run_.units[i];
+    entry.value               = run_.values[i];
+    entry.bracket             = {entry.value, entry.value};
+    entry.time                = outputs_[i].of_signal() ? part_of(i, *time, entry) : BudgetPart{0., "not integrated"};
+    entry.reduction           = part_of(i, modes, entry);
     const BudgetPart straight = part_of(i, edges, entry);
     entry.mesh                = sum(straight, part_of(i, mesh, entry));
     entry.sides               = straight.error;

@@ -28,7 +28,7 @@ int most_modes(const Scene &scene)
 std::vector<int> modes_of(const ComparisonOptions &options, int most)
 {
   std::vector<int> modes        = options.modes;
-  constexpr int    most_unasked = 64; // modes
+  constexpr int    most_unasked = 64; // modes: more than machines need at low frequencies
   for (int number = 2; options.modes.empty() && number <= std::min(most, most_unasked); number *= 2)
     modes.push_back(number);
   if (modes.empty())
@@ -91,7 +91,7 @@ ReductionComparison compare_reductions(const Scene &scene, const std::vector<Out
     throw std::invalid_argument("--modes: " + std::to_string(largest) + " modes, but the inside of the frame has " +
                                 std::to_string(most) + " coordinates; name no more");
   ModelAnswer   reference, answer;
-  constexpr int finer  = 4; // times the largest number of modes, of the reference
+  constexpr int finer  = 4; // times the largest number of modes, of the reference: its error is far smaller
   comparison.reference = options.full ? point_of(scene, "condensation", -1, outputs, options.stop, reference)
                                       : point_of(scene, "craig-bampton", std::min(most, finer * largest), outputs,
                                                  options.stop, reference);

@@ -115,7 +115,7 @@ void Search::plan(const SizedPlace &last)
   const auto  &shares = last.point.shares;
   const double modes = largest(shares, &Shares::modes), time = largest(shares, &Shares::time);
   planned_                = last.place;
-  constexpr double enough = 1.5; // times that part: only above is it made smaller
+  constexpr double enough = 1.5; // times the part of one cause: only above is it made smaller
   if (planned_.modes >= 0 && modes > enough * of_modes())
     planned_.modes = std::min(models_.most_modes(), modes_for(of_modes(), last.place.modes, modes));
   if (time > enough * of_a_part)
@@ -329,7 +329,7 @@ void Search::search()
 {
   const SizePlace    coarse = planned_  = models_.coarse();
   const ModelAnswer &answer             = models_.answers().of(models_.variant_of(coarse));
-  constexpr double   models_of_a_budget = 4.; // of about the same cost: sides, degree, modes, time
+  constexpr double   models_of_a_budget = 4.; // models of about the same cost: sides, degree, modes, time
   forecast(answer.n_frame, answer.cpu(), models_of_a_budget);
   stop_above(answer.cpu());
   plan(judge(coarse));

@@ -6,7 +6,7 @@
 namespace gestell::coupling
 {
 
-constexpr int tile_rows = 8; ///< rows of L that lie together
+constexpr int tile_rows = 8; ///< rows of L that lie together: a cache line of doubles
 
 /**
  * L in tiles: the rows of a front's panel (its own columns' rows first, ascending) are cut into tiles of eight, the

@@ -28,11 +28,11 @@ namespace
 
 using std::ptrdiff_t;
 
-constexpr int    block = 64;        // columns factored or divided by at once
-constexpr int    small = 32;        // the same for fronts that are not wide
+constexpr int    block = 64; ///< columns factored or divided by at once: 64 x 64 doubles fill a first-level cache
+constexpr int    small = 32; // the same for fronts that are not wide
 constexpr int    wide  = 4 * small; // columns
 constexpr int    slice = 256;       // columns of a triangle that are treated as a rectangle
-constexpr double one = 1., minus_one = -1., two = 2., zero = 0.;
+constexpr double one = 1., minus_one = -1., two = 2., zero = 0.; ///< whose addresses BLAS wants
 
 /// X <- X L^-T, X [rows x w] below L [w x w], both with columns h apart: as products with the inverses of blocks on the
 /// diagonal, for OpenBLAS divides by narrow L at half the speed of a product.

@@ -95,8 +95,9 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr
     throw std::invalid_argument("BlockLanczos: block is " + std::to_string(options.block) + " and tolerance " +
                                 std::to_string(options.tolerance) + "; block must be at least 1, tolerance above 0");
   const int        size         = int(known.omega.size());
-  constexpr double most_numbers = 4e8;  // of the space, where no room is given: 3.2 GB
-  constexpr double most_vectors = 2000; // likewise: the dense problem of that size takes a few seconds
+  constexpr double most_numbers = 4e8; // of the space, where no room is given: 3.2 GB
+  // of the space, where no room is given: a dense problem of that size takes a few seconds
+  constexpr double most_vectors = 2000;
   room_                         = options.room > 0 ? options.room
                                                    : int(std::min<double>({double(inverse_->size()), most_vectors,
                                                                            most_numbers / std::max(inverse_->size(), 1)}));
@@ -178,7 +179,7 @@ void BlockLanczos::set_next(const VectorXd &scale)
     next_.transform(F);
     M_next_.transform(F);
     E_ = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
-    // the same, from which once is enough: 1e-16 / 1e-6 is left, below the break-down
+    // of the same eigenvalue, from which once is enough: 1e-16 / 1e-6 is left, the break-down
     constexpr double well_apart = 1e-6;
     if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
       break;

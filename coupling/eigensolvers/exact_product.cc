@@ -15,7 +15,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int lanes = 8; // columns that travel together
+constexpr int lanes = 8; ///< columns that travel together: a cache line of doubles
 using Lanes         = Eigen::Array<double, lanes, 1>;
 using Rows          = Eigen::Array<double, lanes, Eigen::Dynamic>;
 

@@ -77,8 +77,9 @@ private:
       const double size = correct(placed()), scale = std::max(q_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff(), 1e-3);
       if (!std::isfinite(size))
         return false;
-      constexpr double seated        = 1e-9; // correction, against the size of q: the equilibrium is found later
-      constexpr double near_rounding = 1e-6; // likewise: where corrections so small fall no more, rounding is left
+      constexpr double seated = 1e-9; // correction, against the size of q: the equilibrium is found later
+      // of the size of q: where corrections so small fall no more, rounding is left
+      constexpr double near_rounding = 1e-6;
       if (size <= seated * scale || (size <= near_rounding * scale && size > 0.3 * before))
         return true;
       before = size;

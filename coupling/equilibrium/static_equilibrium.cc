@@ -20,14 +20,13 @@ namespace gestell::coupling
 namespace
 {
 
-// Motions and positions count in coordinate_sizes().
-constexpr int    most_iterations = 50, most_parts = 64;
-constexpr double converged = 1e-13; ///< correction, against the size of q
-constexpr double singular  = 1e-14; ///< smallest pivot of the scaled saddle matrix
-constexpr double balanced  = 1e-9;  ///< residual beside its forces that counts as none along a free motion
-constexpr double stays     = 1e-6;  ///< a start this near an equilibrium is meant to be it
-constexpr double soft      = 1e-8;  ///< stiffness of a coordinate beside the stiffest, below which it counts as this
-constexpr double long_way  = 0.5;   ///< a correction beyond is gone in parts
+constexpr int    most_iterations = 50, most_parts = 64; ///< Newton's take some ten, each of up to 64 parts of the way
+constexpr double converged = 1e-13;                     ///< correction, against the size of q
+constexpr double singular  = 1e-14;                     ///< smallest pivot of the scaled saddle matrix
+constexpr double balanced  = 1e-9; ///< residual beside its forces that counts as none along a free motion
+constexpr double stays     = 1e-6; ///< a start this near an equilibrium is meant to be it
+constexpr double soft      = 1e-8; ///< stiffness of a coordinate beside the stiffest, below which it counts as this
+constexpr double long_way  = 0.5;  ///< a correction beyond is gone in parts
 
 // Relaxation.  Steps count in the time in which the machine's forces move its masses by its size: about 0.3 s of a
 // metre under its weight.

@@ -9,6 +9,7 @@ namespace gestell::coupling
 namespace
 {
 
+/// columns of Nastran's cards, in small fields of 8 and large ones of 16
 constexpr std::size_t name_width = 8, small_width = 8, small_fields = 8, large_width = 16, large_fields = 4;
 
 bool is_remark(std::string_view line)

@@ -15,10 +15,13 @@ namespace gestell::coupling
 namespace
 {
 
+/// fields of the header card, from 0
 constexpr std::size_t header_name = 0, header_zero = 1, header_form = 2, header_type = 3;
+/// fields of a card of entries
 constexpr std::size_t column_node = 1, column_component = 2, first_entry = 4, entry_fields = 4;
-constexpr long        square = 1, rectangular = 2, symmetric = 6, rectangular_by_numbers = 9;
-constexpr long        first_complex = 3, last_type = 4;
+/// IFO of the header card
+constexpr long square = 1, rectangular = 2, symmetric = 6, rectangular_by_numbers = 9;
+constexpr long first_complex = 3, last_type = 4; ///< TIN of the header card: 1 and 2 are real, 3 and 4 complex
 
 /// Entries of one matrix, whose rows are numbered as they come.
 struct Collected

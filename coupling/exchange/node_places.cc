@@ -238,7 +238,7 @@ public:
     fem::InpLines lines(name);
     if (!lines.opened())
       throw std::invalid_argument(name + ": cannot be read; another file names it as INPUT, check its path");
-    constexpr int most_files = 1000, deepest_file = 20; // that include each other
+    constexpr int most_files = 1000, deepest_file = 20; // that include each other: open files, and recursion
     if (depth > deepest_file || ++n_files_ > most_files)
       throw std::invalid_argument(
           name + ": is one of more than " + std::to_string(most_files) + " files, or " + std::to_string(deepest_file) +

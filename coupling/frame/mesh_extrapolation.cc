@@ -11,8 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr std::size_t four     = 4;
-constexpr double      rounding = 1e-9; // relative: values of this difference are equal
+constexpr double rounding = 1e-9; // relative: values of this difference are equal
 
 /// (v1 - v2) / (v2 - v3) for error = n^(-k); grows with k.
 double quotient(const MeshValue &a, const MeshValue &b, const MeshValue &c, double k)
@@ -130,7 +129,7 @@ Rest regular_rest(const std::vector<MeshValue> &meshes)
     rest.doubt                     = std::max(disagreement, share_of_step * std::abs(rest.correction));
   }
   constexpr double least_share = 0.5; // of the estimate that is true at least, where nothing better is known
-  if (meshes.size() < four)           // fewer may lie near each other by chance
+  if (meshes.size() < 4)              // fewer may lie near each other by chance
     rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
   return rest;
 }

@@ -32,7 +32,8 @@ struct ModePair
  *     sum_i seen_i = number of measures that move,     0 <= seen_i <= that number,
  *
  * so that it exceeds 1 where modes are fewer than measures; a single mode seen by k measures has k.  A mode of which
- * they tell less than `least_seen` has no partner.  Partners are chosen, best for all pairs together, by MAC_ij seen_i seen_j.
+ * they tell less than `least_seen` has no partner.  Partners are chosen, best for all pairs together, by MAC_ij seen_i
+ * seen_j.
  *
  * Source: docs/theory/modes_along.md (7), (8).
  */
@@ -44,6 +45,7 @@ struct ModeComparison
   std::vector<ModePair> pairs;          ///< by a, ascending
 };
 
+/// of the measures that tell a mode; assurance from which two are one mode
 constexpr double least_seen = 0.05, least_assurance = 0.5;
 
 /// A measure that moves in no mode of either, or in those of one alone, does not count.

@@ -18,6 +18,7 @@ namespace gestell::coupling
 
 namespace
 {
+/// of a damping ratio: B and C are rounded to 1e-16 of sums of their terms
 constexpr double rounding_of_ratio = 1e-12;
 
 /// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.

@@ -24,9 +24,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-constexpr int    first_search    = 16; ///< modes
+constexpr int first_search = 16; ///< modes: doubled until enough
+/// more modes than a machine's loads reach; the frame then needs another method
 constexpr int    most_automatic  = 512;
-constexpr double usual_tolerance = 0.01; ///< of static deflections
+constexpr double usual_tolerance = 0.01; ///< of static deflections: as exact as a frame is reduced to
 constexpr double above_loads     = 4.;   ///< the book's rule: 3 to 4 times the highest excitation frequency
 
 struct AveragedSystem

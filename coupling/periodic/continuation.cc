@@ -186,7 +186,7 @@ bool Tracker::next_point(const Point &here, Point &next)
     try
     {
       constexpr double straight = 0.94; // cosine between two tangents: 20 degrees
-      constexpr double corner   = 0.02; // step, of that, below which a turn is a corner
+      constexpr double corner   = 0.02; // step, of the one asked for, below which a turn is a corner
       // Where an event begins, the branch has a corner: then its tangents differ however short the step.
       if (follower_.beyond(here, ds_, next) && (next.tangent.dot(here.tangent) > straight || ds_ < corner * wanted_))
         return true;
@@ -254,7 +254,7 @@ Branch Tracker::follow(Point here)
       fit(here);
       goes_on                         = add(here);
       constexpr int    few_iterations = 6;  // of a correction: a step that is too long takes more
-      constexpr double widest         = 2.; // the step, of that
+      constexpr double widest         = 2.; // step, of the one asked for
       if (next.iterations <= few_iterations)
         ds_ = std::min(1.3 * ds_, widest * wanted_);
     }
@@ -262,7 +262,7 @@ Branch Tracker::follow(Point here)
     {
       std::ostringstream text;
       text << "it has " << options_.most << " points, the last at " << here.lambda;
-      constexpr double short_part = 0.1; // the step, of that, of a branch that hardly moves on
+      constexpr double short_part = 0.1; // step, of the one asked for, of a branch that hardly moves on
       if (ds_ < short_part * wanted_)
         text << ", and its steps have become short: use another method, or fewer harmonics";
       branch_.failed = goes_on;

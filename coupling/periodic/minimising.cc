@@ -18,9 +18,9 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double box_reach    = 5.; ///< of the box, in the largest excursions of the motion that the guess leads to
-constexpr double astray       = 4.; ///< distance from the middle of the box, in its size, at which a start is lost
-constexpr int    usual_starts = 64;
+constexpr double box_reach    = 5.;  ///< of the box, in the largest excursions of the motion that the guess leads to
+constexpr double astray       = 4.;  ///< distance from the middle of the box, in its size, at which a start is lost
+constexpr int    usual_starts = 64;  ///< twice: all solutions of a few coordinates are found by most of them
 constexpr double off          = 0.3; ///< of the largest excursions: so far
 
 /// M r, r of (5.5.4/2), for Eigen's minimiser.

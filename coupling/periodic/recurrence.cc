@@ -17,8 +17,9 @@ namespace
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double closes       = 1e-4; ///< distance of two states, of the fastest speed, at which they are one
-constexpr int    n_batches    = 16;   ///< of periods, for the error of the mean
+constexpr double closes = 1e-4; ///< distance of two states, of the fastest speed, at which they are one
+/// of periods, for the error of the mean: it is itself known to 1 / sqrt(2 * 15) = 18 %
+constexpr int    n_batches    = 16;
 constexpr double comes_nearer = 0.01; ///< by which distances fall at least, quarter by quarter, if they do
 constexpr double longest_turn = 3.;   ///< of the period expected, within which an angle comes round
 

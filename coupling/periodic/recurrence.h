@@ -9,7 +9,7 @@
 namespace gestell::coupling
 {
 
-constexpr int least_section = 64; ///< periods: fewer are not sufficient
+constexpr int least_section = 64; ///< periods: four for each batch
 
 /// Long-term behaviour of a motion.
 struct Recurrence

@@ -102,7 +102,7 @@ const LinearSystem &RaisedDamping::linear() const
 }
 using Eigen::VectorXd;
 
-constexpr int    usual_lead_in = 10;   ///< periods
+constexpr int    usual_lead_in = 10;   ///< periods: a motion of 5 % damping has lost 96 % of its start
 constexpr double near_enough   = 0.01; ///< closing error at which the lead-in ends
 
 /// One period; the state behind it, whole turns taken off, becomes the next start.

@@ -36,11 +36,13 @@ MethodOptions other_integration(const MethodOptions &of_search)
 
 double largest_departure(const PeriodicSolution &solution)
 {
-  constexpr double off_a_mode = 0.5; // the same of averaging, which takes first order of one mode: another motion
+  // departure of averaging, which takes first order of one mode: beyond it is another motion
+  constexpr double off_a_mode = 0.5;
   if (!std::isfinite(solution.residual))
     return off_a_mode;
-  const MethodOptions &steps        = solution.integration;
-  constexpr double     off_a_series = 0.1; // the same of a Fourier series, whose harmonics are few, and of fixed steps
+  const MethodOptions &steps = solution.integration;
+  // departure of a Fourier series, whose harmonics are few, and of fixed steps
+  constexpr double off_a_series = 0.1;
   if (solution.series || (steps.step > 0. && !controlled(steps)))
     return off_a_series;
   // departure of a motion that closes to 1e-7 at worst, with 20 periods of errors

@@ -25,7 +25,7 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 constexpr double little    = 0.02; ///< of their step, over which rates in time are taken
-constexpr double same_time = 1e-9; ///< of the run's length
+constexpr double same_time = 1e-9; ///< of the run's length: what locating two events leaves of one
 
 /// The run gone over once more, with its derivatives.
 class Passage
@@ -70,7 +70,7 @@ double tolerance_for(const MethodOptions &method)
   constexpr double finest = 1e-8, coarse = 1e-6; // tolerances of a step of the variational equations
   if (controlled(method))
     return std::clamp(100. * method.tolerance, finest, coarse);
-  constexpr double of_fixed_steps = 1e-5; // likewise, of runs by fixed steps of order 1 or 2
+  constexpr double of_fixed_steps = 1e-5; // tolerance of these steps in runs by fixed steps of order 1 or 2
   return method.order > 2 ? finest : of_fixed_steps;
 }
 

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double      longest = 0.32, shorter = 0.25; ///< ways of rates: of a step, and from one to the next
-constexpr double      epsilon   = std::numeric_limits<double>::epsilon();
+constexpr double      epsilon   = std::numeric_limits<double>::epsilon(); ///< rounding of one value
 constexpr std::size_t stretches = 8;    ///< of sigma, each four times as long as the one before
 constexpr double      accurate  = 1e-4; ///< of y'', its error
 

@@ -17,7 +17,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double on_grid = 1e-9; ///< share of the grid's step within which an instant is a point of it
+/// share of the grid's step within which an instant is a point of it: rounding of sums of steps
+constexpr double on_grid = 1e-9;
 
 /// @throws ConvergenceFailure
 void require_finite(const std::vector<Signal> &signals, const SignalSample &sample)
@@ -99,7 +100,7 @@ Recorder::Recorder(const Machine &machine, const TimeIntegrator &integrator, con
   if (picture_step_ > 0.)
   {
     result.picture_states.reserve(static_cast<std::size_t>(length / picture_step_ + 2.));
-    constexpr long close_least = 100; // of these in a run at least, else as many as the grid makes
+    constexpr long close_least = 100; // pictures close to events of a run at least, else as many as the grid makes
     close_budget_              = std::max(close_least, static_cast<long>(length / picture_step_));
   }
 }

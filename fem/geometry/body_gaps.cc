@@ -12,7 +12,7 @@
 #include <TopoDS_Shape.hxx>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <queue>
 #include <tuple>
 
@@ -21,8 +21,6 @@ namespace gestell::fem
 
 namespace
 {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct ShapeFace
 {
@@ -62,7 +60,7 @@ double unlike(const Solid &solid, double volume, const Bnd_Box &box, double unit
 std::vector<ShapeSolid> shapes_of(const CadModel &model)
 {
   std::vector<ShapeSolid> result(model.solids.size());
-  std::vector<double>     best(model.solids.size(), infinite);
+  std::vector<double>     best(model.solids.size(), INFINITY);
   const TopoDS_Shape      all = occ_snapshot();
   for (TopExp_Explorer solid(all, TopAbs_SOLID); solid.More(); solid.Next())
   {
@@ -70,7 +68,7 @@ std::vector<ShapeSolid> shapes_of(const CadModel &model)
     BRepGProp::VolumeProperties(solid.Current(), properties);
     ShapeSolid  shape{{}, box_of(solid.Current())};
     std::size_t nearest = 0;
-    double      least   = infinite;
+    double      least   = INFINITY;
     for (std::size_t i = 0; i < model.solids.size(); ++i)
       if (const double u = unlike(model.solids[i], properties.Mass(), shape.box, model.unit); u < least)
       {
@@ -123,14 +121,14 @@ BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &mo
                    [](const auto &x, const auto &y) { return std::get<0>(x) < std::get<0>(y); });
 
   BodyGap best;
-  best.distance  = infinite;
+  best.distance  = INFINITY;
   double turned  = -1.;
   int    n_tried = 0;
   for (const auto &[apart, of_a, of_b] : pairs)
   {
     constexpr double same      = 1e-9; // [m]: distances that differ by less are equal
     constexpr int    most_here = 400;  // pairs of faces tried once a distance is found: equal boxes are common in grids
-    if (apart * model.unit > best.distance + same || (best.distance < infinite && ++n_tried > most_here))
+    if (apart * model.unit > best.distance + same || (best.distance < INFINITY && ++n_tried > most_here))
       break;
     BRepExtrema_DistShapeShape extrema(of_a->shape, of_b->shape);
     if (!extrema.IsDone() || extrema.NbSolution() == 0)

@@ -5,7 +5,7 @@
 
 #include <gmsh.h>
 
-#include <limits>
+#include <cmath>
 #include <set>
 
 namespace gestell::fem
@@ -13,8 +13,6 @@ namespace gestell::fem
 
 namespace
 {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double length_of(int edge, double unit)
 {
@@ -31,7 +29,7 @@ double width_of(int face, double area, double unit)
   double perimeter = 0.;
   for (const auto &[dim, tag] : edges)
     perimeter += length_of(tag, unit);
-  return perimeter > 0. ? 2. * area / perimeter : infinite;
+  return perimeter > 0. ? 2. * area / perimeter : INFINITY;
 }
 
 } // namespace
@@ -39,7 +37,7 @@ double width_of(int face, double area, double unit)
 SmallFeatures small_features(const CadModel &model, double limit)
 {
   SmallFeatures result;
-  result.shortest_edge = result.narrowest_face = infinite;
+  result.shortest_edge = result.narrowest_face = INFINITY;
   gmsh::vectorpair edges;
   gmsh::model::getEntities(edges, 1);
   const std::set<int> degenerate = degenerate_edges();
@@ -84,9 +82,9 @@ std::vector<int> faces_smaller_than(const CadModel &model, double size)
 std::string describe(const SmallFeatures &features)
 {
   std::string words;
-  if (features.shortest_edge < infinite)
+  if (features.shortest_edge < INFINITY)
     words += "shortest edge " + text(1e3 * features.shortest_edge) + " mm at " + text(features.edge_at);
-  if (features.narrowest_face < infinite)
+  if (features.narrowest_face < INFINITY)
     words += std::string(words.empty() ? "" : "; ") + "narrowest face " + std::to_string(features.face) + ", " +
              text(1e3 * features.narrowest_face) + " mm wide at " + text(features.face_at);
   return words;

@@ -18,7 +18,7 @@ namespace gestell::fem
 namespace
 {
 
-constexpr std::size_t listed = 10;
+constexpr std::size_t listed = 10; ///< lines of a message
 
 std::string head_of(const FrameSpecification &specification)
 {

@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr double      never            = std::numeric_limits<double>::infinity();
-constexpr std::size_t candidates_shown = 8;
+constexpr std::size_t candidates_shown = 8; ///< lines of a message: a screen has some more
 
 double extent(const Face &face)
 {

@@ -36,7 +36,7 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double cells_by_default = 25000.;
+constexpr double cells_by_default = 25000.; ///< as mesher.h promises
 
 enum class MissingSize
 {

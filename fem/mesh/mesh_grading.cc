@@ -1,5 +1,6 @@
 #include "fem/mesh/mesh_grading.h"
 
+#include "fem/values/two_pi.h"
 #include "fem/values/vector3.h"
 
 #include <gmsh.h>
@@ -15,8 +16,6 @@ namespace gestell::fem
 
 namespace
 {
-
-constexpr double two_pi = 6.283185307179586;
 
 /// Distance of a point from a box, at most that from what it holds.
 double distance(const Vector3 &x, const Vector3 &min, const Vector3 &max)

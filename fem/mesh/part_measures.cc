@@ -241,8 +241,9 @@ void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source
 {
   const Eigen::Vector3d principal =
       J.allFinite() ? Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(J).eigenvalues() : Eigen::Vector3d::Constant(NAN);
-  const double     smallest            = 0.5 * principal.sum() - principal[2];
-  constexpr double rounding_of_inertia = 1e-5; // eps times the square of that, times some tens of slender bodies
+  const double smallest = 0.5 * principal.sum() - principal[2];
+  // of the largest moment: 1e-16 times the square of `farthest`, times some tens of slender bodies
+  constexpr double rounding_of_inertia = 1e-5;
   if (!(smallest >= -rounding_of_inertia * principal.cwiseAbs().maxCoeff()))
     throw std::invalid_argument(head_of(source) + " has impossible principal moments of inertia (" +
                                 text(principal[0]) + ", " + text(principal[1]) + ", " + text(principal[2]) +

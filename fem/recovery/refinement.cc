@@ -14,7 +14,6 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double order     = order_of_refinement;
 constexpr double dimension = 3.;
 
 constexpr std::array<std::array<int, 2>, 6> edges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
@@ -84,7 +83,7 @@ std::vector<SizePoint> refine(const MeshError &error, const Eigen::VectorXd &eta
   {
     h[i]     = cell_size(mesh, mesh.cells[i]);
     shape[i] = std::pow(cell_volume(mesh, mesh.cells[i]) / (std::max(eta2[i], least) * std::pow(h[i], dimension)),
-                        1. / (2. * order + dimension));
+                        1. / (2. * order_of_refinement + dimension));
   }
   const double wanted = refinement.growth * static_cast<double>(n);
   double       low = std::log(1e-3 / shape.maxCoeff()), high = std::log(1e3 / shape.minCoeff());

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <stdexcept>
 
 namespace gestell::fem
@@ -17,14 +16,12 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// The number in a file of a control group; infinite for "max" and for no file.
 double number_in(const char *path)
 {
   std::ifstream in(path);
   double        value = 0.;
-  return in >> value ? value : infinite;
+  return in >> value ? value : INFINITY;
 }
 
 double of_system()
@@ -34,7 +31,7 @@ double of_system()
   for (std::string key, rest; in >> key; std::getline(in, rest))
     if (double value = 0.; key == "MemAvailable:" && in >> value)
       return kib * value;
-  return infinite;
+  return INFINITY;
 }
 
 /// What the system keeps of files for the group, and gives back where memory is needed.
@@ -52,16 +49,16 @@ double of_group()
 {
   const double allowed = number_in("/sys/fs/cgroup/memory.max"), used = number_in("/sys/fs/cgroup/memory.current");
   return std::isfinite(allowed) && std::isfinite(used) ? std::max(0., allowed - std::max(0., used - given_back()))
-                                                       : infinite;
+                                                       : INFINITY;
 }
 
 double of_process()
 {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-    return infinite;
+    return INFINITY;
   const double used = number_in("/proc/self/statm") * double(sysconf(_SC_PAGESIZE));
-  return std::isfinite(used) ? std::max(0., double(limit.rlim_cur) - used) : infinite;
+  return std::isfinite(used) ? std::max(0., double(limit.rlim_cur) - used) : INFINITY;
 }
 
 } // namespace

@@ -13,6 +13,7 @@ namespace gestell::fem
 namespace
 {
 
+/// bytes: no program writes as many; a binary file may have no end of line
 constexpr std::size_t longest_line = 1000000;
 
 std::string unquoted(const std::string &text)

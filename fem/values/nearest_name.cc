@@ -51,7 +51,7 @@ std::vector<std::string> parts_of(const std::string &path)
   return parts;
 }
 
-constexpr int another_word = 1 << 20;
+constexpr int another_word = 1 << 20; ///< more letters than any two words differ by
 
 /// Of a slip of the pen; none where the words differ by more than a third of their letters.
 int slip(const std::string &name, const std::string &meant)

@@ -22,7 +22,6 @@ enum Slot
   begin,
   from
 };
-constexpr double pi = 3.14159265358979323846;
 } // namespace
 
 BrakedMotion::BrakedMotion(const Parameters &parameters) : parameters_(parameters)
@@ -72,8 +71,8 @@ PrescribedMotion BrakedMotion::at(double t, const double *history) const
   case Family::linear:
     return {x + v * (tau - 0.5 * tau * s), ended ? 0. : v * (1. - s), ended ? 0. : -v / T};
   case Family::cosine:
-    return {x + 0.5 * v * (tau + T / pi * std::sin(pi * s)), ended ? 0. : 0.5 * v * (1. + std::cos(pi * s)),
-            ended ? 0. : -0.5 * v * pi / T * std::sin(pi * s)};
+    return {x + 0.5 * v * (tau + T / M_PI * std::sin(M_PI * s)), ended ? 0. : 0.5 * v * (1. + std::cos(M_PI * s)),
+            ended ? 0. : -0.5 * v * M_PI / T * std::sin(M_PI * s)};
   case Family::shaped:
     break;
   }

@@ -11,7 +11,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double seen = 1e-2; ///< of the largest amplitude of a signal, that an order has to reach
+/// of the largest amplitude of a signal, that an order has to reach: a pixel or two of its chart
+constexpr double seen = 1e-2;
 
 double largest(const std::vector<double> &amplitudes)
 {
@@ -87,7 +88,7 @@ Chart waterfall_chart(const Waterfall &spectra, const std::vector<coupling::Mode
   chart.x.begin            = 0.;
   chart.x.end              = highest_seen(spectra, most);
   chart.y.begin            = spectra.speed_rpm.front() - 0.05 * span;
-  constexpr double tallest = 0.25; // spectrum, beside the range of the speeds
+  constexpr double tallest = 0.25; // spectrum, of the range of the speeds: neighbours overlap, far ones do not
   chart.y.end              = fastest + tallest * span;
   for (std::size_t i = spectra.amplitudes.size(); i-- > 0;) // the lowest in front
   {

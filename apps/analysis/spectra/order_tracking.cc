@@ -13,7 +13,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int window_turns = 4, least_turns = 16, most_orders = 8, samples_of_turn = 64;
+/// orders 1/4 apart are told from each other, and a run-up changes little
+constexpr int window_turns = 4, most_orders = 8, samples_of_turn = 64;
 
 /// A table of values y over x ascending, by the cubic through four neighbours.
 double interpolated(const std::vector<double> &x, const std::vector<double> &y, double at)
@@ -195,9 +196,10 @@ std::optional<OrderTracking> order_tracking(const Scene &scene, const coupling::
   const auto reference = reference_of(scene, run);
   if (!reference)
     return std::nullopt;
-  const Turning    history    = turning(run, *reference);
-  const double     turns      = history.angle.empty() ? 0. : history.angle.back() / two_pi;
-  constexpr double most_turns = 1e9; // that an int counts
+  const Turning    history     = turning(run, *reference);
+  const double     turns       = history.angle.empty() ? 0. : history.angle.back() / two_pi;
+  constexpr double most_turns  = 1e9; // that an int counts
+  constexpr int    least_turns = 16;  // four windows: fewer show no change over the speed
   if (!(turns >= least_turns) || turns > most_turns || history.t.size() < 4)
     return std::nullopt;
   // rows of a period: two are the limit of sampling, the third keeps off aliases

@@ -12,7 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int n_windows = 30, n_frequencies = 240, fewest_samples = 1024, most_samples = 1 << 16;
+constexpr int n_frequencies = 240; ///< points of a curve that is 640 pixels wide
 
 double linear(const std::vector<double> &x, const std::vector<double> &y, double at)
 {
@@ -25,6 +25,7 @@ double linear(const std::vector<double> &x, const std::vector<double> &y, double
 std::vector<double> instants(const TurningHistory &history, double low, double high, double length)
 {
   std::vector<double> found;
+  constexpr int       n_windows = 30; // curves of a picture that are told apart
   for (int k = 0; k < n_windows; ++k)
   {
     const double level = low + (high - low) * (k + 0.5) / n_windows;
@@ -43,6 +44,8 @@ std::vector<double> instants(const TurningHistory &history, double low, double h
 /// As many in a window as it has rows, so that nothing that they tell is folded down.
 int samples_of_window(double row_step, double length)
 {
+  constexpr int fewest_samples = 1024;    // four for each frequency
+  constexpr int most_samples   = 1 << 16; // of a window: each of its frequencies takes as many products
   return int(std::clamp(std::ceil(length / row_step), double(fewest_samples), double(most_samples)));
 }
 

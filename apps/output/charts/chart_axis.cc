@@ -11,7 +11,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double rounding = 1e-9;
+constexpr double rounding = 1e-9; ///< of logarithms: a power of ten is its own decade
 
 /// m times 10 to the n: from 0.01 to 10 000 in full, else with raised digits.
 std::string power_text(double value)

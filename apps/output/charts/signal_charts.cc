@@ -1,6 +1,7 @@
 #include "apps/output/charts/signal_charts.h"
 
 #include "apps/output/charts/chart.h"
+#include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -170,9 +171,8 @@ std::vector<SignalGroup> group_signals(const coupling::RunResult &run)
     double widest = -1.;
     for (const auto &[span, j] : by_span)
     {
-      constexpr double readable_ratio = 15.;    // of the widest span, 280 pixels high: narrower curves look like lines
-      constexpr std::size_t most_per_chart = 7; // colours of a chart
-      if (widest < 0. || span * readable_ratio < widest || groups.back().columns.size() == most_per_chart)
+      constexpr double readable_ratio = 15.; // of the widest span, 280 pixels high: narrower curves look like lines
+      if (widest < 0. || span * readable_ratio < widest || int(groups.back().columns.size()) == n_series_colours)
       {
         groups.push_back({unit, {}});
         widest = span;

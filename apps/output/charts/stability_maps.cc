@@ -197,9 +197,7 @@ std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families
       for (std::size_t i = 0; i < map->omega_h.size(); ++i)
       {
         rho.push_back(map->step[i].spectral_radius);
-        // two steps in a period: beyond it, no root follows the motion
-        constexpr double highest_seen = 3.141592653589793;
-        const bool       seen         = map->omega_h[i] < highest_seen;
+        const bool seen = map->omega_h[i] < M_PI; // two steps in a period: beyond it, no root follows the motion
         elongation.push_back(seen ? map->step[i].period_elongation : nan);
         ratio.push_back(seen ? map->step[i].numerical_damping : nan);
         peak.push_back(std::max(map->displaced[i].displacement, map->displaced[i].velocity));

@@ -18,9 +18,10 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_instants = 200, most_modes = 9;
-constexpr double      motion_size = 0.02; ///< the same of the motion, if that enlarges it
-constexpr double      exactness   = 1e-4; ///< of the drawn positions, of the machine's size
+constexpr std::size_t most_instants = 200; ///< pictures of a film; more make the page heavier
+/// the same of the motion, if that enlarges it: bodies must not pass through each other
+constexpr double motion_size = 0.02;
+constexpr double exactness   = 1e-4; ///< of the drawn positions, of the machine's size
 
 /// Parts of a thing at rest.
 Json parts_json(const MachineAnimation &machine)
@@ -222,8 +223,9 @@ Json shows_json(const MachineAnimation &machine, const Result &result)
   if (result.run && !result.run->picture_states.empty())
     shows.push_back(motion_json(machine, result));
   // of the machine's size: large enough to see, small enough that walls do not cross
-  constexpr double mode_size = 0.05;
-  const double     size      = mode_size * machine.size();
+  constexpr double      mode_size  = 0.05;
+  const double          size       = mode_size * machine.size();
+  constexpr std::size_t most_modes = 9; // buttons of one row
   for (std::size_t j = 0; j < std::min(result.coupled_modes.size(), most_modes); ++j)
     shows.push_back(still_json("mode", "coupled-" + std::to_string(j + 1),
                                mode_name("coupled", j, result.coupled_modes[j]),

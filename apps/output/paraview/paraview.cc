@@ -248,7 +248,6 @@ void write_frame_modes(OwnFolder &folder, const Result &result, std::vector<std:
     double          largest = 0.;
     for (long i = 0; i < u.size(); i += 3)
       largest = std::max(largest, u.segment<3>(i).norm());
-    constexpr double shown_size = 0.05; // largest displacement of a mode shape as part of the frame's size
     if (largest > 0.)
       u *= shown_size * (frame.size() > 0. ? frame.size() : 1.) / largest;
     frame.note("frequency [Hz]", result.frame_modes[j].frequency_hz);

@@ -264,7 +264,7 @@ Shape pins_shape(const Scenery &scenery, double radius, const Split &split, cons
   for (const coupling::DrawnPin &pin : scenery.pins)
   {
     const Vector3d   at = position(pin.at, split.bodies), axis = direction(pin.at, vector(pin.axis), split.bodies);
-    constexpr double pin_radius = 0.6; // of that of a plate
+    constexpr double pin_radius = 0.6; // of the radius of a plate
     add_disc(shape, at, axis.unitOrthogonal(), axis, pin_radius * radius, 1.4 * radius);
     shape.displacement.resize(shape.points.size(), position(pin.at, q) - at);
   }

@@ -14,11 +14,9 @@ namespace
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double pi = 3.14159265358979323846;
-
 Vector3d on_circle(const Vector3d &e1, const Vector3d &e2, int i, int n)
 {
-  const double angle = 2. * pi * i / n;
+  const double angle = 2. * M_PI * i / n;
   return std::cos(angle) * e1 + std::sin(angle) * e2;
 }
 
@@ -117,7 +115,7 @@ void add_sphere(Shape &shape, const Vector3d &centre, double radius, int n_rings
   for (int j = 1; j < n_rings; ++j) // from the lower pole up
     for (int i = 0; i < n; ++i)
     {
-      const double height = pi * j / n_rings;
+      const double height = M_PI * j / n_rings;
       shape.points.push_back(centre +
                              radius * (std::sin(height) * on_circle(Vector3d::UnitX(), Vector3d::UnitY(), i, n) -
                                        std::cos(height) * Vector3d::UnitZ()));

@@ -64,11 +64,10 @@ std::vector<std::vector<std::size_t>> groups(const ModesAlong &modes)
   bool                                  lost   = false;
   for (const std::size_t i : lines)
   {
-    const LineExtremes    own          = line_extremes(modes, i);
-    constexpr double      widest_chart = 3.; // highest to lowest frequency: bends of lower ones stay a third as high
-    constexpr std::size_t most_lines   = 7;  // colours of a chart
+    const LineExtremes own          = line_extremes(modes, i);
+    constexpr double   widest_chart = 3.; // highest to lowest frequency: bends of lower ones stay a third as high
     if (all.empty() || own.max > widest_chart * lowest || std::exchange(lost, own.min == 0.) != (own.min == 0.) ||
-        all.back().size() == most_lines)
+        int(all.back().size()) == n_series_colours)
     {
       all.emplace_back();
       lowest = own.max;

@@ -15,7 +15,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_solutions = 12, most_response_charts = 6;
+constexpr std::size_t most_solutions = 12; ///< rows of a page; the files have all
 
 std::string stability_of(const coupling::PeriodicSolution &solution)
 {
@@ -106,6 +106,7 @@ std::string periodic_section(const Result &result, Pictures &pictures)
       html += j % 2 == 1 || j + 1 == planes.size() ? "</div>\n" : "";
     }
   };
+  constexpr std::size_t most_response_charts = 6; // signals; the file has all
   if (!periodic.parameter.empty() && !periodic.entries.empty())
     for (std::size_t j = 0; j < std::min(periodic.entries.front().signals.size(), most_response_charts); ++j)
     {

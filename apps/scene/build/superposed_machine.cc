@@ -119,7 +119,8 @@ std::string keep_stable_step(double largest, double decay, RunRequest &run)
   std::ostringstream text;
   if (!run.step_given)
   {
-    constexpr double step_by_itself = 0.25; // of it: the period of the highest mode is right to 1 %
+    // of the largest step that is stable: the period of the highest mode is right to 1 %
+    constexpr double step_by_itself = 0.25;
     method.step                     = std::min(step_by_itself * largest, decay);
     const double     steps          = (run.options.end - run.options.begin) / method.step;
     constexpr double many_steps     = 1e7; // minutes of steps even of small machines: no wish, but stiff modes

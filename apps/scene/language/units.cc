@@ -2,12 +2,12 @@
 
 #include "fem/values/nearest_name.h"
 
+#include <cmath>
+
 namespace gestell::apps
 {
 namespace
 {
-
-constexpr double pi = 3.14159265358979323846;
 
 std::map<std::string, Quantity> make_units()
 {
@@ -37,8 +37,8 @@ std::map<std::string, Quantity> make_units()
   add({-1, 1, -2}, {{"Pa", 1.}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}, {"bar", 1e5}, {"mbar", 1e2}}, none);
   add({-1, 1, -2}, {{"psi", pound * weight_of_kg / (0.0254 * 0.0254)}}, none);
   add({0, 0, -1}, {{"Hz", 1.}, {"kHz", 1e3}}, Counts::turns);
-  add({0, 0, -1}, {{"rpm", 2. * pi / 60.}}, Counts::shaft_turns);
-  add({0, 0, 0}, {{"rad", 1.}, {"mrad", 1e-3}, {"deg", pi / 180.}, {"°", pi / 180.}}, Counts::radians);
+  add({0, 0, -1}, {{"rpm", 2. * M_PI / 60.}}, Counts::shaft_turns);
+  add({0, 0, 0}, {{"rad", 1.}, {"mrad", 1e-3}, {"deg", M_PI / 180.}, {"°", M_PI / 180.}}, Counts::radians);
   add({0, 0, 0}, {{"%", 1e-2}}, none);
   return table;
 }
@@ -53,7 +53,7 @@ const std::map<std::string, Quantity> &units()
 
 const std::map<std::string, Quantity> &turn_units()
 {
-  static const Quantity                        turn{2. * pi, {}, true, Counts::shaft_turns};
+  static const Quantity                        turn{2. * M_PI, {}, true, Counts::shaft_turns};
   static const std::map<std::string, Quantity> table = {{"r", turn}, {"rev", turn}, {"U", turn}};
   return table;
 }

@@ -87,7 +87,7 @@ bool check_plausible(const SceneTable &table, const std::string &key, const Plau
   return false;
 }
 
-constexpr double lightest_common = 400., heaviest_common = 20000.; // [kg/m^3]
+constexpr double lightest_common = 400., heaviest_common = 20000.; ///< [kg/m^3] foam is lighter, tungsten has 19300
 
 /// Waves in solids that frames are made of run at 2500 m/s (weak concrete) to 13000 m/s (beryllium, ceramics); slower
 /// ones are plastics, lighter than 2000 kg/m^3, and heavy soft metals as lead.

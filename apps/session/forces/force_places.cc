@@ -34,7 +34,7 @@ std::vector<int> without(const std::set<int> &all, const std::set<int> &others)
   return own;
 }
 
-constexpr double negligible = 1e-12; ///< of a direction
+constexpr double negligible = 1e-12; ///< of a direction: rounding of its parts
 
 bool turns(const MotionMeasure &motion)
 {

@@ -52,13 +52,13 @@ void add_dense_pictures(coupling::RunResult &run, PeakState &peak)
       run.picture_velocities.size() != run.picture_times.size())
     return;
   const bool       largest   = peak.value >= 0.;
-  constexpr double of_period = 1. / 16.; // distance of pictures
+  constexpr double of_period = 1. / 16.; // distance of pictures: a swing is seen as smooth
   const double     period = 2. * peak.half_swing, step = of_period * period;
   double           last = -std::numeric_limits<double>::infinity();
   for (const coupling::KeptState &state : run.states.around[largest ? 0 : 1])
   {
-    constexpr double periods = 1.5;  // on either side of the peak
-    constexpr double uneven  = 0.02; // of it, that the states lie beside their grid
+    constexpr double periods = 1.5;  // on either side of the peak: the blow and what comes before and after
+    constexpr double uneven  = 0.02; // of their distance, that the states lie beside their grid
     if (std::abs(state.t - peak.t) > periods * period || state.t < last + (1. - uneven) * step)
       continue;
     last                       = state.t;

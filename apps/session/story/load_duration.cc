@@ -12,7 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double acts = 0.01, high = 0.9, low = 0.1; ///< of the peak
+constexpr double acts = 0.01; ///< of the peak: what noise and other loads leave is below
 
 /// Whether |F| reaches a share of the peak.
 class Above
@@ -187,7 +187,9 @@ std::optional<LoadDuration> load_duration(const std::vector<double> &t, const st
   const Above       above(F, *largest);
   if (*largest == 0. || changes_sign(F, *largest))
     return {};
-  std::size_t end = peak, fall = peak, down = peak;
+  constexpr double high = 0.9; // of the peak: rise and fall between 10 and 90 %, as usual
+  constexpr double low  = 0.1; // of the peak
+  std::size_t      end = peak, fall = peak, down = peak;
   while (end + 1 < n && above(end, acts))
     ++end;
   while (down + 1 < n && above(down, low))

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double most_work = 2e9; ///< states times n^3
+constexpr double most_work = 2e9; ///< states times n^3: a few seconds
 
 std::string place_of(const coupling::Machine &machine, const Eigen::VectorXd &q)
 {

@@ -58,7 +58,7 @@ std::vector<coupling::SignalExtreme> swing_extremes(const std::vector<coupling::
   for (int s = 0; s < int(signals.size()); ++s)
     if (s != main && (signals[std::size_t(s)].unit == "N" || signals[std::size_t(s)].unit == "N m"))
       add(s);
-  constexpr double most_memory = 64e6, kept_states = 600.; // bytes; states around an extreme
+  constexpr double most_memory = 64e6, kept_states = 600.; // byte
   const double     of_one = kept_states * 3. * sizeof(double) * std::max(1, n);
   extremes.resize(std::min(extremes.size(), std::size_t(most_memory / of_one)));
   return extremes;

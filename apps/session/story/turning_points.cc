@@ -43,7 +43,7 @@ Swing swing_at(const std::vector<double> &t, const std::vector<double> &y, doubl
   if (y.size() < 3)
     return {};
   const auto [low, high]      = std::minmax_element(y.begin(), y.end());
-  constexpr double small_turn = 0.2; // of the range
+  constexpr double small_turn = 0.2; // of the range: smaller swings ride on larger ones
   const auto       turns      = turning_points(t, y, small_turn * (*high - *low));
   if (turns.empty())
     return {};

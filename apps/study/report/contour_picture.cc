@@ -15,7 +15,7 @@ namespace
 
 constexpr double contour_left = 66., contour_top = 30., contour_side = 260., contour_width = 340.,
                  contour_height = 340.;
-constexpr int contour_cells     = 52; ///< along a side
+constexpr int contour_cells     = 52; ///< along a side: five pixels each
 
 struct Point2
 {
@@ -244,7 +244,7 @@ std::string contour_picture(const ResponseSurface &surface, const std::vector<St
   const double              low = grid.values.minCoeff(), high = grid.values.maxCoeff();
   constexpr double          flat          = 1e-9; // of the values: below it they differ by rounding
   const bool                varies        = high - low > flat * std::max(std::abs(low), std::abs(high));
-  constexpr int             contour_count = 7; // levels, about
+  constexpr int             contour_count = 7; // levels, about: lines stay apart
   const std::vector<double> levels        = varies ? nice_ticks(low, high, contour_count) : std::vector<double>();
   const std::string         title         = axis.head();
   return svg_head(contour_width, contour_height,

@@ -116,7 +116,7 @@ std::string dots_svg(const ScatterColumn &x, const ScatterColumn &y, const std::
 /// Runs that are drawn: all of few, evenly chosen ones of many, always those of the front.
 std::vector<int> drawn_rows(int n_runs, const std::vector<bool> &on_front)
 {
-  constexpr int    most_dots = 400; // of a picture in the matrix
+  constexpr int    most_dots = 400; // of a picture of 92 pixels a side
   const int        stride    = (n_runs + most_dots - 1) / most_dots;
   std::vector<int> rows;
   for (int row = 0; row < n_runs; ++row)

@@ -13,7 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_rings_of_runs = 400;
+constexpr std::size_t most_rings_of_runs = 400; ///< rings of a chart; runs.csv has all
 
 double t_quantile(const ResponseSurface &surface)
 {

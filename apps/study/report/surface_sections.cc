@@ -16,7 +16,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr std::size_t most_outputs = 12; ///< with pictures
+constexpr std::size_t most_outputs = 12; ///< with pictures: a screen or two each
 
 std::string number_or_dash(double x, int digits = 4)
 {

@@ -165,8 +165,9 @@ OutputPoint StudyAnalysis::run_at(const Eigen::VectorXd &xi, Derivatives derivat
   point.derivatives.resize(point.values.size(), xi.size());
   for (Eigen::Index i = 0; i < xi.size(); ++i)
   {
-    Eigen::VectorXd  nearby        = xi;
-    constexpr double quotient_step = 0.01; // of coded variables, for differences of runs
+    Eigen::VectorXd nearby = xi;
+    // of coded variables, for differences of runs: far above what runs scatter by, far below the box
+    constexpr double quotient_step = 0.01;
     nearby[i] += xi[i] > 0. ? -quotient_step : quotient_step;
     point.derivatives.col(i) = (values_at(nearby, nullptr) - point.values) / (nearby[i] - xi[i]);
   }

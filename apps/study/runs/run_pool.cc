@@ -21,7 +21,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr int most_jobs = 1024;
+constexpr int most_jobs = 1024; ///< at once: more than the cores of any machine, less than its processes
 
 /// What the processes share.
 struct Shared

@@ -10,7 +10,7 @@
 namespace gestell::apps
 {
 
-constexpr double most_runs = 1e6; ///< of a study
+constexpr double most_runs = 1e6; ///< of a study: twelve days at one a second
 
 /// The points of a study in coded values (study_variable.h).
 struct Design

@@ -315,7 +315,7 @@ private:
     require(EPSGetST(get(), &st));
     if (preconditioned())
     {
-      // the same of methods that multiply by C, whose residuals stop at rounding
+      // relative residual of methods that multiply by C: it stops at rounding
       constexpr double least_squares = 1e-8;
       require(EPSSetTolerances(get(), least_squares, PETSC_DEFAULT));
       require(EPSSetWhichEigenpairs(get(), EPS_SMALLEST_REAL));

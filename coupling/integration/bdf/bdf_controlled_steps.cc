@@ -11,8 +11,8 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr int    highest_growth = 3;   ///< rungs at once
-constexpr double safety         = 0.3; ///< of the tolerance, that an error expected may reach
+constexpr int    highest_growth = 3;   ///< rungs at once: eight times the step
+constexpr double safety         = 0.3; ///< of the tolerance, that an error expected may reach: few steps are refused
 
 } // namespace
 
@@ -124,7 +124,7 @@ void BdfControlled::refuse(const Trial &trial, double exponent)
   int rungs = 1;
   if (trial.solved && is_sound(trial.h_beta))
     scale_.refuse();
-  constexpr int deepest_fall = 6; // rungs at once, in a start
+  constexpr int deepest_fall = 6; // rungs at once, in a start: a 64th of the step
   if (trial.solved)
     rungs = std::clamp(static_cast<int>(std::ceil(std::log2(trial.error / safety) / exponent)), 1,
                        fresh_ ? deepest_fall : highest_growth);

@@ -13,7 +13,8 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr int highest_order = 5; ///< with a tolerance, where no order is given
+/// with a tolerance, where no order is given: order 6 is stable in too narrow a sector
+constexpr int highest_order = 5;
 
 /// BDF of order p in w = 1 - 1/r:  sum_{j=1..p} w^j / j = mu, and ln r = -ln(1 - w) = mu + sum_{j>p} w^j / j, which
 /// tells the growth of the principal root without cancellation.

@@ -17,7 +17,8 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double off_middle = 0.38; ///< share of a step where guards are looked at first
+/// share of a step where guards are looked at first: off the middle, where a symmetric bend hides
+constexpr double off_middle = 0.38;
 
 /// To what an event at t in a step of length h is located: far below what any step's error does to its time.
 double resolution(double t, double h)

@@ -33,7 +33,7 @@ MatrixXd motions_without_stiffness(const MatrixXd &C)
   Eigen::Index               n_r = 0;
   // eigenvalue of C scaled to unit diagonal, per coordinate, that counts as zero
   constexpr double no_stiffness = 1e-13;
-  constexpr double negative     = 1e-8; // the same, below zero: no rounding
+  constexpr double negative     = 1e-8; // likewise, below zero: more than rounding
   if (n > 0 && modes.eigenvalues()[0] < -negative)
     refuse("the stiffness matrix of the base is not positive semidefinite; give what pushes away as an element");
   while (n_r < n && modes.eigenvalues()[n_r] < no_stiffness * double(n))

@@ -366,7 +366,7 @@ int ModalPropagation::parts_of_step() const
         most = h * rate;
     }
   }
-  constexpr int most_parts = 4096; // of a step
+  constexpr int most_parts = 4096; // of a step: a bound for motions that run away
   return most > furthest_turn ? int(std::min(std::ceil(most / furthest_turn), double(most_parts))) : 1;
 }
 

@@ -13,7 +13,7 @@ namespace gestell::coupling
 
 namespace
 {
-constexpr double rounding       = 8. * std::numeric_limits<double>::epsilon();
+constexpr double rounding       = 8. * std::numeric_limits<double>::epsilon(); ///< of sums of a few terms
 constexpr double joint_rounding = 8.;   ///< times that of one number: several terms, enlarged by levers
 constexpr double most_left      = 1e-7; ///< of the excursion of a measure, however large the local error is
 } // namespace

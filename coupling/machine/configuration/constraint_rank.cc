@@ -14,7 +14,8 @@ namespace
 
 using mechanism::OrthonormalDirectors;
 
-constexpr double taken_part = 1e-6; // coefficient with which an equation counts as used
+/// coefficient with which an equation counts as used: those that are have some of order one
+constexpr double taken_part = 1e-6;
 
 bool makes_rigid(const ElementPlacement &placement)
 {

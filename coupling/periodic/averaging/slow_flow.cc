@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double rest_tolerance = 1e-13, no_mode_moved = 1e-9;
+constexpr double rest_tolerance = 1e-13; ///< of the motion: rounding of sums over its coordinates
 
 [[noreturn]] void refuse_averaging(const std::string &reason)
 {
@@ -107,6 +107,7 @@ double SlowFlow::nearness(int mode, const VectorXd &omega, const MatrixXd &shape
       force += phi[entry.coordinate] * std::hypot(entry.cosine, entry.sine);
       largest += phi.cwiseAbs().maxCoeff() * std::hypot(entry.cosine, entry.sine);
     }
+    constexpr double no_mode_moved = 1e-9; // of the largest force on a mode: rounding
     return std::abs(force) > no_mode_moved * largest ? std::abs(omega[mode] - load_omega_) : never;
   }
   return phi.dot(linear_B_ * phi) < 0. ? std::abs(omega[mode] - 2. * M_PI / problem_.period) : never;
@@ -245,7 +246,7 @@ std::vector<double> SlowFlow::amplitudes(double from, double to)
     const double     least  = std::max(std::min(at_rest, base), least_damping * omega_0_);
     constexpr double reach  = 1e3; // of amplitudes searched, below that of the linear system
     from                    = load_omega_ > 0. ? linear / reach : 1. / reach;
-    constexpr double beyond = 10.; // the same above its amplitude in resonance
+    constexpr double beyond = 10.; // times its amplitude in resonance
     to                      = load_omega_ > 0. ? beyond * push / least : reach;
   }
   constexpr int       grid_points = 1500; // amplitudes, about 1 % apart over six decades

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 constexpr double      mesh_tolerance  = 1e-8; ///< of PeriodicCollocation::errors()
 constexpr double      another         = 1e-6; ///< distance of two mesh points, in periods
-constexpr std::size_t least_intervals = 16, most_of_branch = 1600;
-constexpr double      small_share = 1e-3; ///< of the place of an event in the length of z
+constexpr std::size_t least_intervals = 16;   ///< of a period: a harmonic of order 4 has four intervals a swing
+constexpr double      small_share     = 1e-3; ///< of the place of an event in the length of z
 
 bool equal(const std::vector<double> &a, const std::vector<double> &b, double moved)
 {
@@ -146,6 +146,8 @@ private:
   bool too_large(const std::vector<double> &mesh) const
   {
     const auto n_u = member_.problem.system->forces().directions().cols();
+    // unknowns over stages and coordinates: a dense border of them takes seconds
+    constexpr std::size_t most_of_branch = 1600;
     return mesh.size() > mesh_.size() && mesh.size() * std::size_t(PeriodicCollocation::stages * n_u) > most_of_branch;
   }
   std::vector<double> fitted(const std::vector<double> &events);
@@ -221,7 +223,8 @@ std::vector<double> CollocationBranch::fitted(const std::vector<double> &events)
   bool dropped = false;
   for (std::size_t i = 0; i + 1 < mesh_.size(); ++i)
   {
-    constexpr double far_too_small = 1. / (1 << 11); // an error of that, by which two intervals are one
+    // error of an interval, of the tolerance, by which it is joined with the next one: 2^-11
+    constexpr double far_too_small = 1. / (1 << 11);
     const bool       needed =
         mesh_.size() <= least_intervals + events_.size() || dropped ||
         std::max(errors[Index(i)], errors[std::max<Index>(Index(i) - 1, 0)]) > far_too_small * mesh_tolerance;

@@ -1,5 +1,7 @@
 #include "coupling/periodic/harmonic/base_response.h"
 
+#include "fem/values/two_pi.h"
+
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -15,8 +17,6 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
-
-constexpr double two_pi = 2. * M_PI;
 
 [[noreturn]] void refuse_harmonics(const std::string &reason)
 {

@@ -20,7 +20,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int first_harmonics = 8, many_harmonics = 4, most_harmonics = 128, most_unknowns = 2500;
+constexpr int first_harmonics = 8; ///< laws that are nearly linear need no more
 
 double largest_share(const VectorXd &r, const VectorXd &scale)
 {
@@ -190,7 +190,9 @@ PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalanc
 
 int more_harmonics(const PeriodicProblem &problem, int harmonics)
 {
-  const int next = 2 * harmonics, n_u = int(problem.system->forces().directions().cols());
+  const int     next = 2 * harmonics, n_u = int(problem.system->forces().directions().cols());
+  constexpr int most_harmonics = 128;  // kinks leave 1 / 128^2 of their force; more are for collocation
+  constexpr int most_unknowns  = 2500; // a dense Newton step of as many takes a second
   return next > most_harmonics || n_u * (2 * next + 1) > most_unknowns ? 0 : next;
 }
 
@@ -328,6 +330,7 @@ void BalanceSearch::begin(const PeriodicGuess &guess)
   {
     if (more && harmonics_of(options_) > 0)
       break;
+    constexpr int many_harmonics = 4; // times those that fail: the next motion may have more
     if (more)
       balance_.set_harmonics(many_harmonics * balance_.harmonics());
     if ((moves && solve_from_orbit(guess, false)) || (moves && solve_from(balance_.start_through(guess.q, guess.v))) ||

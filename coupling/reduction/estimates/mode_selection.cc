@@ -19,7 +19,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_modes = 200;
+constexpr int    most_modes = 200; ///< beyond them another method is cheaper than more modes
 constexpr double reach      = 1.5; // highest fixed-interface mode over the limit, at least
 constexpr double rule       = 3.5; // the book's
 

@@ -27,7 +27,7 @@ void symmetric_product(const SparseMatrix &A, const Eigen::Ref<const MatrixXd> &
   const auto                                   n     = A.cols();
   const int                                   *start = A.outerIndexPtr(), *row = A.innerIndexPtr();
   const auto                                  *a     = A.valuePtr();
-  constexpr int                                lanes = 8;   // columns that travel together
+  constexpr int                                lanes = 8;   // columns that travel together: a cache line of doubles
   Eigen::Matrix<double, lanes, Eigen::Dynamic> x(lanes, n); // row i of X, eight columns of it, lies together
   Y.resize(n, X.cols());
   for (Eigen::Index first = 0; first < X.cols(); first += lanes)

@@ -13,8 +13,9 @@ namespace gestell::coupling
 
 namespace
 {
+/// enough for a share in per cent; a tenth of a frequency is a fifth of a stiffness
 constexpr double looks_of_a_run = 64., allowed_difference = 0.1;
-}
+} // namespace
 
 InstantaneousModes::InstantaneousModes(const Machine &machine, const TimeIntegrator &integrator, double begin,
                                        double end)

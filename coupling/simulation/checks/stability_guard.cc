@@ -19,7 +19,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr double harmless = 1e-10; // growth per step that 1e9 steps may have
+constexpr double harmless = 1e-10; ///< growth per step that 1e9 steps may have
 
 // --- one mode
 

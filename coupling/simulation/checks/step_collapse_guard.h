@@ -11,7 +11,7 @@
 namespace gestell::coupling
 {
 
-constexpr double most_steps = 1e10; ///< of a run
+constexpr double most_steps = 1e10; ///< of a run: hours of the smallest machine
 
 /// Ends a run whose controlled steps have become so short that it would never end: if the rest of it would need more
 /// than `most_steps` at the pace of the last ones.

@@ -9,8 +9,8 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double growth   = 4.; // from cell to cell
-constexpr double rounding = 1e-9;
+constexpr double growth   = 4.;   // from cell to cell
+constexpr double rounding = 1e-9; ///< of widths that are sums of widths
 
 /// Narrow cells that grow from a plane.
 struct Growing
@@ -46,7 +46,7 @@ void grow(Growing &low, Growing &high, double width, double size)
 std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, bool even)
 {
   constexpr double along_edge = 0.7;      // width of the cell along an edge, of the thickness of the wall
-  constexpr double narrowest  = 1. / 16.; // the same at most, of the size
+  constexpr double narrowest  = 1. / 16.; // width of the cell along an edge, of the size of cells
   const double     edge       = std::min(along_edge * sheet.thickness, narrowest * size);
   constexpr double at_minor   = 3.; // times as wide along a plane beyond which most goes on
   const auto       within     = [&](bool minor) { return minor ? at_minor * edge : edge; };

@@ -247,7 +247,7 @@ void require_same_axes(const FrameNodes &nodes, const coupling::ModelNodes &mode
 {
   const auto axes_in = [](const std::map<long, Eigen::Matrix3d> &axes, long number) -> Eigen::Matrix3d
   { return axes.count(number) > 0 ? axes.at(number) : Eigen::Matrix3d::Identity(); };
-  constexpr double same_axes = 1e-4; // likewise, of unit vectors
+  constexpr double same_axes = 1e-4; // of unit vectors: Nastran's short fields pass
   for (const auto &[number, x] : model.places)
     if (nodes.places.count(number) > 0 &&
         (axes_in(nodes.axes, number) - axes_in(model.axes, number)).cwiseAbs().maxCoeff() > same_axes)
