@@ -4,6 +4,7 @@
 #include "coupling/integration/newmark/newmark_methods.h"
 #include "coupling/integration/newmark/wilson_method.h"
 #include "coupling/integration/propagation/propagation_method.h"
+#include "coupling/integration/step/rounding_floors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,11 +34,10 @@ void check_steps(const MethodOptions &o, const std::string &label)
   require_parameter(o.tolerance >= 0. && o.tolerance < 1., label, "tolerance", o.tolerance, "between 0 and 1");
   require_parameter(o.tolerance == 0. || controllable, label, "tolerance", o.tolerance,
                     "left out: only " + controlling_methods() + " control their step; give a step");
-  constexpr double finest = 1e-13; // tolerances below are rounding
-  require_parameter(o.tolerance == 0. || o.tolerance >= finest, label, "tolerance", o.tolerance,
+  require_parameter(o.tolerance == 0. || o.tolerance >= finest_tolerance, label, "tolerance", o.tolerance,
                     "1e-13 or more: what lies below is rounding");
   require_parameter(o.tolerance > 0. || o.step > 0., label, "step [s]", o.step, "positive, or a tolerance be given");
-  require_parameter(o.newton.tolerance >= finest && o.newton.tolerance < 1., label, "newton_tolerance",
+  require_parameter(o.newton.tolerance >= finest_tolerance && o.newton.tolerance < 1., label, "newton_tolerance",
                     o.newton.tolerance, "1e-13 or more, below 1");
 }
 

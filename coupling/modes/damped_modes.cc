@@ -175,9 +175,8 @@ std::vector<DampedMode> all_damped_modes(const DenseModes &modes, const Eigen::M
   for (const Complex &s : damped_roots(modes, C, B))
     if (s.imag() > 1e-9 * std::abs(s)) // two that meet part by the root of rounding
     {
-      const double     zeta             = -s.real() / std::abs(s);
-      constexpr double rounding_of_zeta = 1e-12; // as `modes` tells ratios
-      result.push_back({{std::abs(s), std::abs(zeta) > rounding_of_zeta ? zeta : 0.}, 0});
+      const double zeta = -s.real() / std::abs(s);
+      result.push_back({{std::abs(s), std::abs(zeta) > rounding_of_ratio ? zeta : 0.}, 0});
     }
   sort_by_size(result);
   std::vector<char> taken(std::size_t(C.rows()), 0);

@@ -8,6 +8,9 @@
 namespace gestell::coupling
 {
 
+/// Damping ratios below it are rounding: of B and C, sums of terms rounded to 1e-16.
+constexpr double rounding_of_ratio = 1e-12;
+
 /// A vibrating mode of the damped machine: omega = |s|, zeta = -Re s/|s|, and the undamped mode it is nearest to.
 struct DampedMode
 {

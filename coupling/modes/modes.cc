@@ -5,6 +5,7 @@
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 #include "coupling/machine/configuration/local_stiffness.h"
+#include "coupling/modes/damped_modes.h"
 #include "fem/values/two_pi.h"
 
 #include <algorithm>
@@ -18,9 +19,6 @@ namespace gestell::coupling
 
 namespace
 {
-/// of a damping ratio: B and C are rounded to 1e-16 of sums of their terms
-constexpr double rounding_of_ratio = 1e-12;
-
 /// @throws std::invalid_argument where a mass is so small, or a damper so large beside it, that the state overflows.
 GeneralEigenSolver solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
 {

@@ -29,10 +29,8 @@ LineExtremes line_extremes(const coupling::ModesAlong &along, std::size_t line)
       own.growth   = mode.growth;
       own.x_growth = at.x;
     }
-    constexpr double no_damping_ratio = 1e-12; // what rounding leaves
-    const double     damping          = std::abs(mode.damping_ratio) < no_damping_ratio ? 0. : mode.damping_ratio;
-    own.least_damping                 = std::fmin(own.least_damping, damping); // nan gives way
-    own.largest_damping               = std::fmax(own.largest_damping, damping);
+    own.least_damping   = std::fmin(own.least_damping, mode.damping_ratio); // nan gives way
+    own.largest_damping = std::fmax(own.largest_damping, mode.damping_ratio);
     if (line < at.assurance.size())
       own.least_assurance = std::fmin(own.least_assurance, at.assurance[line]);
   }

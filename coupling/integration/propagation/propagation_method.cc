@@ -2,6 +2,7 @@
 
 #include "coupling/integration/newmark/newmark_family.h"
 #include "coupling/integration/propagation/modal_propagation.h"
+#include "coupling/integration/step/rounding_floors.h"
 
 #include <Eigen/LU>
 
@@ -140,9 +141,8 @@ std::unique_ptr<TimeIntegrator> PropagationMethod::make(const SecondOrderSystem 
   options.modes     = o.modes;
   // Newton's tolerance in units of that of the error: it counts little beside it
   constexpr double share_of_newton = 1e-2;
-  constexpr double finest          = 1e-13; // below is rounding
   if (controlled(o))
-    options.newton.tolerance = std::max(share_of_newton * o.tolerance, finest);
+    options.newton.tolerance = std::max(share_of_newton * o.tolerance, finest_tolerance);
   else
     options.max_halvings = o.max_halvings;
   return std::make_unique<ModalPropagation>(system, options);

@@ -67,9 +67,8 @@ ImplicitStep::ImplicitStep(const SecondOrderSystem &system, const NewtonOptions 
   if (G_.n_rows() > 0)
   {
     // of the tolerance: multipliers are wrong by m / h^2 times what positions are
-    constexpr double share_of_joints  = 1e-3;
-    constexpr double finest_tolerance = 1e-13; // below is rounding
-    options_.tolerance                = std::max(share_of_joints * options_.tolerance, finest_tolerance);
+    constexpr double share_of_joints = 1e-3;
+    options_.tolerance               = std::max(share_of_joints * options_.tolerance, finest_tolerance);
     options_.share_of_error *= share_of_joints;
     most_left_ *= share_of_joints;
     // Friction by multipliers lags one iteration behind them, which the motion hardly shows.

@@ -5,6 +5,9 @@
 namespace gestell::coupling
 {
 
+/// Tolerances of steps and of Newton's method below this are rounding.
+constexpr double finest_tolerance = 1e-13;
+
 // Scales in which Newton's corrections of the measures, scale [n_u], are judged: what rounding leaves of them for ever.
 // Asked for only where corrections do not end.
 

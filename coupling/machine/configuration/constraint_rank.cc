@@ -14,9 +14,6 @@ namespace
 
 using mechanism::OrthonormalDirectors;
 
-/// coefficient with which an equation counts as used: those that are have some of order one
-constexpr double taken_part = 1e-6;
-
 bool makes_rigid(const ElementPlacement &placement)
 {
   return dynamic_cast<const OrthonormalDirectors *>(placement.element.get()) != nullptr;
@@ -93,7 +90,7 @@ std::vector<std::string> ConstraintRank::bodies_of(int row) const
   std::vector<std::string> bodies;
   for (Eigen::Index i = 0; i < rows_.cols(); ++i)
   {
-    if (!(std::abs(rows_(row, i)) > taken_part))
+    if (!(std::abs(rows_(row, i)) > used_part))
       continue;
     std::string body = "the frame";
     for (const Body &candidate : machine_.model().bodies())
@@ -120,7 +117,7 @@ std::string ConstraintRank::dependence() const
     const int                row = order[rank + k];
     std::vector<std::string> joints;
     for (int j = 0; j < rank; ++j)
-      if (std::abs(coefficients(j, k)) > taken_part)
+      if (std::abs(coefficients(j, k)) > used_part)
         add_once(joints, joint_of(order[j]));
     const std::string equation               = machine_.joints().name(row);
     (is_torque(equation) ? torques : forces) = true;

@@ -10,6 +10,9 @@
 namespace gestell::coupling
 {
 
+/// Coefficient with which an equation counts as used: those that are have some of order one.
+constexpr double used_part = 1e-6;
+
 /**
  * Which equations of the joints follow from others in one position: rank of G W^T by a QR decomposition with pivots,
  * every row scaled to its size.

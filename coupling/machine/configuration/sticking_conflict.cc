@@ -1,5 +1,6 @@
 #include "coupling/machine/configuration/sticking_conflict.h"
 
+#include "coupling/machine/configuration/constraint_rank.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
 #include <Eigen/QR>
@@ -15,7 +16,6 @@ namespace
 {
 
 constexpr double dependent = 1e-10; ///< distance of a row of length one from the span of others: their rounding
-constexpr double used_part = 1e-6;  ///< coefficient with which another row counts as used
 
 /// Rows that hold motions, each of length one, and whose they are.
 struct Holding

@@ -20,7 +20,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int    most_modes = 200; ///< beyond them another method is cheaper than more modes
-constexpr double reach      = 1.5; // highest fixed-interface mode over the limit, at least
 constexpr double rule       = 3.5; // the book's
 
 } // namespace
@@ -29,8 +28,7 @@ double highest_of_interest(const ReductionOptions &options, const RefinedModes &
 {
   if (options.frequency > 0. || refined.omega.size() == 0)
     return two_pi * options.frequency;
-  constexpr int default_elastic = 12; // modes of interest if no frequency is given
-  return refined.omega(std::min<int>(default_elastic, refined.omega.size()) - 1);
+  return refined.omega(std::min<int>(elastic_of_interest, refined.omega.size()) - 1);
 }
 
 namespace
@@ -175,7 +173,7 @@ struct Look
   std::optional<InterfaceReceptance> receptance{}; // where the choice rests on it
   Judgement                          judgement{};
 
-  bool good() const { return judgement.good && highest >= reach * within; }
+  bool good() const { return judgement.good && highest >= reach_of_basis * within; }
 };
 
 bool by_receptance(const ReductionBasis &basis, const ReductionOptions &options)

@@ -25,11 +25,9 @@ double highest_kept(const ReductionOptions &options, const VectorXd &omega)
 {
   if (options.n_modes >= 0)
     return INFINITY;
-  constexpr double reach = 1.5; // highest mode over the highest frequency of interest
   if (options.frequency > 0.)
-    return reach * two_pi * options.frequency;
-  constexpr int default_elastic = 12; // modes of interest if no frequency is given
-  return omega.size() >= default_elastic ? reach * omega[default_elastic - 1] : INFINITY;
+    return reach_of_basis * two_pi * options.frequency;
+  return omega.size() >= elastic_of_interest ? reach_of_basis * omega[elastic_of_interest - 1] : INFINITY;
 }
 
 /// Finds `most`, or until one lies above the highest that is to be kept.

@@ -8,6 +8,11 @@
 namespace gestell::coupling
 {
 
+/// Elastic modes of interest if no frequency is given.
+constexpr int elastic_of_interest = 12;
+/// Highest mode of a basis over the highest frequency of interest, at least.
+constexpr double reach_of_basis = 1.5;
+
 /**
  * T of (5.5.3/16) with its rows in the frame's own order of coordinates: q = T p, p = (q1, modes).
  *
