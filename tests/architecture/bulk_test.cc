@@ -27,7 +27,7 @@ const std::map<std::string, Count> &counts()
       {"numbers at namespace scope",
        {program,
         std::regex(
-            R"(^(inline |static )?(constexpr|const) (double|int|long|float|(std::|Eigen::)?\w*(size_t|Index|int\d+_t|chrono\S*)) \w+)")}},
+            R"(^(inline |static )?(constexpr|const) (double|int|long|float|(std::|Eigen::)?\w*(size_t|Index|int\d+_t|chrono\S*)) +\w+)")}},
       {"functions that write JSON, CSV, tables, sections or Python by hand",
        {program,
         std::regex(
