@@ -163,7 +163,7 @@ void write_fmu(const std::string &path, const FmuAnswer &answer)
 
 void print_variables(const std::string &kind, const std::vector<FmuVariable> &variables)
 {
-  constexpr std::size_t most = 40;
+  constexpr std::size_t most = 40; // names of a screen's paragraph; modelDescription.xml has all
   std::cout << "  " << variables.size() << ' ' << kind << (variables.empty() ? "" : ":");
   for (std::size_t i = 0; i < variables.size() && i < most; ++i)
     std::cout << (i > 0 ? ", " : " ") << variables[i].name

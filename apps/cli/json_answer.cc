@@ -31,7 +31,7 @@ std::vector<std::string> lines_of(const std::string &text)
 /// of a megabyte reads it in the message.
 std::string judged_part(const std::string &message)
 {
-  constexpr std::size_t end = 1000;
+  constexpr std::size_t end = 1000; // letters: std::regex takes some of the stack for each
   return message.size() <= 2 * end ? message : message.substr(0, end) + " ... " + message.substr(message.size() - end);
 }
 

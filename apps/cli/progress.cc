@@ -42,7 +42,7 @@ void ProgressLine::show(const std::string &phase, double share)
     std::fprintf(stderr, "\r\033[K%s ...%s", phase.c_str(), times(share).c_str());
   else
   {
-    constexpr int width  = 24;
+    constexpr int width  = 24; // letters of a bar: 4 % each
     const int     filled = std::clamp(static_cast<int>(share * width), 0, width);
     std::fprintf(stderr, "\r\033[K%s [%s%s] %3.0f %%%s", phase.c_str(), std::string(filled, '#').c_str(),
                  std::string(width - filled, '.').c_str(), 100. * share, times(share).c_str());

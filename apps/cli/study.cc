@@ -67,7 +67,7 @@ void print_rows(const StudyAnswer &answer, const StudyFile &study, const StudyCa
   const bool merged = call.share.is_whole() || call.waits_for_shares;
   std::cout << "\nrows: " << (call.folder / (merged ? "runs.csv" : StudyFolder::name_of(call.share))).string() << '\n';
 
-  constexpr int most_listed = 3;
+  constexpr int most_listed = 3; // lines of standard error; runs.csv has all
   int           reported    = 0;
   for (std::size_t i = 0; i < answer.table.runs.size() && reported < most_listed; ++i)
     if (answer.table.runs[i].status == RunStatus::failed && ++reported)

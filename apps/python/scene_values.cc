@@ -33,7 +33,7 @@ public:
 /// As Python writes it, a long one cut.
 std::string written(py::handle value)
 {
-  constexpr std::size_t longest = 80;
+  constexpr std::size_t longest = 80; // a line of a message
   std::string           text    = py::repr(value).cast<std::string>();
   if (text.size() > longest)
     text = text.substr(0, longest) + "...";

@@ -113,7 +113,7 @@ std::vector<std::string> along_warnings(const AlongResult &along)
                            ": its modal assurance is " + short_text(at.assurance[i], 2) +
                            "; look at the shapes, or take more --positions");
   }
-  constexpr std::size_t most_listed = 5;
+  constexpr std::size_t most_listed = 5; // lines of standard error
   if (const std::size_t more = warnings.size(); more > most_listed)
   {
     warnings.resize(most_listed);

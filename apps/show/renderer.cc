@@ -43,7 +43,7 @@ constexpr const char *displacement = "displacement [m]", *stress = "von Mises st
 vtkSmartPointer<vtkLookupTable> field_colours(double most)
 {
   vtkSmartPointer<vtkLookupTable> table = vtkSmartPointer<vtkLookupTable>::New();
-  constexpr int                   n     = 64;
+  constexpr int                   n     = 64; // colours: steps that are not seen
   table->SetNumberOfTableValues(n);
   for (int i = 0; i < n; ++i)
   {

@@ -21,7 +21,7 @@ constexpr double of_a_part    = 0.2; ///< of what is allowed: modes and time are
 constexpr double without_mesh = 0.5; ///< of modes where there is none to be made finer
 constexpr double most_runs    = 10.; ///< of the chosen model, that a search may take
 
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity(); ///< of what a model may cost, or err by
 
 class Search
 {

@@ -62,7 +62,7 @@ private:
 
 CoordinateSystems::CoordinateSystems(TextFile &file)
 {
-  constexpr std::size_t first_point = 2, last_field = 10;
+  constexpr std::size_t first_point = 2, last_field = 10; // fields of the card, from 0
   systems_[0] = {};
   file.restart();
   BulkCards cards(file, {"CORD2R"});
@@ -182,7 +182,7 @@ const CoordinateSystems::System &system_of(const TextFile &file, const BulkCards
 
 void read_grids(const std::string &name, UnknownPlaces unknown, Found &found)
 {
-  constexpr std::size_t grid_id = 0, grid_cp = 1, grid_x = 2, grid_cd = 5;
+  constexpr std::size_t grid_id = 0, grid_cp = 1, grid_x = 2, grid_cd = 5; // fields of the card, from 0
   TextFile              file(name);
   std::string           usual_cp, usual_cd; // of GRDSET
   {

@@ -16,7 +16,8 @@ namespace
 {
 
 constexpr const char *unfinished = "unfinished-"; // first letters of the names beside
-constexpr auto        writing    = std::chrono::hours(1);
+/// an hour: what is older was left by a process that was killed
+constexpr auto writing = std::chrono::hours(1);
 
 std::string name_beside(const std::string &path)
 {

@@ -68,6 +68,7 @@ const Excitation &MachineLinear::excitation() const
 }
 bool MachineLinear::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen::MatrixXd &C) const
 {
+  // coordinates whose dense matrices are cheaper than their sparse factors, or nearly
   constexpr int largest_mechanism = 600;
   if (const auto *dense = dynamic_cast<const DenseBase *>(parts_.base.get()))
   {

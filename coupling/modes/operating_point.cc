@@ -137,8 +137,8 @@ struct Slope
  */
 Slope extrapolated_slope(const std::function<double(double)> &f, double first_step)
 {
-  constexpr int                                  levels = 9; // finest = 2^8
-  constexpr double                               ratio  = 2.;
+  constexpr int                                  levels = 9;  // finest = 2^8
+  constexpr double                               ratio  = 2.; // of the steps of an extrapolation
   std::array<std::array<double, levels>, levels> table{};
   Slope                                          best{0., std::numeric_limits<double>::infinity()};
   double                                         h = first_step;

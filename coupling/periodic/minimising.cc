@@ -126,7 +126,7 @@ struct Box
 
 Box box_about(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicOptions &options)
 {
-  constexpr int samples = 64;
+  constexpr int samples = 64; // of a period: extremes to (pi / 64)^2 / 2 = 0.1 %
   PeriodFlow    flow(problem, options.integration);
   const Index   n   = guess.q.size();
   VectorXd      low = VectorXd::Constant(n, 1e300), high = -low, fastest = VectorXd::Zero(n);

@@ -147,7 +147,7 @@ Settled settle(const PeriodicProblem &problem, const PeriodicGuess &from, const 
 /// With damping raised at first, and set back.
 Settled settle_damped(const PeriodicProblem &problem, const PeriodicGuess &guess, const PeriodicOptions &options)
 {
-  constexpr double levels[] = {1., 0.3, 0.1};
+  constexpr double levels[] = {1., 0.3, 0.1}; // of added damping: each starts where the stronger one led
   Settled          all;
   all.at       = guess;
   double omega = 0.;

@@ -102,7 +102,7 @@ VectorXd left_vector(const Matrices &own, const MatrixXd &Z, const VectorXd &v, 
 /// Modes that have derivatives; others are left empty.
 std::vector<TwoSidedMode> pairs_of(const Matrices &own, const std::vector<Mode> &modes)
 {
-  constexpr double rounding = 1e-12;
+  constexpr double rounding = 1e-12; // difference from the transpose, of the largest entry
   const bool       follows = (own.K - own.K.transpose()).cwiseAbs().maxCoeff() > rounding * own.K.cwiseAbs().maxCoeff();
   const bool       jointed = own.G.rows() > 0;
   const LeastSquaresSolver  joints = jointed ? LeastSquaresSolver(MatrixXd(own.G.transpose())) : LeastSquaresSolver();

@@ -16,6 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+/// L-stable, order 4: Hairer and Wanner II, table IV.6.5
 constexpr double gamma         = 0.25;
 constexpr double at_shares[5]  = {1. / 4., 3. / 4., 11. / 20., 1. / 2., 1.};
 constexpr double weights[5][4] = {{0., 0., 0., 0.},

@@ -56,7 +56,7 @@ KeptBytes kept_bytes(const Machine &machine, const RunOptions &options, std::siz
 ///         does not ask for it
 void require_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {
-  constexpr double most_pictures = 2e4;
+  constexpr double most_pictures = 2e4; // files that a folder lists in a second, and ParaView too
   const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
   if (!options.allow_large && count > most_pictures)
     too_large("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",
@@ -99,7 +99,7 @@ public:
 
 private:
   using Clock                                  = std::chrono::steady_clock;
-  static constexpr double share_of_checkpoints = 0.005;
+  static constexpr double share_of_checkpoints = 0.005; // of the time of a run
 
   static Clock::duration length(double seconds)
   {

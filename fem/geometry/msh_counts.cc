@@ -69,7 +69,7 @@ private:
   /// The begin of it, of which names of sections are.
   std::string next_line()
   {
-    constexpr std::size_t kept = 64;
+    constexpr std::size_t kept = 64; // letters: lines that count are shorter
     std::string           text;
     int                   c = in_.get();
     for (; c != '\n' && c != EOF; c = in_.get())

@@ -22,7 +22,7 @@ std::array<int, 3> SizeField::bin(const Vector3 &x) const
 
 std::uint64_t SizeField::key(const std::array<int, 3> &bin)
 {
-  constexpr std::int64_t half = 1 << 20;
+  constexpr std::int64_t half = 1 << 20; // three bins of 21 bits, from -2^20
   const auto             part = [&](int i) { return static_cast<std::uint64_t>(i + half) & (2 * half - 1); };
   return part(bin[0]) << 42 | part(bin[1]) << 21 | part(bin[2]);
 }

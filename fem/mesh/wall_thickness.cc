@@ -81,7 +81,7 @@ private:
   template <typename Action>
   static void visit(const Box &box, const Action &action)
   {
-    constexpr std::int64_t half = 1 << 20;
+    constexpr std::int64_t half = 1 << 20; // three bins of 21 bits, from -2^20
     for (std::int64_t i = box.first[0]; i <= box.second[0]; ++i)
       for (std::int64_t j = box.first[1]; j <= box.second[1]; ++j)
         for (std::int64_t k = box.first[2]; k <= box.second[2]; ++k)

@@ -29,7 +29,7 @@ std::size_t number_of_triangles()
 
 void mesh_by_hxt()
 {
-  constexpr int    hxt   = 10;
+  constexpr int    hxt   = 10; // number of gmsh
   const char      *which = "Mesh.Algorithm3D";
   double           before;
   gmsh::vectorpair volumes;

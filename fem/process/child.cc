@@ -314,7 +314,7 @@ private:
   /// The last line that the child wrote to its standard error.
   std::string last_words() const
   {
-    constexpr std::size_t longest = 200;
+    constexpr std::size_t longest = 200; // letters of a message
     std::string           words   = said_.substr(0, said_.find_last_not_of(" \n") + 1);
     words.erase(0, words.rfind('\n') + 1);
     return words.empty() ? "" : ", with the message \"" + words.substr(0, longest) + "\"";

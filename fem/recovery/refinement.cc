@@ -14,7 +14,7 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double dimension = 3.;
+constexpr double dimension = 3.; ///< of a solid: cells ~ 1 / h^3
 
 constexpr std::array<std::array<int, 2>, 6> edges = {{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
 
@@ -39,7 +39,7 @@ Eigen::VectorXd sizes_for(double lambda, const Eigen::VectorXd &h, const Eigen::
                           const Refinement &refinement)
 {
   Eigen::VectorXd  size(h.size());
-  constexpr double most_grown = 1.5, most_shrunk = 1. / 3.;
+  constexpr double most_grown = 1.5, most_shrunk = 1. / 3.; // of an element's size at once: estimates are rough
   for (Eigen::Index i = 0; i < h.size(); ++i)
     size[i] = std::clamp(h[i] * std::clamp(lambda * shape[i], most_shrunk, most_grown),
                          std::min(refinement.smallest, h[i]), refinement.largest);

@@ -35,7 +35,7 @@ std::optional<SlopeJump> jump_between(const PositionFunction::Value &before, con
 
 bool differ(double before, double after)
 {
-  constexpr double rounded = 1e-6, relative = 1e-5;
+  constexpr double rounded = 1e-6, relative = 1e-5; // of slopes that are quotients of numbers with ten digits
   return std::abs(after - before) > rounded + relative * (std::abs(before) + std::abs(after));
 }
 

@@ -11,7 +11,7 @@ namespace gestell::mechanism
 
 namespace
 {
-constexpr double at_rest[PlacedMeasure::max_measures] = {};
+constexpr double at_rest[PlacedMeasure::max_measures] = {}; ///< rates
 }
 
 CompliantJoint::CompliantJoint(const Placement &first, const Placement &second, std::vector<Equation> equations)

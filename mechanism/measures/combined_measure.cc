@@ -9,7 +9,7 @@ namespace gestell::mechanism
 {
 namespace
 {
-constexpr double at_rest[CombinedMeasure::max_measures] = {};
+constexpr double at_rest[CombinedMeasure::max_measures] = {}; ///< rates
 }
 
 CombinedMeasure::CombinedMeasure(const PlacedMeasure &measure) : CombinedMeasure({Term{1., measure}}) {}

@@ -85,7 +85,7 @@ std::vector<SharedMeasure> shared(const Gradients &a, const Gradients &b)
 
 std::string some_of(const Gradients &gradients)
 {
-  constexpr int most = 4;
+  constexpr int most = 4; // keys of a line of text
   std::string   text;
   int           n = 0;
   for (const auto &[path, own] : gradients)

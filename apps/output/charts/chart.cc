@@ -185,7 +185,7 @@ std::string line_class(const Curve &curve)
 
 std::string marker(const Curve &curve, double x, double y, bool hollow)
 {
-  constexpr double                       r    = 3.6;
+  constexpr double                       r    = 3.6; // radius of a mark
   const std::string                      n    = colour_class(curve.colour);
   const std::string                      kind = curve.marker == Marker::ring ? " class=\"line s" + n + "\""
                                                 : hollow ? " class=\"s" + n + "\" style=\"fill:var(--paper)\""

@@ -98,7 +98,7 @@ double round_enlargement(double x)
 /// Of many parts fewer instants, so that the page stays light; no motion between them is made up then.
 std::size_t instants_of(std::size_t n_parts)
 {
-  constexpr std::size_t fewest = 24;
+  constexpr std::size_t fewest = 24; // a film of one swing or two
   return n_parts <= most_instants ? most_instants : std::max(fewest, most_instants * most_instants / n_parts);
 }
 

@@ -65,9 +65,9 @@ std::optional<ComplianceRequest> read_compliance(const SceneTable &any, const Jo
     return std::nullopt;
   if (!any.declared(type.keys).declares("stiffness"))
     throw any.error(given,
-                      "makes a joint of two places yield, not a \"" + type.name +
-                          "\"; for that use a spring-damper `on` a [measure] of type " +
-                          (type.drawn == JointType::Drawn::bar ? "\"distance\"" : "\"sum\" or \"position function\""));
+                    "makes a joint of two places yield, not a \"" + type.name +
+                        "\"; for that use a spring-damper `on` a [measure] of type " +
+                        (type.drawn == JointType::Drawn::bar ? "\"distance\"" : "\"sum\" or \"position function\""));
   if (!table.has("stiffness"))
     throw any.error("needs 'stiffness' beside '" + std::string(given) + "'; a joint without any is ideal");
   if (any.has("friction"))
@@ -139,7 +139,7 @@ std::vector<CompliantJoint::Equation> yielding(const JointRequest &joint, const 
 bool is_linear(const Pair &pair, const RelativeMeasure &s)
 {
   using mechanism::PlacedMeasure;
-  constexpr double straight = 1e-12;
+  constexpr double straight = 1e-12; // of a second derivative by the values: rounding of products of unit vectors
   const int        k        = int(pair.measures.size());
   Eigen::VectorXd  u(k);
   Eigen::MatrixXd  curvature(k, k);

@@ -93,6 +93,7 @@ constexpr double lightest_common = 400., heaviest_common = 20000.; ///< [kg/m^3]
 /// ones are plastics, lighter than 2000 kg/m^3, and heavy soft metals as lead.
 void check_speed_of_waves(const SceneTable &table, const fem::Material &material)
 {
+  // [m/s] lead 1200 and plastics are light or heavy; silicon carbide has 12000
   constexpr double slowest = 2300., fastest = 14000., light = 2000., heavy = 10000.;
   const double     speed = std::sqrt(material.E / material.rho);
   if (speed > fastest || (speed < slowest && material.rho > light && material.rho < heavy))

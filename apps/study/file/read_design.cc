@@ -129,7 +129,7 @@ void refuse_others(const SceneTable &table, const std::string &type)
 /// decimals.
 double rounded_level(double level, const StudyVariable &variable)
 {
-  constexpr int digits   = 14;
+  constexpr int digits   = 14; // of 16, so that sums of steps are written as they are meant
   const double  largest  = std::max(std::abs(variable.from), std::abs(variable.to));
   const int     decimals = digits - int(std::ceil(std::log10(largest)));
   if (decimals < 0 || decimals > 300)

@@ -72,7 +72,7 @@ std::string outline_svg(const ScatterCell &cell)
 /// Names longer than a cell are cut.
 std::string fitting(const std::string &name)
 {
-  constexpr std::size_t most = 13;
+  constexpr std::size_t most = 13; // letters above a picture 92 pixels wide
   return n_letters(name) <= most ? name : name.substr(0, most - 1) + "…";
 }
 

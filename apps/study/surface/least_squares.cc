@@ -44,7 +44,7 @@ std::string dependence(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> &qr, co
 std::string confounded(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> &qr, const Eigen::VectorXd &scale,
                        const std::vector<std::string> &names)
 {
-  constexpr Eigen::Index most = 4;
+  constexpr Eigen::Index most = 4; // dependences of a message
   const Eigen::Index     n    = qr.matrixQR().cols() - qr.rank();
   std::string            text;
   for (Eigen::Index i = 0; i < std::min(n, most); ++i)

@@ -223,6 +223,7 @@ HermiteNodes::HermiteNodes(std::vector<double> sigma)
         inverse_[i] /= sigma_[i] - sigma_[j];
         own_slope_[i] += 1. / (sigma_[i] - sigma_[j]);
       }
+  // of a step: the largest value of a polynomial of degree 8 is met within some per mille
   constexpr int samples = 200;
   for (int k = 0; k < samples; ++k)
   {

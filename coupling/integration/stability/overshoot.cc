@@ -10,7 +10,7 @@ namespace gestell::coupling
 Overshoot overshoot(const MethodOptions &options, const TestOscillator &o, OscillatorStart start,
                     FirstSteps first_steps)
 {
-  constexpr int         n_steps = 20;
+  constexpr int         n_steps = 20; // the first swing, after which damping has acted
   const double          Omega   = o.omega_h;
   const bool            moving  = start == OscillatorStart::moving;
   const Eigen::Vector2d begin(moving ? 0. : 1., moving ? Omega : 0.);

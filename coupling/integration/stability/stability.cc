@@ -119,7 +119,7 @@ struct Sample
 /// so that none is stepped over.
 std::vector<Sample> samples(const Margin &f)
 {
-  constexpr int       n           = 600;
+  constexpr int       n           = 600;                       // 46 a decade of omega h
   constexpr double    least_omega = 1e-6, largest_omega = 1e7; // omega h between which intervals are looked for
   const double        a = std::log(least_omega), b = std::log(largest_omega);
   std::vector<Sample> grid(n + 1), all;

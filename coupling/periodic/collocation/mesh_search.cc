@@ -122,6 +122,7 @@ void MeshSearch::begin(const PeriodicGuess &guess)
   if (!problem_.period_is_unknown() || !(start.period > 0.))
     start.period = problem_.period;
   refuse_memory(start);
+  // at first, doubled while Newton's method does not converge
   constexpr int first_intervals = 16, most_at_first = 128;
   for (int n = first_intervals;; n *= 2)
     try
@@ -160,7 +161,7 @@ bool MeshSearch::refine()
       grid_.push_back(0.5 * (before[std::size_t(i)] + before[std::size_t(i) + 1]));
   flow_.pass(q_, v_, collocation_.period(), false);
   const Index   width         = PeriodicCollocation::stages * problem_.system->forces().directions().cols();
-  constexpr int most_unknowns = 3000;
+  constexpr int most_unknowns = 3000; // a dense Newton step of as many takes a second or two
   if (Index(grid_.size() + flow_.passage().events.size()) * width > most_unknowns)
     return false;
   set_mesh(grid_);
@@ -171,7 +172,7 @@ bool MeshSearch::refine()
 void MeshSearch::run(const PeriodicGuess &guess)
 {
   begin(guess);
-  constexpr int most_rounds = 24;
+  constexpr int most_rounds = 24; // each halves what errs most
   for (int round = 1; round < most_rounds && error() > options_.tolerance && refine(); ++round)
     solve();
   PeriodicSolution found;

@@ -19,7 +19,7 @@ namespace
 /// there as beside, and do not at a kink.
 double vertex(double x_2, double x_1, double x0, double x1, double x2)
 {
-  constexpr double alike = 2.;
+  constexpr double alike = 2.; // ratio of bends beside each other: a smooth extreme has nearly one, a kink has none
   const double     bend = x1 - 2. * x0 + x_1, left = x0 - 2. * x_1 + x_2, right = x2 - 2. * x1 + x0;
   for (const double nearby : {left, right})
     if (!(nearby * bend > 0.) || std::abs(nearby) > alike * std::abs(bend) || std::abs(bend) > alike * std::abs(nearby))

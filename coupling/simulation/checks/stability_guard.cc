@@ -342,7 +342,7 @@ bool StabilityGuard::mode_grows(double h) const
 /// Every step a little shorter, since modes pass through islands of growth.
 double StabilityGuard::by_ladder() const
 {
-  constexpr double ladder = 0.97;
+  constexpr double ladder = 0.97; // a mode that grows within 3 % of a step only is not met; bisection follows
   double           h      = ladder * options_.step;
   while (h > 1e-3 * options_.step && mode_grows(h))
     h *= ladder;

@@ -305,7 +305,7 @@ private:
 
   void tell_what_is_left()
   {
-    constexpr std::size_t most_listed = 8;
+    constexpr std::size_t most_listed = 8; // names of a message
     std::string           names;
     std::size_t           n = 0;
     for (const std::string &name : left_)
