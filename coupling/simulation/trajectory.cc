@@ -6,10 +6,6 @@
 namespace gestell::coupling
 {
 
-namespace
-{
-}
-
 void Trajectory::begin(const Instant &at, const Eigen::VectorXd &history)
 {
   history_ = history;

@@ -6,10 +6,6 @@
 namespace gestell::apps
 {
 
-namespace
-{
-}
-
 void Noise::see(const std::string &unit, double value)
 {
   if (std::isfinite(value))

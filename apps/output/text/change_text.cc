@@ -7,10 +7,6 @@
 namespace gestell::apps
 {
 
-namespace
-{
-}
-
 std::string change_text(double here, double there)
 {
   if (!std::isfinite(here) || !std::isfinite(there))
