@@ -72,7 +72,7 @@ FrontDivision::FrontDivision(const Fronts &fronts, int n_ranks)
     if (top + heaviest < least)
       least = top + heaviest, best = subtrees, best_rank = rank;
     constexpr int    most_subtrees = 64;   // per rank: enough to even out their work
-    constexpr double little        = 0.01; // of all work: subtrees that need no halving
+    constexpr double little        = 0.01; // of all work: subtrees that need no halving, as they fit between others
     if (subtrees.empty() || subtrees[0].first < little * all / n_ranks || top > least ||
         int(subtrees.size()) > most_subtrees * n_ranks)
       break;

@@ -257,7 +257,7 @@ int BlockLanczos::gap_index(int count) const
   {
     const double     above = j > 0 ? theta_(j - 1) - residual_(j - 1) : INFINITY;
     const double     next  = j < theta_.size() ? theta_(j) + residual_(j) : exhausted_ ? 0. : INFINITY;
-    constexpr double gap   = 1e-4; // of theta, between modes that count as apart
+    constexpr double gap   = 1e-4; // of theta, between modes that count as apart: far above the error of theta
     if (next < (1. - gap) * above)
       return j;
   }

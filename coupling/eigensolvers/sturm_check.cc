@@ -57,7 +57,8 @@ LowestModes SturmCheckedModes::lowest(int count)
 
 LowestModes SturmCheckedModes::find_all(int count)
 {
-  constexpr int most_rounds = 4; // of finding modes that were missing
+  // of finding modes that were missing: one suffices, unless a search misses some again
+  constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds; ++round)
   {
     find(count);
@@ -100,7 +101,7 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
   const auto missing = [&] { return count - int((known.omega.array() < omega).count()); };
   for (int block = std::max(options_.block, missing()); missing() > 0; block *= 2)
   {
-    constexpr int largest_block = 200; // with which missing modes are looked for
+    constexpr int largest_block = 200; // with which missing modes are looked for: more are no oversight of a search
     if (block > largest_block)
       throw ConvergenceFailure(kind_ + ": " + std::to_string(missing()) + " of " + std::to_string(count) + " below " +
                                rounded(omega / two_pi) + " Hz are not found; request another number of modes");
@@ -122,9 +123,10 @@ double SturmCheckedModes::largest_growth(double shift) const
 
 Inertia SturmCheckedModes::count_in_gap(double &omega)
 {
-  Inertia          best{0, INFINITY};
-  double           least    = INFINITY;                  // growth over what is allowed
-  constexpr double places[] = {0.5, 0.3, 0.7, 0.2, 0.8}; // in a gap, tried in turn
+  Inertia best{0, INFINITY};
+  double  least = INFINITY; // growth over what is allowed
+  // in a gap, tried in turn: the middle is farthest from both modes
+  constexpr double places[] = {0.5, 0.3, 0.7, 0.2, 0.8};
   for (const double place : places)
   {
     const double shift = std::isfinite(gap_.high) ? gap_.low + place * (gap_.high - gap_.low) : gap_.low * (1. + place);

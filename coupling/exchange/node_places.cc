@@ -324,7 +324,7 @@ void read_nblocks(const std::string &name, Found &found)
     const auto number = [&](int i)
     {
       const auto     value        = whole_of(found_form[i].str());
-      constexpr long longest_line = 10000; // columns, of a format
+      constexpr long longest_line = 10000; // columns, of a format: a number that is wrong would take all memory
       if (!value || *value < 1 || *value > longest_line)
         file.fail("'" + found_form[i].str() +
                   "' is not a number of columns; expected a format such as (3i9,6e21.13e3)");

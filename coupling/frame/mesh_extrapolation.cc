@@ -99,8 +99,9 @@ struct Rest
 Rest regular_rest(const std::vector<MeshValue> &meshes)
 {
   const MeshValue &last = meshes.back(), &before = meshes[meshes.size() - 2];
-  const double     step       = before.value - last.value;
-  constexpr double least_fall = 0.05, greatest_fall = 0.9; // of the estimate from mesh to mesh
+  const double     step = before.value - last.value;
+  // of the estimate from mesh to mesh: beyond, two meshes show no order
+  constexpr double least_fall = 0.05, greatest_fall = 0.9;
   const double     fall        = std::clamp(last.estimate / before.estimate, least_fall, greatest_fall);
   const double     r           = std::isfinite(fall) ? fall : greatest_fall;
   const double     by_estimate = step * r / (1. - r);

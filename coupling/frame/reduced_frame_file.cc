@@ -368,10 +368,11 @@ FrameSummary read_frame_summary(const std::string &name)
 {
   if (const std::string defect = head_defect(name, title); !defect.empty())
     throw std::runtime_error(defect);
-  fem::ReadingLimits limits             = limits_of(name);
-  constexpr double   seconds_for_a_head = 10.; // of processor time, for some kilobytes
-  limits.seconds                        = std::min(limits.seconds, seconds_for_a_head); // 0: none
-  const auto  alone                     = hdf5_alone();
+  fem::ReadingLimits limits = limits_of(name);
+  // of processor time, for some kilobytes: a thousand times what it takes
+  constexpr double seconds_for_a_head = 10.;
+  limits.seconds                      = std::min(limits.seconds, seconds_for_a_head); // 0: none
+  const auto  alone                   = hdf5_alone();
   std::string defect;
   try
   {

@@ -99,8 +99,9 @@ VectorXd bounds(const ReducedStress &stress, const std::vector<int> &points, con
   in_blocks(points,
             [&](const std::vector<int> &some)
             {
-              const MatrixXd   B       = scaled_rows(stress, some) * basis;
-              constexpr double rounded = 1. + 1e-5; // of a bound, for numbers in single precision
+              const MatrixXd B = scaled_rows(stress, some) * basis;
+              // of a bound, for numbers in single precision: some hundred times 6e-8
+              constexpr double rounded = 1. + 1e-5;
               for (std::size_t i = 0; i < some.size(); ++i)
                 bound[some[i]] =
                     rounded * B.middleRows<6>(6 * Index(i)).colwise().norm().dot(components.largest.transpose());

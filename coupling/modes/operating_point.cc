@@ -98,8 +98,9 @@ bool is_smooth(const Machine &machine, const LocalState &local, int measure, dou
     machine.forces().force(nearby, there);
     slopes[side] = (there[measure] - here[measure]) / way;
   }
-  const double     largest       = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});
-  constexpr double another_slope = 0.01; // difference of two slopes, of the largest
+  const double largest = std::max({std::abs(slopes[0]), std::abs(slopes[1]), std::abs(slope)});
+  // difference of two slopes, of the largest: far above their errors, far below what a contact makes
+  constexpr double another_slope = 0.01;
   return std::abs(slopes[0] - slope) <= another_slope * largest &&
          std::abs(slopes[1] - slope) <= another_slope * largest;
 }
@@ -167,7 +168,7 @@ constexpr double smooth = 1e-5;    ///< error of a slope beside the largest one 
 bool has_kink(const std::function<double(double)> &f, double first_step)
 {
   const auto       jump   = [&](double h) { return std::abs(f(h) - 2. * f(0.) + f(-h)) / h; };
-  constexpr double finest = 256.; // first step beside the last one
+  constexpr double finest = 256.; // first step over the last one, 2^8
   const double     small = first_step / finest, last = jump(small);
   constexpr double no_jump = 1e-9; // second difference beside the values that rounding leaves
   return last > 0.3 * jump(first_step) && last > no_jump * (std::abs(f(small)) + std::abs(f(-small))) / small;

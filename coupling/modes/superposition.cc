@@ -323,13 +323,14 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
        << omega[omega.size() - 1] / two_pi << " Hz, static deflections under forces and loads are up to "
        << 100. * result.static_residual << " % too small";
   result.statements.push_back(text.str());
-  constexpr double much_left = 0.05; // of a static deflection, worth a note
+  constexpr double much_left = 0.05; // of a static deflection, worth a note: five times the usual tolerance
   if (result.static_residual > much_left)
     result.notes.push_back("modal superposition: static deflections under forces and loads are up to " +
                            std::to_string(int(std::lround(100. * result.static_residual))) +
                            " % too small without the truncated modes; use more modes, or method = \"craig-bampton\", "
                            "whose statics are exact");
-  constexpr double considerable_share = 0.1; // of damping between two modes, worth a note
+  // of damping between two modes, worth a note: of weak damping it moves roots by its square, 1 %
+  constexpr double considerable_share = 0.1;
   if (options.diagonal_damping && result.coupling > considerable_share)
     result.notes.push_back("modal superposition: damping = \"diagonal\" ignores coupling of modes by up to " +
                            std::to_string(int(std::lround(100. * result.coupling))) +

@@ -191,7 +191,7 @@ Basins basins_of(const PeriodicProblem &problem, const std::vector<PeriodicSolut
   constexpr long  steps_of_period = 20000; // more are taken by a motion that has run away
   one.most_steps                  = steps_of_period;
   MethodOptions    integration    = options.integration;
-  constexpr double settled_finely = 1e-8; // tolerance of the steps
+  constexpr double settled_finely = 1e-8; // tolerance of the steps: attractors are told apart to 1 %
   if (!(integration.step > 0.))
     integration.tolerance = std::max(integration.tolerance, settled_finely);
   const Index                  n          = rest.q.size();

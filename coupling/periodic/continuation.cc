@@ -181,7 +181,7 @@ void Tracker::note_special(const Point &a, const Point &b)
 /// The next point; false: there is none however short the step.
 bool Tracker::next_point(const Point &here, Point &next)
 {
-  constexpr double least_part = 1e-5; // of the step that is asked for
+  constexpr double least_part = 1e-5; // of the step that is asked for: some seventeen halvings
   for (; ds_ >= least_part * wanted_; ds_ *= 0.5)
     try
     {

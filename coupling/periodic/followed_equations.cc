@@ -156,7 +156,8 @@ public:
       return true;
     }
     balance_->set_harmonics(harmonics_);
-    constexpr int points_until_next_try = 8; // where no more harmonics have a solution
+    // where no more harmonics have a solution: a try costs as much as a point
+    constexpr int points_until_next_try = 8;
     points_to_rest_                     = points_until_next_try;
     return false;
   }

@@ -213,7 +213,7 @@ private:
   }
   static MethodOptions rough(MethodOptions integration)
   {
-    constexpr double coarse = 1e-6; // tolerance of the steps far from a solution
+    constexpr double coarse = 1e-6; // tolerance of the steps far from a solution: far below `promising`
     integration.tolerance   = std::max(integration.tolerance, coarse);
     return integration;
   }
@@ -274,7 +274,8 @@ bool MotionSearch::descend(int k, VectorXd &z)
   z = equations_.unknowns(at.q, at.v, at.period);
   LeastSquares                            squares(roughly_, middle_, far_, freely ? nothing_ : known_);
   Eigen::LevenbergMarquardt<LeastSquares> minimiser(squares);
-  constexpr int                           most_steps = 60; // of one minimisation
+  // of one minimisation: a start that gets nowhere by then is given up for another one
+  constexpr int most_steps = 60;
   minimiser.setMaxfev(most_steps);
   minimiser.minimize(z);
   constexpr double promising = 0.01; // closing error below which Newton's method takes over
@@ -296,7 +297,7 @@ PeriodicSolution MotionSearch::shortest(const PeriodicSolution &solution) const
 /// Of the passages of a self-excited motion through its phase the next rising one.
 PeriodicSolution MotionSearch::rising(const PeriodicSolution &solution) const
 {
-  constexpr double rest_speed = 1e-6; // of the speeds of the box
+  constexpr double rest_speed = 1e-6; // of the speeds of the box: an equilibrium, but for the steps' errors
   if (!(solution.v.norm() > rest_speed * box_.v_half.norm()))
     throw NoPeriodicMotion("the motion is rest");
   if (solution.v[once_.phase] > 0.)
@@ -336,8 +337,9 @@ std::vector<PeriodicSolution> Minimising::solve(const PeriodicProblem &problem, 
   }
   const Box                     box = box_about(problem, near, options);
   std::vector<PeriodicSolution> found;
-  constexpr int                 highest_ratio = 3; // of sub-harmonic motions that are looked for
-  const int                     highest       = problem.period_is_unknown() || problem.ratio > 1 ? 1 : highest_ratio;
+  // of sub-harmonic motions that are looked for: higher ones are rare, and cost as many periods
+  constexpr int highest_ratio = 3;
+  const int     highest       = problem.period_is_unknown() || problem.ratio > 1 ? 1 : highest_ratio;
   for (int periods = 1; periods <= highest; ++periods)
     MotionSearch(problem, periods, box, options, found).from_all_starts();
   if (found.empty())

@@ -34,7 +34,7 @@ double still_speed(const SecondOrderSystem &system, const VectorXd &q, const Vec
 {
   if (system.forces().directions().cols() == 0)
     return 0.;
-  constexpr double at_rest = 1e-9; // sliding speed that is none, of the motion
+  constexpr double at_rest = 1e-9; // sliding speed that is none, of the motion: its rounding
   return at_rest * (v.cwiseAbs().maxCoeff() + 2. * M_PI / period * q.cwiseAbs().maxCoeff());
 }
 

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int window_periods = 32, window_samples = 2048; ///< of the lowest frequency
+constexpr int window_periods = 32, window_samples = 2048; ///< of the lowest frequency; 64 samples each
 
 /// Samples of a window of the motion.
 struct Window
@@ -214,11 +214,11 @@ void FreeMotion::follow()
     const VectorXd before      = excursion();
     window_                    = next_window(flow_, at_, length_);
     largest                    = std::max(largest, excursion().norm());
-    constexpr double runs_away = 1e9; // of the excursions of the first window
+    constexpr double runs_away = 1e9; // of the excursions of the first window: no machine swings so
     if (!(excursion().norm() < runs_away * first))
       throw NoPeriodicMotion("the machine has no drive, and its oscillation grows without limit: it is unstable; add "
                              "an element that limits its motion, such as a stop or friction");
-    constexpr double rests = 1e-6; // of the largest excursions since the start
+    constexpr double rests = 1e-6; // of the largest excursions since the start: what steps leave
     if (excursion().norm() <= rests * largest)
       throw NoPeriodicMotion("the machine has no drive: it comes to rest" +
                              std::string(pushed_ ? " after a disturbance of 0.001 m/s and rad/s" : "") +

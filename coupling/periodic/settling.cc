@@ -102,8 +102,9 @@ const LinearSystem &RaisedDamping::linear() const
 }
 using Eigen::VectorXd;
 
-constexpr int    usual_lead_in = 10;   ///< periods: a motion of 5 % damping has lost 96 % of its start
-constexpr double near_enough   = 0.01; ///< closing error at which the lead-in ends
+constexpr int usual_lead_in = 10; ///< periods: a motion of 5 % damping has lost 96 % of its start
+/// closing error at which the lead-in ends: Newton's method starts within its reach
+constexpr double near_enough = 0.01;
 
 /// One period; the state behind it, whole turns taken off, becomes the next start.
 double one_period(PeriodFlow &flow, const PeriodicProblem &problem, PeriodicGuess &at)
@@ -246,7 +247,7 @@ public:
       not_settled(first, problem);
     std::vector<PeriodicSolution> found = {reported(problem, first, options)};
     PeriodicGuess                 other = first.at;
-    constexpr double              kick  = 0.5; // of the velocities, for the second start
+    constexpr double kick = 0.5; // of the velocities, for the second start: more than doubles its kinetic energy
     other.v *= 1. + kick;
     if (problem.period_is_unknown())
       return found; // a drive that is kicked only needs long to come back

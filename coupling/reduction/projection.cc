@@ -125,7 +125,7 @@ ReducedFrame project(const fem::FrameMatrices &frame, const ReductionBasis &basi
 void name_free_motions(ReducedFrame &reduced, const fem::FrameMatrices &frame, const std::vector<int> &q1)
 {
   VectorXd        &frequencies      = reduced.frequencies_hz;
-  constexpr double suspiciously_low = 1e-5; // of the highest frequency: may be rounding
+  constexpr double suspiciously_low = 1e-5; // of the highest frequency: below, its square may be rounding
   if (frequencies.size() == 0 || frequencies(0) > suspiciously_low * frequencies.maxCoeff())
     return;
   reduced.facts.free_motions = fem::free_motions(frame, {});

@@ -137,7 +137,7 @@ std::string without_derivative(const std::vector<Mode> &modes, std::size_t j)
     return "it is a free motion with frequency zero";
   if (modes[j].growth != 0.) // its partner may be no longer among them
     return "the mode flutters";
-  constexpr double rest = 1e-6; // of the highest frequency: it is zero
+  constexpr double rest = 1e-6; // of the highest frequency: its square is rounding of the largest
   if (f <= rest * modes.back().frequency_hz)
     return "the frequency is zero compared with the highest one";
   constexpr double meet = 1e-7; // relative difference of frequencies whose shapes are not told apart

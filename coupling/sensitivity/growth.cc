@@ -22,7 +22,7 @@ Growth::Growth(const Machine &machine, const VectorXd &mass, const Trajectory &t
 {
   const auto      &pieces = trajectory.pieces();
   const double     begin = pieces.front().nodes.front().t, end = pieces.back().nodes.back().t;
-  constexpr double early = 0.1; // of the run
+  constexpr double early = 0.1; // of the run: growth is judged against what the begin has
   first_                 = begin + early * (end - begin);
   VectorXd low = pieces.front().nodes.front().q, high = low;
   for (const SmoothPiece &piece : pieces)
@@ -47,7 +47,8 @@ void Growth::look(double t, const Eigen::MatrixXd &s)
     const VectorXd weights = root_mass_.cwiseProduct(s.col(Index(k)).cwiseAbs());
     for (Index i = 0; i < way_.size(); ++i)
     {
-      constexpr double takes_part = 1e-3; // of the largest of the derivative
+      // of the largest of the derivative: what is less tells nothing of its growth
+      constexpr double takes_part = 1e-3;
       if (!(way_[i] > 0.) || !(weights[i] > takes_part * weights.maxCoeff()))
         continue;
       Largest     &most  = largest_[k];

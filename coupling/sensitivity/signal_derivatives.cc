@@ -355,11 +355,11 @@ Turn SignalDerivatives::turn(std::size_t signal, MotionState at, MotionColumns c
 {
   Turn          found;
   double        way  = find_turn(signal, at, step, size, found);
-  constexpr int most = 3; // of Newton's steps to where a signal turns
+  constexpr int most = 3; // of Newton's steps to where a signal turns: quadratic, from a way to `arrived`
   for (int k = 0; k < most; ++k)
   {
     const double     by      = -found.rate / found.second;
-    constexpr double arrived = 1e-3; // of a way: no step is needed
+    constexpr double arrived = 1e-3; // of a way: no step is needed, as extremes are flat
     if (!found.known() || !(std::abs(by) < step) || std::abs(by) < arrived * way)
       break;
     at      = moved(at, course(at, way), by);

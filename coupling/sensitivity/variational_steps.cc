@@ -80,7 +80,7 @@ void PieceReader::read(double close, MotionState &state)
     --here_;
   const MotionNode &a = nodes[here_], &b = nodes[std::min(here_ + 1, nodes.size() - 1)];
   const double      h            = b.t - a.t;
-  constexpr double  same_instant = 1e-9; // of the distance of nodes
+  constexpr double  same_instant = 1e-9; // of the distance of nodes: rounding of times
   for (const MotionNode *node : {&a, &b})
     if (std::abs(t - node->t) <= same_instant * h || h == 0.)
     {

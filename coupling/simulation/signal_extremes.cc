@@ -146,7 +146,7 @@ void SignalExtremes::refine(double shortest)
   for (int first = begin_; first + window <= n_;)
   {
     const double  piece = 0.25 * (samples_[first + window - 1].t - samples_[first].t);
-    constexpr int most  = 4096; // samples in a step
+    constexpr int most  = 4096; // samples in a step: a bound for forces that chatter
     if (piece > shortest && n_ < begin_ + most && rough(first))
       halve(first);
     else
@@ -213,7 +213,8 @@ bool SignalExtremes::rough(int first) const
     double difference = 0.;
     for (int j = 0; j < window; ++j)
       difference += weight[j] * s[j].values[i];
-    constexpr double missed  = 5e-5; // epsilon
+    // epsilon: an extreme is met to 5e-5 of the range, a digit more than reports have
+    constexpr double missed  = 5e-5;
     const double     missing = std::abs(difference) / missed;
     if (counts(i) && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
       return true;

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr std::size_t reach   = 96;   ///< states of a scale on either side of an extreme
-constexpr double      rounded = 1e-9; ///< of a spacing
+constexpr double      rounded = 1e-9; ///< of a spacing: rounding of times
 
 } // namespace
 

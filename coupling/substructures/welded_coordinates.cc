@@ -93,7 +93,7 @@ void require_facing(const FrameJoint &joint, const fem::Interface &first, const 
 {
   if (!joint.closes())
     return;
-  constexpr double along_the_face = 0.5; // cosine of 60 degrees
+  constexpr double along_the_face = 0.5; // cosine of 60 degrees: nearer to the face than to its normal
   for (const fem::Interface *side : {&first, &second})
     if (const double cosine = std::abs(joint.normal.dot(side->face.axes.col(2)));
         side->face.known() && cosine < along_the_face)

@@ -126,8 +126,9 @@ BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &mo
   int    n_tried = 0;
   for (const auto &[apart, of_a, of_b] : pairs)
   {
-    constexpr double same      = 1e-9; // [m]: distances that differ by less are equal
-    constexpr int    most_here = 400;  // pairs of faces tried once a distance is found: equal boxes are common in grids
+    // [m]: distances that differ by less are equal, as CAD programs agree to 1e-7 m
+    constexpr double same      = 1e-9;
+    constexpr int    most_here = 400; // pairs of faces tried once a distance is found: equal boxes are common in grids
     if (apart * model.unit > best.distance + same || (best.distance < INFINITY && ++n_tried > most_here))
       break;
     BRepExtrema_DistShapeShape extrema(of_a->shape, of_b->shape);

@@ -165,7 +165,8 @@ void judge_memory(const MeshedModel &result, const FrameSpecification &specifica
 /// Notes what forces elements far smaller than the size.
 void judge_features(MeshedModel &result, const MeshOptions &options)
 {
-  constexpr double    much_smaller = 0.02; // than the size: edges and faces worth a note
+  // than the size: edges and faces worth a note, as they rule cells around them
+  constexpr double    much_smaller = 0.02;
   const double        limit        = much_smaller * options.size;
   const SmallFeatures features     = small_features(result.model, limit);
   result.smallest                  = describe(features);

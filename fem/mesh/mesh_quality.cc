@@ -44,7 +44,7 @@ void climb(Mesh &mesh, int point, const Freedom &freedom, const std::vector<int>
 {
   const double     edge       = shortest_edge(mesh, point, star);
   double           best       = worst_quality(mesh, star);
-  constexpr double first_step = 0.2;   // of the shortest edge at the point
+  constexpr double first_step = 0.2;   // of the shortest edge at the point: cells stay upright
   constexpr double last_step  = 0.005; // of the same edge: what is moved less changes no quality
   for (double step = first_step; step > last_step;)
   {

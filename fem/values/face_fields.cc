@@ -114,7 +114,7 @@ PlaneFace plane_face(const Matrix3Xd &points, const Vector3d &normal)
   const Eigen::Matrix3d    axes = axes_of(normal);
   const Extent             extent(points, axes);
   const Eigen::RowVectorXd height    = normal.transpose() * points;
-  constexpr double         off_plane = 1e-6; // of the reach of the points
+  constexpr double         off_plane = 1e-6; // of the reach of the points: digits of files and of CAD programs
   if (height.maxCoeff() - height.minCoeff() > off_plane * (extent.high - extent.low).norm())
     return face;
   face.axes   = axes;

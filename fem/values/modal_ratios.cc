@@ -14,7 +14,7 @@ namespace
 template <typename Values, typename Write>
 void write_list(std::ostringstream &out, const Values &values, const Write &write)
 {
-  constexpr std::size_t n_shown = 6; // numbers of a list or table
+  constexpr std::size_t n_shown = 6; // numbers of a list or table: a line of text
   for (std::size_t i = 0; i < std::min(values.size(), n_shown); ++i)
   {
     out << (i > 0 ? ", " : "");

@@ -296,9 +296,10 @@ void BdfControlled::resolve_stiffness()
     const double h = step_of(rung_ + 1), squared = h * h;
     if (stiffness_.size() == 0 || stiffness_.maxCoeff() == 0. || h < options_.smallest_step)
       break;
-    const StepForm   form{1., h, squared, squared, 1., 1. / h, 1. / squared, h};
-    const double     most     = implicit_.condensed(form, work_).S.diagonal().cwiseProduct(stiffness_).maxCoeff();
-    constexpr double resolved = 0.5; // omega h of a start's shortest Euler step
+    const StepForm form{1., h, squared, squared, 1., 1. / h, 1. / squared, h};
+    const double   most = implicit_.condensed(form, work_).S.diagonal().cwiseProduct(stiffness_).maxCoeff();
+    // omega h of a start's shortest Euler step, which errs by its square over two, 1/8
+    constexpr double resolved = 0.5;
     if (!(most > resolved * resolved))
       break;
     rung_ += std::max(1, static_cast<int>(std::ceil(std::log2(std::sqrt(most) / resolved))));

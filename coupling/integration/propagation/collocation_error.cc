@@ -135,7 +135,7 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   reach(end);
   grow_scale(end.u, end.v, table.h);
   estimate(table);
-  constexpr int steps_of_way = 16; // between two looks at the way of the motion
+  constexpr int steps_of_way = 16; // between two looks at the way of the motion, which cost a few products each
   // The way of the motion costs a pass over the modes: it is looked at where it may save the step, else now and then.
   if (context_.error_tolerance == 0. || (error_ <= context_.error_tolerance && age_of_way_++ % steps_of_way != 0))
     return;

@@ -70,7 +70,7 @@ void CollocationStep::begin(const VectorXd &x, const LocalState &at)
 
 bool CollocationStep::solve(const StepTable &table, LocalState &end)
 {
-  constexpr int most_doubtful = 6; // halvings
+  constexpr int most_doubtful = 6; // halvings: a 64th of the step
   // A step tried from here before was refused.  But it tells how far the motion goes by its end, and until then
   // scales are not below that: a motion that begins from rest, like t^3, would else have no step small enough.
   // One that errs by as much as it moves tells little, unless shorter ones do so too.

@@ -163,7 +163,7 @@ std::string AveragingMethod::left_out(const PeriodicProblem &problem, const Peri
       constexpr double beside_resonance = 1.03; // times the period: an undamped base has no response at its resonance
       other                             = balanced(beside_resonance * solution.period);
     }
-    constexpr double far_away = 0.5; // of the amplitude: another motion
+    constexpr double far_away = 0.5; // of the amplitude: another motion, as the period differs by 3 % only
     if (const double apart = distance_of(*solution.series, *other.series); apart <= far_away)
     {
       note << "harmonic balance with " << H << " harmonics differs from it by " << apart << " of its amplitude";

@@ -246,7 +246,7 @@ std::vector<double> SlowFlow::amplitudes(double from, double to)
     const double     least  = std::max(std::min(at_rest, base), least_damping * omega_0_);
     constexpr double reach  = 1e3; // of amplitudes searched, below that of the linear system
     from                    = load_omega_ > 0. ? linear / reach : 1. / reach;
-    constexpr double beyond = 10.; // times its amplitude in resonance
+    constexpr double beyond = 10.; // times its amplitude in resonance: play and friction may enlarge it
     to                      = load_omega_ > 0. ? beyond * push / least : reach;
   }
   constexpr int       grid_points = 1500; // amplitudes, about 1 % apart over six decades

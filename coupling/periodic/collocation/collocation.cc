@@ -301,7 +301,7 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
     const bool  done = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
                       (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
     double           part           = 1.;
-    constexpr double longest_change = 0.5; // of T in a Newton step
+    constexpr double longest_change = 0.5; // of T in a Newton step: T stays above zero
     if (problem_.period_is_unknown())
       part = std::min(1., longest_change * period_ / std::abs(dP.tail(1)[0]));
     bool nearer = done;
@@ -380,9 +380,10 @@ VectorXd PeriodicCollocation::errors(const VectorXd &P)
   VectorXd       x    = begin_of(P), x_at(x.size());
   for (Index i = 0; i < n_intervals(); ++i)
   {
-    const StepTable &table     = tables_[std::size_t(i)];
-    const VectorXd   P_i       = P.segment(i * width, width);
-    constexpr double watched[] = {0., 0.2, 0.5, 0.8, 1.}; // of an interval, where defects are looked at
+    const StepTable &table = tables_[std::size_t(i)];
+    const VectorXd   P_i   = P.segment(i * width, width);
+    // of an interval, where defects are looked at: its ends, and between its four points
+    constexpr double watched[] = {0., 0.2, 0.5, 0.8, 1.};
     for (const double part : watched)
     {
       if (part == 1.)

@@ -16,9 +16,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double      mesh_tolerance  = 1e-8; ///< of PeriodicCollocation::errors()
-constexpr double      another         = 1e-6; ///< distance of two mesh points, in periods
+constexpr double      another         = 1e-6; ///< distance of two mesh points, in periods: far below an interval
 constexpr std::size_t least_intervals = 16;   ///< of a period: a harmonic of order 4 has four intervals a swing
-constexpr double      small_share     = 1e-3; ///< of the place of an event in the length of z
+/// of the place of an event in the length of z: motions count there, not places
+constexpr double small_share = 1e-3;
 
 bool equal(const std::vector<double> &a, const std::vector<double> &b, double moved)
 {
@@ -244,7 +245,7 @@ void CollocationBranch::move_events(const std::vector<double> &events)
     return;
   if (events.size() != events_.size())
     throw ConvergenceFailure("the number of events changes" + by_shooting);
-  constexpr double longest_move = 0.2; // of an event, in periods
+  constexpr double longest_move = 0.2; // of an event, in periods: beyond it is another one
   for (std::size_t k = 0; k < events.size(); ++k)
     if (std::abs(events[k] - events_[k]) > longest_move)
       throw ConvergenceFailure("an event of the motion passes the beginning of the period" + by_shooting);

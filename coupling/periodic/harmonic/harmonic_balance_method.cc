@@ -373,7 +373,8 @@ void BalanceSearch::grow()
       newton_ = newton;
       continue;
     }
-    constexpr double another_motion = 0.3; // distance of two motions, of the unknowns
+    // distance of two motions, of the unknowns: more harmonics change a motion less
+    constexpr double another_motion = 0.3;
     if ((z_ - start).norm() > another_motion * start.norm())
       others_ = "with fewer than " + std::to_string(tried) + " harmonics another solution was found than with these";
     left_out_ = balance_.left_out(z_);
@@ -402,7 +403,7 @@ void BalanceSearch::sample_finely()
 void BalanceSearch::check_memory()
 {
   const HarmonicForces::Memory memory     = balance_.memory(z_);
-  constexpr double             remembered = 1e-9; // share of the force above which memory counts
+  constexpr double             remembered = 1e-9; // share of the force above which memory counts: above rounding
   if (!(memory.share > remembered))
     return;
   std::ostringstream message;

@@ -32,7 +32,7 @@ double top(const std::function<double(double)> &f, double a, double b)
 /// Where f falls through a level between `high`, where it is above, and `low`, where it is below.
 double crossing(const std::function<double(double)> &f, double level, double high, double low)
 {
-  constexpr double width_of_side = 1e-7; // of the width of the peak
+  constexpr double width_of_side = 1e-7; // of the width of the peak, so of its damping
   const double     begin         = std::abs(high - low);
   while (std::abs(high - low) > width_of_side * std::min(begin, std::abs(high)) * 1e-2 && 0.5 * (high + low) != high &&
          0.5 * (high + low) != low)

@@ -104,8 +104,8 @@ MatrixXd inverted(const Matrices &of, double sigma)
 
 bool grows(const Complex &s, double sigma)
 {
-  constexpr double at_rest      = 1e-6; // |s| / sigma
-  constexpr double least_growth = 1e-7; // Re s / |s|
+  constexpr double at_rest      = 1e-6; // |s| / sigma: a double root at rest parts by the root of rounding, 1e-8
+  constexpr double least_growth = 1e-7; // Re s / |s|: two that nearly meet part by the root of rounding, 1e-8
   return std::abs(s) > at_rest * sigma && s.imag() >= 0. && s.real() > least_growth * std::abs(s);
 }
 

@@ -149,8 +149,9 @@ void LargestMultipliers::take(MatrixXd images)
   residuals_.resize(values_.size());
   for (Index k = 0; k < values_.size(); ++k)
     residuals_[k] = (outside * eigen.eigenvectors().col(k)).norm() / eigen.eigenvectors().col(k).norm();
-  double           largest       = 0.;   // but for that of the shift in time
-  constexpr double shift_in_time = 1e-6; // distance from 1 of its multiplier
+  double largest = 0.; // but for that of the shift in time
+  // distance from 1 of its multiplier: known to closing errors times its condition
+  constexpr double shift_in_time = 1e-6;
   for (const auto &mu : values_)
     if (std::abs(mu - 1.) > shift_in_time)
       largest = std::max(largest, std::abs(mu));
@@ -159,7 +160,7 @@ void LargestMultipliers::take(MatrixXd images)
   for (Index k = 0; k < values_.size(); ++k)
     if (std::abs(values_[k]) >= decides * largest)
       leaves_ = std::max(leaves_, residuals_[k]);
-  constexpr double ritz_residual = 1e-8; // to which the largest multipliers are known
+  constexpr double ritz_residual = 1e-8; // to which the largest multipliers are known: as finely as motions close
   converged_                     = leaves_ <= ritz_residual;
   Z_                             = orthonormal_columns(images, Z_.cols());
 }

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr long least_steps = 1000; ///< that a segment may take
+constexpr long least_steps = 1000; ///< that a segment may take, however short the first ones were
 } // namespace
 
 CyclicSystem::CyclicSystem(const std::vector<MatrixXd> &A, const MatrixXd &b, Index phase)
@@ -241,14 +241,15 @@ double length(const PeriodicProblem &problem, double speed, VectorXd dz)
 /// z - part dz with the largest part of 1, 1/2, 1/4 ... behind which the same matrix gives a shorter step.
 bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, VectorXd &z, double tolerance)
 {
-  const CyclicSystem matrix                 = equations.matrix();
-  const VectorXd     dz                     = matrix.solve(equations.residual());
-  const double       speed                  = equations.fastest();
-  const double       before                 = length(problem, speed, dz);
-  constexpr double   longest_step_of_states = 2.; // mean step of a state, of the fastest speed
-  const double       most                   = longest_step_of_states * std::sqrt(equations.segments()) * speed;
-  double             part                   = dz.allFinite() ? std::min(1., most / before) : 0.;
-  constexpr int      most_halved            = 12; // 2^-12: a direction that does not help by then helps nowhere
+  const CyclicSystem matrix = equations.matrix();
+  const VectorXd     dz     = matrix.solve(equations.residual());
+  const double       speed  = equations.fastest();
+  const double       before = length(problem, speed, dz);
+  // mean step of a state, of the fastest speed: from one end of a swing to the other
+  constexpr double longest_step_of_states = 2.;
+  const double     most                   = longest_step_of_states * std::sqrt(equations.segments()) * speed;
+  double           part                   = dz.allFinite() ? std::min(1., most / before) : 0.;
+  constexpr int    most_halved            = 12; // 2^-12: a direction that does not help by then helps nowhere
   for (int k = 0; k < most_halved && part > 0.; ++k, part *= 0.5)
     try
     {

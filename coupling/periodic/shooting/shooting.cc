@@ -130,7 +130,7 @@ void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, con
     return;
   const double omega = 2. * M_PI / found.period, moves = found.v.norm(),
                meant       = guess.v.norm() + omega * guess.q.norm();
-  constexpr double at_rest = 1e-6; // speed of a motion, of its guess
+  constexpr double at_rest = 1e-6; // speed of a motion, of its guess: an equilibrium, but for the steps' errors
   if (!(moves > at_rest * meant))
     throw NoPeriodicMotion(
         "the search converged to rest, which has no period; begin closer to the intended motion (--lead-in)");

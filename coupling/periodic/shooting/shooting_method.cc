@@ -62,7 +62,7 @@ double ChordNewton::step(VectorXd &z, bool formed_here)
 {
   const double     before        = equations_.residual().norm();
   const VectorXd   dz            = slow_.correction(equations_.residual());
-  constexpr double smallest_part = 1e-3; // of a step that is halved
+  constexpr double smallest_part = 1e-3; // of a step that is halved ten times: then the direction does not help
   for (double part = 1.; part > smallest_part; part *= 0.5)
   {
     const VectorXd next = z - part * dz;
@@ -120,13 +120,14 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &sl
                             const PeriodicOptions &options)
 {
   MethodOptions    coarse       = options.integration;
-  constexpr double coarse_steps = 1e-6; // tolerance of the steps at first
+  constexpr double coarse_steps = 1e-6; // tolerance of the steps at first: as far as the motion then closes
   coarse.tolerance              = std::max(coarse.tolerance, coarse_steps);
   const double omega            = 2. * M_PI / problem.period;
   ChordNewton  roughly(problem, coarse, slow, omega), finely(problem, options.integration, slow, omega);
   lead_in(roughly.equations().flow(), problem, options, near);
-  VectorXd         z           = roughly.equations().unknowns(near.q, near.v, near.period);
-  constexpr double coarse_goal = 1e-6; // closing error at which the fine steps begin
+  VectorXd z = roughly.equations().unknowns(near.q, near.v, near.period);
+  // closing error at which the fine steps begin: the coarse ones err by as much
+  constexpr double coarse_goal = 1e-6;
   const bool       closes      = roughly.close(z, coarse_goal, options.iterations);
   if (!slow.formed())
     roughly.form(z);

@@ -29,9 +29,10 @@ int append_attachment_modes(ReductionBasis &basis, const fem::FrameMatrices &fra
     W -= basis.fixed_modes() * (M_modes.transpose() * W);
 
   const SymmetricEigenSolver mass(W.transpose() * symmetric_product(frame.M, W));
-  constexpr double           rounding = 1e-6; // size of a shape beside what it was made from
-  const auto                 dropped  = (mass.eigenvalues().array() <= rounding * rounding).count();
-  const auto                 kept     = W.cols() - dropped;
+  // size of a shape beside what it was made from: its square is rounding of the mass
+  constexpr double rounding = 1e-6;
+  const auto       dropped  = (mass.eigenvalues().array() <= rounding * rounding).count();
+  const auto       kept     = W.cols() - dropped;
   if (kept == 0)
     return 0;
   W = W * mass.eigenvectors().rightCols(kept) * mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();

@@ -17,8 +17,9 @@ namespace
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-constexpr double  steps_of_period = 10.;  ///< below which it is worth a word
-constexpr double  negligible      = 1e-9; ///< R, of the largest force
+/// below which it is worth a word: linear interpolation misses 5 % of a sine of ten points
+constexpr double  steps_of_period = 10.;
+constexpr double  negligible      = 1e-9; ///< R, of the largest force: rounding
 const char *const resolution      = "step-resolution";
 
 template <typename... Parts>
@@ -167,9 +168,9 @@ void add_of_time(const LocalForces &forces, const LocalState &state, double begi
   constexpr int most_named = 3; // forces, a message each
   for (Eigen::Index i = 0; i < n && n_named < most_named; ++i)
   {
-    constexpr double seen   = 0.5; // share of R
+    constexpr double seen   = 0.5; // share of R: the other half lies between the steps
     const bool       hidden = looks.seen_range(i) < seen * looks.range(i);
-    constexpr double often  = 0.25; // share of the steps
+    constexpr double often  = 0.25; // share of the steps: kinks and shocks take fewer
     if (!(looks.range(i) > least) || !(hidden || looks.n_differing(i) > often * steps.size()))
       continue;
     const std::string element = forces.element_of(int(i));

@@ -33,7 +33,7 @@ struct Changes
   bool depend(Eigen::Index from, Eigen::Index n) const
   {
     const double     change     = n > 0 ? changes.segment(from, n).maxCoeff() : 0.;
-    constexpr double same_value = 1e-9; // after a shift, against the largest change
+    constexpr double same_value = 1e-9; // after a shift, against the largest change: rounding
     return change > 0. && differs.segment(from, n).maxCoeff() > same_value * change;
   }
 };

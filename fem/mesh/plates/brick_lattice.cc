@@ -93,7 +93,7 @@ BrickLattice brick_lattice(const PlateSolids &solids, double diagonal, const std
     for (const PlateFace &face : solids.faces)
       if (face.direction == d)
         levels.push_back(face.level);
-    constexpr double same_plane = 2e-6; // of the model
+    constexpr double same_plane = 2e-6; // of the model: CAD programs agree on points to about 1e-7 of it
     lattice.planes[d]           = planes_of(levels, same_plane * diagonal);
     n *= std::max(0, lattice.n(d));
   }

@@ -9,7 +9,7 @@ namespace gestell::fem
 namespace
 {
 
-constexpr double growth   = 4.;   // from cell to cell
+constexpr double growth   = 4.;   ///< from cell to cell: 1/16, 1/4 and 1 of the size
 constexpr double rounding = 1e-9; ///< of widths that are sums of widths
 
 /// Narrow cells that grow from a plane.
@@ -57,7 +57,7 @@ std::vector<double> cell_limits(const Sheet &sheet, double size, int layers, boo
 
   const double     amid   = sheet.width() - low.along.back() - high.along.back();
   const double     narrow = std::min(low.next, high.next) / growth;
-  constexpr double jump   = 4.; // from the narrow cells to those amid them
+  constexpr double jump   = 4.; // from the narrow cells to those amid them, as from cell to cell
   const double     wide   = low.along.size() + high.along.size() > 2 ? std::min(size, jump * narrow) : size;
   constexpr double thick  = 1. / 4.; // of the size: such walls have two cells through them
   const int        least  = !is_wall ? 1 : std::max(layers, sheet.width() > thick * size ? 2 : 1);

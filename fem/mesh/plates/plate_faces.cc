@@ -361,7 +361,7 @@ private:
     double                     turn = 0.;
     for (std::size_t i = 1; i + 1 < x.size(); ++i)
       turn += std::acos(std::clamp(dot(unit(x[i] - x[i - 1]), unit(x[i + 1] - x[i])), -1., 1.));
-    constexpr int sides_of_circle = 16; // of the section of a hole
+    constexpr int sides_of_circle = 16; // of the section of a hole: its area is 2.6 % small
     return 2 * std::max(1, static_cast<int>(std::ceil(turn / (4. * std::acos(-1.) / sides_of_circle) - 1e-3)));
   }
 

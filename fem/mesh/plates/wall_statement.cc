@@ -24,7 +24,7 @@ void count(const std::array<double, 3> &widths, const std::array<int, 3> &sheet,
 {
   const auto       thin      = static_cast<int>(std::min_element(widths.begin(), widths.end()) - widths.begin());
   const double     thickness = widths[thin];
-  constexpr double slender   = 3.; // width over thickness of a wall
+  constexpr double slender   = 3.; // width over thickness of a wall: less is a block
   if (std::min(widths[(thin + 1) % 3], widths[(thin + 2) % 3]) < slender * thickness)
     return;
   walls.sheets.insert({thin, sheet[thin]});
