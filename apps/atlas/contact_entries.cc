@@ -320,7 +320,7 @@ AtlasEntry chatter()
       {{"masses", "events a step", "steps gone over", "most parts within one step's length"}},
       {}};
   constexpr double gap = 1., omega_contact = 1.; // in steps, at the speed 1
-  constexpr int    n_steps = 60;
+  constexpr int    n_steps = 60;                 // two impacts of each mass and more
   for (const int n : {10, 30, 60})
   {
     auto          machine = rattling_masses(n, gap, omega_contact);

@@ -105,7 +105,7 @@ AtlasEntry growth_entry(AtlasEntry entry, const std::vector<Trial> &trials, doub
 
 AtlasEntry bdf3_on_a_frame()
 {
-  constexpr double          zeta  = 0.01;
+  constexpr double          zeta  = 0.01; // of welded frames
   const std::vector<double> hertz = {20., 60., 150., 400.};
   std::vector<TrialMass>    masses;
   for (const double f : hertz)

@@ -14,7 +14,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double omega_base = 50., step = 1e-3;
+constexpr double omega_base = 50., step = 1e-3; ///< rad/s, s: omega h = 0.05, so that the steps' own error is small
 
 /// 1 kg on a spring of the base system, held besides by an element of stiffness c.
 coupling::Machine held_mass(double c)

@@ -18,7 +18,7 @@ namespace
 
 using Eigen::VectorXd;
 
-constexpr double length = 1., omega = 5.;
+constexpr double length = 1., omega = 5.; ///< m, rad/s: of the examples
 
 /// 1 kg that goes round the origin at the end of a massless bar, without weight: x = length e^(i omega t).
 coupling::Machine revolving_mass()

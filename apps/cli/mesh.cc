@@ -73,7 +73,7 @@ double length_option(const std::string &option, const std::string &text)
   return option_of(option, text, kind::length, "80 mm");
 }
 
-constexpr double steel = 7850.; ///< [kg/m^3]
+constexpr double steel = 7850.; ///< [kg/m^3] of structures; what is not steel is given in the scene
 
 /// "in steel", or of which density.
 std::string weighed(double density)

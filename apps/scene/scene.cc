@@ -37,8 +37,9 @@ void look_at(const BodyRequest &body, Unexpected &found)
                          short_text(heaviest) +
                          " kg; numbers without a unit are in kg, others are written as \"3 t\", \"20 g\"",
                      std::max(body.mass / heaviest, lightest / body.mass)});
-  const double     arm    = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 1.;
-  constexpr double widest = 20., narrowest = 1e-4; // m, radius of gyration
+  const double arm = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 1.;
+  // m, radius of gyration: of the largest mills, and of a watch's wheels
+  constexpr double widest = 20., narrowest = 1e-4;
   if (arm > widest || arm < narrowest)
     found.push_back({body.place,
                      "has " + short_text(body.inertia) + " kg m^2 with " + short_text(body.mass) +
@@ -47,7 +48,7 @@ void look_at(const BodyRequest &body, Unexpected &found)
                          " m; is its mass or inertia in another unit, such as \"40 kg mm^2\"?",
                      std::max(arm / widest, narrowest / arm)});
   const double     place    = std::hypot(body.position[0], body.position[1], body.position[2]);
-  constexpr double farthest = 200.; // m
+  constexpr double farthest = 200.; // m: machines and their halls
   if (place > farthest)
     found.push_back({body.place,
                      "lies " + short_text(place) + " m from the origin; expected: at most " + short_text(farthest) +
@@ -69,7 +70,7 @@ void warn_of_implausible_numbers(Scene &scene)
   Unexpected found;
   for (const BodyRequest &body : scene.bodies)
     look_at(body, found);
-  constexpr double most_turns = 2.; // of a start
+  constexpr double most_turns = 2.; // of a start: an angle in degrees has some hundred
   for (const NamedValue &angle : scene.start.q)
     if (const double turned = std::abs(angle.value) / (2. * M_PI); turns(scene, angle.name) && turned > most_turns)
       found.push_back({angle.place,

@@ -119,7 +119,7 @@ void hold_free_motions(const coupling::ReducedFrame &frame, Reasons &reasons, Pa
       for (Eigen::Index i = 0; i < R.rows(); ++i)
         if (counts(int(i)) && (best < 0 || R.row(i).norm() > R.row(best).norm()))
           best = i;
-      constexpr double no_rank = 1e-6; // of the largest row
+      constexpr double no_rank = 1e-6; // of the largest row: digits of files
       if (best < 0 || take(R, best) <= no_rank * most)
         return found;
       act(int(best));

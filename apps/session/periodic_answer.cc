@@ -58,7 +58,7 @@ void trace_signals(coupling::Machine &machine, const coupling::PeriodicProblem &
   if (std::any_of(signals.begin(), signals.end(), [](const auto &signal) { return signal.reads_acceleration(); }))
     accelerations.emplace(machine);
   const Eigen::VectorXd            none;
-  constexpr int                    least_samples = 4096; // of a period, for extremes
+  constexpr int                    least_samples = 4096; // of a period, for extremes: to (pi / 4096)^2 / 2 = 3e-7
   const int                        finer         = std::max(1, least_samples / rows);
   std::vector<std::vector<double>> samples(signals.size());
   int                              k = 0;

@@ -171,7 +171,8 @@ void follow_branches(const SceneFamily &family, const std::vector<PeriodicSoluti
         for (const auto &other : new_branches(family, special, options, along, times, on_point))
         {
           keep(other);
-          constexpr int generations = 2; // of branches that leave branches
+          // of branches that leave branches: beyond them cascades of period doubling do not end
+          constexpr int generations = 2;
           if (generation < generations)
             shed(other, times, generation + 1);
         }

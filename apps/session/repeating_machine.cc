@@ -90,7 +90,7 @@ TurningAngles turning_angles(const Scene &scene, coupling::Machine &machine, con
   for (const auto *group : {&moving.rotors, &moving.planar})
     for (const int i : *group)
       fastest = std::max(fastest, std::abs(start.v[i]));
-  constexpr double turns_tried = 3.; // of the fastest angle
+  constexpr double turns_tried = 3.; // of the fastest angle: linkages take two turns at most
   const double     time        = turns_tried * 2. * M_PI / fastest;
   const VectorXd   way =
       coupling::advance_of(machine, periodic_integration(scene, machine), {start.q, start.v, 0.}, start.t, time, stop);
@@ -146,7 +146,7 @@ int periods_of_loads(double period, const std::vector<double> &omega, const Scen
   if (omega.empty())
     return 1;
   const double     own = common_period_of(omega, scene), times = period / own;
-  constexpr double equal_periods = 1e-9; // of loads and a period that is given
+  constexpr double equal_periods = 1e-9; // of loads and a period that is given: ten digits
   if (std::round(times) >= 1. && std::abs(times - std::round(times)) <= equal_periods * times)
     return int(std::round(times));
   throw std::invalid_argument(scene.file + ": --period: the loads do not repeat after " + short_text(period, 8) +

@@ -32,13 +32,14 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
   constexpr double apart        = 1.05; // ratio of sizes from which on two points show a law
   const auto       law          = std::find_if(points.begin(), points.end(),
                                                [&](const MeshPoint &other) { return other.size > apart * best.size; });
-  constexpr double least_order  = 1.;                   // re-entrant edges leave about one
-  constexpr double most_order   = 4.;                   // energies of quadratic elements
-  constexpr double usual_order  = 3.;                   // between both, until two meshes tell it
-  constexpr double fewest       = 1.;                   // beams
-  constexpr double most         = 3.;                   // solids
-  constexpr double usual_growth = 2.;                   // walls
-  constexpr double finest = 0.125, finest_of_one = 0.5; // of the size of the finest point
+  constexpr double least_order  = 1.; // re-entrant edges leave about one
+  constexpr double most_order   = 4.; // energies of quadratic elements
+  constexpr double usual_order  = 3.; // between both, until two meshes tell it
+  constexpr double fewest       = 1.; // beams
+  constexpr double most         = 3.; // solids
+  constexpr double usual_growth = 2.; // walls
+  // of the size of the finest point: three halvings; one where nothing is known
+  constexpr double finest = 0.125, finest_of_one = 0.5;
   double           q = usual_order, r = usual_growth, least = finest_of_one;
   const double     error = largest(best.shares, &Shares::degree);
   if (law != points.end())

@@ -26,7 +26,7 @@ SizeModels::SizeModels(const Scene &scene, const std::vector<OutputName> &output
                        const std::atomic<bool> *stop)
     : scene_(scene), outputs_(outputs), tolerance_(tolerance), stop_(stop), models_(scene, outputs, stop)
 {
-  constexpr double smallest_tolerance = 1e-8; // of outputs
+  constexpr double smallest_tolerance = 1e-8; // of outputs: runs are computed to 1e-9 at best
   if (!(tolerance >= smallest_tolerance) || tolerance > 1.)
     throw std::invalid_argument(
         "--tolerance: needs a relative error between 1e-8, below which rounding decides, and 1, "
@@ -87,7 +87,7 @@ SizePlace SizeModels::coarse()
   place.mesh                = mesh_can_change(scene_) ? coarsest_mesh : 1.;
   constexpr int first_modes = 8; // the search adds and removes others
   place.modes               = modes_are_chosen(scene_) ? std::min(first_modes, most_modes()) : -1;
-  constexpr double loosest  = 1e-3; // tolerance of `exact`
+  constexpr double loosest  = 1e-3; // tolerance of `exact`: beyond it the largest step rules
   place.time                = loosest;
   if (by_exact_ = takes_exact(place); by_exact_)
     return first_ = place;

@@ -275,7 +275,7 @@ bool Search::is_confirmed()
 /// more and tell no more.
 bool Search::is_known()
 {
-  constexpr int seen_enough = 3; // models without a known error
+  constexpr int seen_enough = 3; // models without a known error: the next would have none either
   if (int(judged_.size()) < seen_enough ||
       std::any_of(judged_.begin(), judged_.end(), [](const auto &judged) { return std::isfinite(judged.rung.share); }))
     return true;

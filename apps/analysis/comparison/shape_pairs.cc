@@ -12,6 +12,7 @@ namespace gestell::apps
 namespace
 {
 
+/// pixels
 constexpr double panel_width = 190., gap = 16., row = 26., bar = 9., top = 66., letter = 6.6, head_room = 46.;
 
 /// Amplitudes of a shape with angles times the arm, largest 1.

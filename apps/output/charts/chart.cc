@@ -12,8 +12,8 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double left_margin = 68., right_margin = 18., bottom_margin = 44.;
-constexpr double title_height = 28., note_height = 18., panel_title_height = 20., legend_row = 17.;
+constexpr double left_margin = 68., right_margin = 18., bottom_margin = 44.;                        ///< pixels
+constexpr double title_height = 28., note_height = 18., panel_title_height = 20., legend_row = 17.; ///< pixels
 
 /// The drawing area of a panel with its axes.
 struct Area

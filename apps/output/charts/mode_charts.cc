@@ -21,7 +21,7 @@ struct Bar
 /// Horizontal bars about zero, one below the other, each with its name and value.
 std::string bar_chart(const std::string &title, const std::vector<Bar> &bars, const std::string &note)
 {
-  constexpr double width = 420., row = 22., top = 34., letter_width = 6.9;
+  constexpr double width = 420., row = 22., top = 34., letter_width = 6.9; // pixels
 
   double      largest = 0.;
   std::size_t longest = 0;

@@ -16,7 +16,8 @@ using coupling::ForceRule;
 using coupling::options_of;
 using coupling::Spring;
 
-constexpr double lowest = 1e-2, highest = 1e3; // omega h of the maps
+/// omega h of the maps: from steps that are all but exact to ones without end
+constexpr double lowest = 1e-2, highest = 1e3;
 
 MappedMethod bdf(int order)
 {

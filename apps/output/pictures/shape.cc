@@ -94,7 +94,7 @@ void add_disc(Shape &shape, const Vector3d &centre, const Vector3d &e1, const Ve
               double half_width)
 {
   std::vector<Vector3d> rim;
-  constexpr int         n_rim = 36; // corners of a disc
+  constexpr int         n_rim = 36; // corners of a disc: its rim is 0.4 % off a circle
   for (int i = 0; i < n_rim; ++i)
     rim.push_back(centre + radius * on_circle(e1, axis.cross(e1), i, n_rim));
   add_prism(shape, rim, half_width * axis);

@@ -39,7 +39,7 @@ std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const Se
 {
   std::vector<Eigen::Index> order;
   const auto       change    = [&](Eigen::Index k) { return std::abs(output.percent(result.keys[std::size_t(k)], k)); };
-  constexpr double no_change = 1e-9; // [%] that is rounding
+  constexpr double no_change = 1e-9; // [%] 1e-11 of the value: rounding
   for (Eigen::Index k = 0; k < Eigen::Index(result.keys.size()); ++k)
     if (const double size = change(k); std::isfinite(size) && size > no_change)
       order.push_back(k);

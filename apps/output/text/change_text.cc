@@ -18,7 +18,7 @@ std::string change_text(double here, double there)
   if (here * there < 0.)
     return "of the other sign";
   const double     more     = there / here - 1.;
-  constexpr double the_same = 1e-9; // rounding
+  constexpr double the_same = 1e-9; // rounding of runs
   if (std::abs(more) < the_same)
     return "the same";
   return short_text(100. * std::abs(more), 3) + (more > 0. ? " % larger" : " % smaller");

@@ -76,7 +76,7 @@ std::vector<std::string> carried_warnings(const Scene &scene, const coupling::Ma
       continue;
     const Eigen::Vector3d arm      = vector(body.position) - vector(machine.position(body.carrier));
     const double          distance = left_out(machine.marker(body.carrier), body, arm);
-    constexpr double      far_away = 0.1; // share of the size of the machine
+    constexpr double      far_away = 0.1; // share of the size of the machine: what carries a body is near it
     if (distance > far_away * box.diagonal().norm())
     {
       std::ostringstream text;

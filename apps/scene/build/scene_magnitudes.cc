@@ -73,7 +73,7 @@ void judge_plays(const Scene &scene, double size, Warnings &warnings)
     {
       const auto      *point         = law_of<PointContact>(element);
       const auto      *contact       = point ? &point->normal() : law_of<Clearance>(element);
-      constexpr double farthest_stop = 1.; // of the machine
+      constexpr double farthest_stop = 1.; // of the machine: what is farther is out of reach
       if (contact)
         judge_play(scene, element, "gap", contact->parameters().gap,
                    contact->parameters().stops == Clearance::Stops::both ? most_play : farthest_stop, size,

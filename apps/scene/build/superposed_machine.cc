@@ -43,7 +43,7 @@ std::pair<double, double> largest_steps(const coupling::Machine &machine)
 /// What the modes do not carry of an energy of the start; empty: little.
 std::string lost(const std::string &energy, double whole, double in_modes)
 {
-  constexpr double worth_a_note = 0.02; // share of the energy of a start
+  constexpr double worth_a_note = 0.02; // share of the energy of a start: 1 % of its amplitudes
   if (!(whole - in_modes > worth_a_note * whole))
     return "";
   std::ostringstream text;

@@ -124,7 +124,8 @@ void read_rotor(const SceneTable &table, BodyRequest &body)
   body.position             = table.vector_or("position", body.position);
   const double eccentricity = axis.cross(centre - vector(body.position)).norm();
   body.inertia += body.mass * eccentricity * eccentricity;
-  constexpr double seen_eccentricity = 1e-3; // of a rotor, by its radius of gyration
+  // of a rotor, by its radius of gyration: far beyond what balancing leaves
+  constexpr double seen_eccentricity = 1e-3;
   if (body.unbalance || eccentricity < seen_eccentricity * std::sqrt(body.inertia / body.mass))
     return;
   std::ostringstream text;

@@ -95,7 +95,7 @@ Wrench wrench_on(const ForceSide &side, const VectorXd &q, const VectorXd &Q, do
   MatrixXd moves = motions(side.at, w) * dw_dq;   // [6 x own]
   moves.bottomRows(3) *= size;                    // torques over it, in N
   Eigen::ColPivHouseholderQR<MatrixXd> translations(moves.topRows(3));
-  constexpr double                     full = 1e-9; // relative size of a pivot
+  constexpr double                     full = 1e-9; // relative size of a pivot: rounding of places
   translations.setThreshold(full);
   const VectorXd solution = MatrixXd(moves.transpose()).completeOrthogonalDecomposition().solve(own);
   return {solution.head<3>(), size * solution.tail<3>(), int(translations.rank())};

@@ -172,7 +172,7 @@ double deflection_at(const HistoryRows &rows, std::size_t signal, double t)
 bool same_side(const HistoryRows &rows, std::size_t signal, double begin, double end)
 {
   const double     moved      = deflection_at(rows, signal, end) - deflection_at(rows, signal, begin);
-  constexpr double same_place = 0.1; // of the range of a cycle
+  constexpr double same_place = 0.1; // of the range of a cycle: a passage from the other side is off by half of it
   return std::abs(moved) < same_place * range_between(rows, signal, begin, end);
 }
 

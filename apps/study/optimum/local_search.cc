@@ -107,7 +107,7 @@ nlopt_algorithm algorithm_of(SearchMethod method, Eigen::Index n_variables, int 
 
 void set_limits(nlopt_opt optimiser, const LocalSearch &search)
 {
-  constexpr double      first_simplex = 0.25; // of the box' width
+  constexpr double      first_simplex = 0.25; // of the box' width: two steps from its middle to a wall
   const Eigen::VectorXd width = search.high - search.low, step = first_simplex * width,
                         tolerance = search.tolerance * width;
   nlopt_set_lower_bounds(optimiser, search.low.data());

@@ -127,7 +127,7 @@ Samples samples_of(const OutputModel &model, const OptimumTask &task, const Pare
   const int k = static_cast<int>(task.low.size());
   Samples   samples;
   add_samples(model, task, sobol_points(k, options.samples, options.seed).points, samples.points);
-  constexpr int most_corners = 10; // variables
+  constexpr int most_corners = 10; // variables: 1024 corners
   if (k <= most_corners)
     add_samples(model, task, full_factorial(std::vector<std::vector<double>>(k, {-1., 1.})).points, samples.points);
   samples.goals = goals_of(samples.points, task);

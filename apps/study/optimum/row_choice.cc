@@ -15,7 +15,7 @@ bool keeps(const StudyTable &table, const RowChoiceTask &task, int row)
   const Eigen::VectorXd values  = table.values.row(row).transpose();
   const bool            known   = std::all_of(task.goals.begin(), task.goals.end(),
                                               [&](const Goal &goal) { return std::isfinite(values[goal.output]); });
-  constexpr double      kept_to = 1e-9; // of the size of a limit
+  constexpr double      kept_to = 1e-9; // of the size of a limit: ten written digits
   return table.runs[std::size_t(row)].status == RunStatus::done && known &&
          violation_of(task.limits, values) <= kept_to;
 }
@@ -55,7 +55,7 @@ std::vector<int> ties_of(const StudyTable &table, const RowChoice &choice)
 {
   std::vector<int> ties;
   const auto objective = [&](int row) { return objective_of(choice.task.goals, table.values.row(row).transpose()); };
-  constexpr double tied_to = 1e-9; // of the objective
+  constexpr double tied_to = 1e-9; // of the objective: ten written digits
   for (const int row : choice.kept)
     if (row != choice.best && objective(row) - objective(choice.best) <= tied_to * std::abs(objective(choice.best)))
       ties.push_back(row);

@@ -11,6 +11,7 @@ namespace gestell::apps
 namespace
 {
 
+/// pixels
 constexpr double tornado_width = 640., tornado_row = 22., tornado_top = 62., name_width = 170., numbers_width = 130.;
 
 /// A row of the tornado: changes from the value in the middle.

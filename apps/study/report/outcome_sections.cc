@@ -53,7 +53,7 @@ std::string limits_text(const OptimumTask &task, const StudyTable &table)
 std::string wall_text(const StudyOptimum &optimum, Eigen::Index j)
 {
   const double     xi        = optimum.found.coded(j);
-  constexpr double at_a_wall = 1e-6; // coded
+  constexpr double at_a_wall = 1e-6; // coded: searches end there but for their tolerance
   if (xi - optimum.task.low(j) < at_a_wall)
     return "at its lower end";
   return optimum.task.high(j) - xi < at_a_wall ? "at its upper end" : "";

@@ -11,7 +11,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double scatter_cell = 92., scatter_gap = 6., scatter_edge = 10., scatter_head = 30.;
+constexpr double scatter_cell = 92., scatter_gap = 6., scatter_edge = 10., scatter_head = 30.; ///< pixels
 
 struct ScatterColumn
 {
@@ -99,7 +99,7 @@ std::string correlation_svg(const ScatterColumn &a, const ScatterColumn &b, cons
 std::string dots_svg(const ScatterColumn &x, const ScatterColumn &y, const std::vector<int> &rows,
                      const std::vector<bool> &on_front, const ScatterCell &cell)
 {
-  constexpr double inset = 7.;
+  constexpr double inset = 7.; // pixels
   const auto       range = [](const Eigen::VectorXd &values)
   { return fitted(ChartAxis(), values.minCoeff(), values.maxCoeff(), 0.); };
   const AxisMap across(range(x.values), cell.left + inset, cell.left + scatter_cell - inset);

@@ -93,7 +93,7 @@ std::string quality_table(const StudyFindings &findings)
     }
     const FitQuality &q       = surface.quality;
     const ShownAxis   axis    = shown_axis(surface.output, q.standard_error);
-    constexpr double  poor_r2 = 0.9; // of what is predicted
+    constexpr double  poor_r2 = 0.9; // of what is predicted: with less, a third of the deviation is left
     table.add({surface.output.name, std::to_string(q.n_runs), std::to_string(q.n_coefficients), number_or_dash(q.r2, 5),
                number_or_dash(q.adjusted_r2, 5), peak(number_or_dash(q.predicted_r2, 5), q.predicted_r2 < poor_r2),
                std::isnan(q.standard_error) ? "–" : axis.text_with_unit(q.standard_error),
@@ -130,13 +130,13 @@ std::vector<std::pair<int, int>> pairs_by_weight(const ResponseSurface &surface)
       weight[i * k + j] += own[i] + own[j];
       pairs.emplace_back(i, j);
     }
-  constexpr double least_weight = 1e-3; // of the variance, for a picture
+  constexpr double least_weight = 1e-3; // of the variance, for a picture: 3 % of the deviation
   const auto       slight       = [&](const auto &pair) { return weight[pair.first * k + pair.second] < least_weight; };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), slight), pairs.end());
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto &a, const auto &b)
                    { return weight[a.first * k + a.second] > weight[b.first * k + b.second]; });
-  constexpr std::size_t most_contours = 6; // of an output
+  constexpr std::size_t most_contours = 6; // of an output: two rows
   pairs.resize(std::min(pairs.size(), most_contours));
   return pairs;
 }
@@ -190,7 +190,7 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
 {
   const ShownAxis  axis          = shown_axis(surface.output, magnitude_of(surface.computed));
   const double     mean          = static_cast<double>(surface.quality.n_coefficients) / surface.quality.n_runs;
-  constexpr double high_leverage = 2.;   // times the mean p / n
+  constexpr double high_leverage = 2.;   // times the mean p / n, as usual
   constexpr double nearly_one    = 0.95; // leverage beyond which a run stands alone
   const double     high          = std::min(high_leverage * mean, nearly_one);
   HtmlTable        table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",

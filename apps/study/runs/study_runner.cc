@@ -168,7 +168,7 @@ bool StudyRunner::measure(const Result &result, const Eigen::VectorXd &levels)
     AnswerValue  reported = answer_entry::value(key_segments(measure.entry, measure.place), result);
     if (!std::isfinite(reported.value))
       reported.value = 2. * used;
-    constexpr double settled_to = 1e-9; // of such a parameter
+    constexpr double settled_to = 1e-9; // of such a parameter: what runs scatter by
     settled                     = settled && std::abs(reported.value - used) <= settled_to * std::abs(reported.value);
     variants_.set_measured(measure, reported.value, reported.unit);
   }

@@ -161,7 +161,8 @@ void check_mass(const SceneTable &frame, const Sparse &M, double rounding, const
   if (M.diagonal().maxCoeff() == 0.)
     throw frame.error("mass", "has nothing but zeros on its diagonal; some coordinate needs a mass");
   const Eigen::VectorXd mass = M.diagonal(), stiffness = C.diagonal(); // of semidefinite matrices zero rows
-  constexpr double      vanishing_mass = 1e-30;                        // of the largest
+  // of the largest: frequencies would differ by 1e15, more than a double has digits
+  constexpr double vanishing_mass = 1e-30;
   for (Eigen::Index i = 0; i < mass.size(); ++i)
     if (mass[i] == 0. && stiffness[i] == 0.)
       throw frame.error("mass", row_text(i, rows) + " has neither mass nor stiffness, so that nothing says how "

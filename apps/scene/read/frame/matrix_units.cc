@@ -127,7 +127,7 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
   const auto       sides            = box_of(frame.picture.points, frame.interfaces);
   const double     size             = *std::max_element(sides.begin(), sides.end());
   constexpr double largest_frame    = 1e3; // [m] positions in millimetres are above, every machine is below
-  constexpr double fastest_of_nodes = 6e4; // [m/s]
+  constexpr double fastest_of_nodes = 6e4; // [m/s] ten times that of metals: of lumped masses, from node to node
   if (const double speed = wave_speed(frame, nodes); speed > fastest_of_nodes && size <= largest_frame)
     suspicions.push_back(
         text_of({"waves run from node to node with ",
@@ -157,7 +157,7 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
                                    density));
   }
   constexpr double longest_bending  = 100.; // [m] a thousandth or less of what millimetres make of it
-  constexpr double shortest_bending = 1e-4; // [m]
+  constexpr double shortest_bending = 1e-4; // [m] a tenth of a millimetre: no part is thinner
   for (const auto &interface : frame.interfaces)
     if (const double length = bending_length(frame, interface);
         length > longest_bending || (length > 0. && length < shortest_bending))

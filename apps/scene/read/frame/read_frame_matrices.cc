@@ -61,7 +61,7 @@ double tolerance_of(const FrameNodes &nodes)
   double extent = 0.;
   for (const TableNode &node : nodes.all)
     extent = std::max(extent, distance(node.motions.position, nodes.all.front().motions.position));
-  constexpr double one_place = 1e-6; // of the extent of the nodes
+  constexpr double one_place = 1e-6; // of the extent of the nodes: digits of files
   return one_place * extent;
 }
 
