@@ -70,7 +70,7 @@ double available_memory()
 
 std::string memory_text(double bytes)
 {
-  constexpr double gib = kib * kib * kib;
+  constexpr double gib = 1024. * 1024. * 1024.;
   return bytes < 0.1 * gib ? text(std::round(bytes / gib * 1024.)) + " MiB"
                            : text(std::round(bytes / gib * 100.) / 100.) + " GiB";
 }
