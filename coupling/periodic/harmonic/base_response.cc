@@ -1,7 +1,5 @@
 #include "coupling/periodic/harmonic/base_response.h"
 
-#include "fem/values/two_pi.h"
-
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -17,6 +15,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
+
+constexpr double two_pi = 2. * M_PI; ///< here, as periodic solvers know no fem
 
 [[noreturn]] void refuse_harmonics(const std::string &reason)
 {

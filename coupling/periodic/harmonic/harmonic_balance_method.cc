@@ -31,9 +31,8 @@ double largest_share(const VectorXd &r, const VectorXd &scale)
 bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd &scale, bool period_unknown,
                  VectorXd &z, double norm)
 {
-  VectorXd r;
-  // of a Newton step: a direction that does not help by then helps nowhere
-  constexpr double shortest_share = 1. / 256.;
+  VectorXd         r;
+  constexpr double shortest_share = 1. / 256.; // of a Newton step: a direction helps by then, or nowhere
   for (double share = 1.; share >= shortest_share; share *= 0.5)
   {
     const VectorXd next = z + share * step;
@@ -373,8 +372,7 @@ void BalanceSearch::grow()
       newton_ = newton;
       continue;
     }
-    // distance of two motions, of the unknowns: more harmonics change a motion less
-    constexpr double another_motion = 0.3;
+    constexpr double another_motion = 0.3; // distance, of the unknowns: more harmonics change a motion less
     if ((z_ - start).norm() > another_motion * start.norm())
       others_ = "with fewer than " + std::to_string(tried) + " harmonics another solution was found than with these";
     left_out_ = balance_.left_out(z_);
