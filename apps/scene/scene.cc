@@ -38,7 +38,7 @@ void look_at(const BodyRequest &body, Unexpected &found)
                          " kg; numbers without a unit are in kg, others are written as \"3 t\", \"20 g\"",
                      std::max(body.mass / heaviest, lightest / body.mass)});
   const double arm = body.mass > 0. && body.inertia > 0. ? std::sqrt(body.inertia / body.mass) : 1.;
-  // m, radius of gyration: of the largest mills, and of a watch's wheels
+  // m, radius of gyration: chosen; no rotor is larger, none smaller than a watch's wheel
   constexpr double widest = 20., narrowest = 1e-4;
   if (arm > widest || arm < narrowest)
     found.push_back({body.place,

@@ -88,7 +88,7 @@ std::vector<PeriodicEntry> backbone_of(coupling::Machine &machine, const couplin
                                        const std::vector<coupling::Signal> &signals)
 {
   const auto    frequencies      = frequencies_of(entries);
-  constexpr int most_coordinates = 3; // as for averaging: one mode answers in a chart of so few
+  constexpr int most_coordinates = 3; // in a chart of more, modes interact and cross
   if (frequencies.empty() || machine.size() > most_coordinates || problem.period_is_unknown())
     return {};
   std::vector<PeriodicEntry> backbone;

@@ -65,7 +65,7 @@ std::vector<PhasePlane> phase_planes(coupling::Machine &machine, const coupling:
 {
   std::vector<coupling::Signal> read, rates;
   constexpr std::size_t         most_planes = 4; // two rows of charts
-  constexpr std::size_t         most_curves = 6; // colours of a chart but one
+  constexpr std::size_t         most_curves = 6; // chosen: curves of one chart
   for (const coupling::Signal &signal : signals)
     if (const auto rate = rate_of(signal); rate && read.size() < most_planes)
     {

@@ -178,7 +178,7 @@ std::optional<UnexpectedValue> RunMagnitudes::judged_slip(const Watched         
                                "; check synchronous_speed, ratio, breakdown_torque and the speeds of the start",
                            std::abs(slip) / most};
   };
-  constexpr double standstill = 0.05; // of the synchronous speed: slower than any drive runs
+  constexpr double standstill = 0.05; // of the synchronous speed: a motor that starts
   const bool       turns      = std::abs(1. - value.first) > standstill;
   if (turns && std::abs(value.first) > most)
     return unexpected("at the start", value.first, "1 at standstill, or ");

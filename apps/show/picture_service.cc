@@ -301,7 +301,7 @@ private:
     if (!request_.films)
       return;
     const auto    film         = film_of(series);
-    constexpr int swing_frames = 24; // of a swing: one second of a film
+    constexpr int swing_frames = 24; // of a swing: 15 degrees of its phase each
     for (int k = 0; k < swing_frames; ++k)
       film->add(
           renderer_.draw(parts, times * std::sin(2. * M_PI * k / swing_frames), most, words, Renderer::Sizes::unknown));

@@ -47,7 +47,7 @@ std::string display_from(int pipe)
   for (char c; text.find('\n') == std::string::npos;)
   {
     pollfd        wait{pipe, POLLIN, 0};
-    constexpr int patience_ms = 20000; // a browser starts within some seconds, also on a slow machine
+    constexpr int patience_ms = 20000; // the X server starts within some seconds, also on a slow machine
     if (poll(&wait, 1, patience_ms) <= 0 || read(pipe, &c, 1) <= 0)
       return "";
     text += c;

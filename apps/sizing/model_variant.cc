@@ -373,7 +373,7 @@ coupling::MethodOptions finest_method(const Scene &scene)
     finest.own = run.method.own;
   finest.set("force", std::string("collocation"));
   finest.tolerance             = 1e-10;
-  constexpr double least_steps = 50.; // of the run: no load goes by between two steps
+  constexpr double least_steps = 50.; // of the run
   // A fixed step says nothing of the longest one; no load goes by between two steps.
   finest.step = controlled(run.method) ? run.method.step : (run.end - run.begin) / least_steps;
   for (const LoadRequest &load : scene.loads)

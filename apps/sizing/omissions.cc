@@ -12,7 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double half     = 0.5; ///< of the tolerance: the other half is left to what else is left out
+constexpr double half     = 0.5; ///< of the tolerance, for each omission alone
 constexpr double as_rigid = 1e4; ///< times as stiff: what yields 1e-4 of before yields nothing that counts
 
 /// The largest change of an output, of its scale.

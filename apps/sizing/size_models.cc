@@ -26,7 +26,7 @@ SizeModels::SizeModels(const Scene &scene, const std::vector<OutputName> &output
                        const std::atomic<bool> *stop)
     : scene_(scene), outputs_(outputs), tolerance_(tolerance), stop_(stop), models_(scene, outputs, stop)
 {
-  constexpr double smallest_tolerance = 1e-8; // of outputs: runs are computed to 1e-9 at best
+  constexpr double smallest_tolerance = 1e-8; // of outputs: chosen; runs of the search have 1e-10
   if (!(tolerance >= smallest_tolerance) || tolerance > 1.)
     throw std::invalid_argument(
         "--tolerance: needs a relative error between 1e-8, below which rounding decides, and 1, "

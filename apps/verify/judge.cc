@@ -185,7 +185,7 @@ CheckOutcome worst(const std::vector<Pairs> &columns, const Check &check)
       most                       = used;
       outcome.error              = error;
       outcome.allowed            = allowed;
-      constexpr int shown_digits = 10; // of values that are compared to 1e-9 at best
+      constexpr int shown_digits = 10; // chosen
       outcome.expected           = short_text(column.expected[i], shown_digits);
       outcome.obtained           = short_text(column.obtained[i], shown_digits);
     }

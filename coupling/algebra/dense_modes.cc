@@ -113,7 +113,7 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
   MatrixXd       V;
   const VectorXd mu = shifted.solve(M, V);
   const int      n  = int(mu.size());
-  // mu relative to the largest, below which a mode has no mass: rounding of some hundred terms
+  // mu relative to the largest, below which a mode has no mass: 450 eps, rounding of a sum of as many terms
   constexpr double massless = 1e-13;
   int              p        = 0;
   while (p < n && mu(n - 1 - p) > massless * mu(n - 1))

@@ -98,10 +98,9 @@ BlockLanczos::BlockLanczos(const Eigen::SparseMatrix<double> &M, std::shared_ptr
   constexpr double most_numbers = 4e8; // of the space, where no room is given: 3.2 GB
   // of the space, where no room is given: a dense problem of that size takes a few seconds
   constexpr double most_vectors = 2000;
-  room_                         = options.room > 0 ? options.room
-                                                   : int(std::min<double>({double(inverse_->size()), most_vectors,
-                                                                           most_numbers / std::max(inverse_->size(), 1)}));
-  room_                         = std::max(room_, size + 4 * options_.block);
+  const double     n            = inverse_->size();
+  const double     usual        = std::min({n, most_vectors, most_numbers / std::max(n, 1.)});
+  room_                         = std::max(options.room > 0 ? options.room : int(usual), size + 4 * options_.block);
   if (size > 0)
   {
     MultiVector V(n_, size);

@@ -28,6 +28,8 @@ constexpr double stays     = 1e-6; ///< a start this near an equilibrium is mean
 constexpr double soft      = 1e-8; ///< stiffness of a coordinate beside the stiffest, below which it counts as this
 constexpr double long_way  = 0.5;  ///< a correction beyond is gone in parts
 
+// Motions and positions count in coordinate_sizes().
+
 // Relaxation.  Steps count in the time in which the machine's forces move its masses by its size: about 0.3 s of a
 // metre under its weight.
 constexpr int    most_steps = 1000, most_of_step = 15, most_pushes = 5;

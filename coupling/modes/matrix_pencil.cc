@@ -46,7 +46,7 @@ VectorXcd poles(const MatrixXd &y)
   const coupling::SymmetricEigenSolver squares(Y.transpose() * Y);
   const VectorXd   squared    = squares.eigenvalues().reverse(); // of the singular values, largest first
   constexpr double weakest    = 1e-4; // singular value beside the largest: those kept lose eps / weakest^2 = 2e-8
-  constexpr Index  most_poles = 40;   // of twenty modes: more are not told apart
+  constexpr Index  most_poles = 40;   // of twenty modes
   Index            r          = 0;
   while (r < std::min(squared.size() - 1, most_poles) && squared[r] > weakest * weakest * squared[0])
     ++r;
@@ -91,7 +91,7 @@ double DampedOscillation::damping_ratio() const
 
 PencilFit matrix_pencil(const MatrixXd &samples, double h, int most)
 {
-  constexpr Index fewest = 16; // samples: four poles, twice over
+  constexpr Index fewest = 16; // samples: a window of 8 columns for four poles and as many of noise
   if (samples.rows() < fewest || samples.cols() < 1 || !(h > 0.))
     throw std::invalid_argument("matrix_pencil: " + std::to_string(samples.rows()) + " samples; at least " +
                                 std::to_string(fewest) + " samples at equal time steps are needed");

@@ -45,7 +45,7 @@ struct ModeComparison
   std::vector<ModePair> pairs;          ///< by a, ascending
 };
 
-/// of the measures that tell a mode; assurance from which two are one mode
+/// smallest share of a mode in the measured points by which it is compared; assurance from which two are one mode
 constexpr double least_seen = 0.05, least_assurance = 0.5;
 
 /// A measure that moves in no mode of either, or in those of one alone, does not count.

@@ -256,9 +256,8 @@ double SignalDerivatives::find_turn(std::size_t signal, const MotionState &at, d
   found.second               = over[best].second;
   found.before               = last.before;
   found.after                = last.after;
-  found.kink                 = jumps(but_one.jump, last.jump, rounding) ? Kink::jump
-                               : jumps(but_one.after - but_one.before, last.after - last.before, rounding / last.way) ? Kink::corner
-                                                                                                                      : Kink::none;
+  const bool bends           = jumps(but_one.after - but_one.before, last.after - last.before, rounding / last.way);
+  found.kink      = jumps(but_one.jump, last.jump, rounding) ? Kink::jump : bends ? Kink::corner : Kink::none;
   const bool slow = !found.known() && found.kink == Kink::none && find_slow_turn(signal, at, longest * step, found);
   return slow ? longest * step : over[best].way;
 }

@@ -254,7 +254,7 @@ bool VariationalSteps::advance_to(double t, const std::atomic<bool> *stop)
     constexpr double shortest_share = 1. / 16.; // of the distance of nodes: the motion in between is no better known
     if (!made || (!(err <= 1.) && length > shortest_share * reader_.spacing()))
     {
-      constexpr int most_halvings = 30; // 2^-30 of a step is the rounding of its time
+      constexpr int most_halvings = 30; // 1e-9 of a step
       if (++halvings > most_halvings)
         throw ConvergenceFailure("the derivatives of the motion cannot be integrated beyond t = " +
                                  std::to_string(from) + " s: their steps became too short");

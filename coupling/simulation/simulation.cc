@@ -56,7 +56,7 @@ KeptBytes kept_bytes(const Machine &machine, const RunOptions &options, std::siz
 ///         does not ask for it
 void require_size(const Machine &machine, const RunOptions &options, std::size_t n_signals)
 {
-  constexpr double most_pictures = 2e4; // files that a folder lists in a second, and ParaView too
+  constexpr double most_pictures = 2e4; // chosen: half an hour of a film at 10 pictures a second
   const double     count = options.picture_step > 0. ? (options.end - options.begin) / options.picture_step : 0.;
   if (!options.allow_large && count > most_pictures)
     too_large("output.picture_step makes ", count, " pictures of several files each; give it a larger value than ",

@@ -53,7 +53,7 @@ std::vector<Face::Sample> sample(int tag, double unit)
 {
   std::vector<double> low, high, parameters, points, normals;
   gmsh::model::getParametrizationBounds(2, tag, low, high);
-  constexpr int samples_per_direction = 5; // 25 points of a face: twice those that determine a cylinder or cone
+  constexpr int samples_per_direction = 5; // 25 points of a face; 6 determine a cone
   for (int i = 0; i < samples_per_direction; ++i)
     for (int j = 0; j < samples_per_direction; ++j)
     {

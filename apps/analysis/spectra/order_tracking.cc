@@ -13,8 +13,9 @@ namespace gestell::apps
 namespace
 {
 
-/// orders 1/4 apart are told from each other, and a run-up changes little
-constexpr int window_turns = 4, most_orders = 8, samples_of_turn = 64;
+constexpr int window_turns    = 4;  ///< separate orders 1/4 apart, while a run-up changes little
+constexpr int most_orders     = 8;  ///< chosen: curves of one chart
+constexpr int samples_of_turn = 64; ///< eight in a period of the highest order
 
 /// A table of values y over x ascending, by the cubic through four neighbours.
 double interpolated(const std::vector<double> &x, const std::vector<double> &y, double at)

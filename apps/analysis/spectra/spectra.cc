@@ -91,7 +91,7 @@ std::vector<std::size_t> chosen_columns(const coupling::RunResult &run)
     (shakes(run.units[j]) ? chosen : others).push_back(j);
   if (chosen.empty())
     chosen = others;
-  constexpr std::size_t most_spectra = 6; // colours of a chart but one
+  constexpr std::size_t most_spectra = 6; // chosen: curves of one chart
   chosen.resize(std::min(chosen.size(), most_spectra));
   return chosen;
 }

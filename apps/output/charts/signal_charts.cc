@@ -81,7 +81,7 @@ std::string joined_names(const coupling::RunResult &run, const SignalGroup &grou
 /// The legend names them, too; a title holds what fits into it.
 std::string names_in_title(const coupling::RunResult &run, const SignalGroup &group)
 {
-  constexpr std::size_t most_letters = 80; // of a title of 14 pixels a letter and less, over 640 pixels
+  constexpr std::size_t most_letters = 80; // of a title: 8 pixels each over 640
   const std::string     names        = joined_names(run, group);
   return n_letters(names) <= most_letters ? ": " + names : ", " + std::to_string(group.columns.size()) + " signals";
 }

@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr std::size_t most_instants = 200; ///< pictures of a film; more make the page heavier
-/// the same of the motion, if that enlarges it: bodies must not pass through each other
+/// largest displacement of an enlarged motion, of the machine's size: bodies must not pass through each other
 constexpr double motion_size = 0.02;
 constexpr double exactness   = 1e-4; ///< of the drawn positions, of the machine's size
 
@@ -35,7 +35,7 @@ Json parts_json(const MachineAnimation &machine)
       points.insert(points.end(), {float(x[0]), float(x[1]), float(x[2])});
     for (const auto &t : part.triangles)
       triangles.insert(triangles.end(), t.begin(), t.end());
-    constexpr double edge_degrees = 35.; // between the facets of round parts lie 15 degrees at most, between walls 90
+    constexpr double edge_degrees = 35.; // facets of discs enclose 10 to 30, walls 90
     for (const auto &e : sharp_edges({part.points, part.displacement, part.triangles}, edge_degrees))
       edges.insert(edges.end(), e.begin(), e.end());
     parts.push_back(

@@ -15,7 +15,7 @@ void Noise::see(const std::string &unit, double value)
 double Noise::without(const std::string &unit, double value) const
 {
   const auto       found       = largest_.find(unit);
-  constexpr double noise_share = 1e-9; // of the largest value of a unit: below what tolerances of runs reach
+  constexpr double noise_share = 1e-9; // of the largest value of a unit: chosen; tables print six digits
   return found != largest_.end() && std::abs(value) < noise_share * found->second ? 0. : value;
 }
 

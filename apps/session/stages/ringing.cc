@@ -83,7 +83,7 @@ std::vector<coupling::Mode> modes_at_rest(PreparedMachine &prepared, const Eigen
 /// The nearest of those that move what rings.
 void pair_up(const std::vector<coupling::Mode> &modes, RingingMode &mode)
 {
-  // relative distance of frequencies beyond which modes are no pair: those of other boundaries lie farther
+  // relative distance of frequencies beyond which modes are no pair: chosen
   constexpr double near  = 0.25;
   double           least = near;
   for (std::size_t j = 0; j < modes.size(); ++j)

@@ -195,7 +195,7 @@ std::string residuals_table(const ResponseSurface &surface, const std::vector<in
   const double     high          = std::min(high_leverage * mean, nearly_one);
   HtmlTable        table({"#run", "#computed [" + escape_xml(axis.unit.empty() ? "1" : axis.unit) + "]", "#surface",
                           "#residual", "#of the other runs", "#leverage"});
-  constexpr int    most_residuals = 300; // dots of a chart
+  constexpr int    most_residuals = 300; // rows that a reader scrolls through; runs.csv has all
   for (Eigen::Index run = 0; run < std::min<Eigen::Index>(surface.computed.size(), most_residuals); ++run)
     table.add({std::to_string(run_numbers[static_cast<std::size_t>(run)] + 1), axis.text(surface.computed(run), 6),
                axis.text(surface.fitted(run), 6), axis.text(surface.computed(run) - surface.fitted(run), 3),

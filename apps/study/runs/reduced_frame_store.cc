@@ -107,7 +107,7 @@ std::shared_ptr<const coupling::ReducedFrame> ReducedFrameStore::frame(const Sce
     kept_.emplace_front(key, shared(std::move(frame), drawn));
     n_reduced_ += !from_cache;
   }
-  constexpr std::size_t most_kept = 3; // frames: each has hundreds of megabytes, and studies vary few
+  constexpr std::size_t most_kept = 3; // frames: studies vary few, and each keeps its memory
   if (kept_.size() > most_kept)
     kept_.pop_back();
   return kept_.front().second;

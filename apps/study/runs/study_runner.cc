@@ -96,7 +96,7 @@ Eigen::MatrixXd output_derivatives(const OutputFormulas &outputs, const Result &
   Eigen::MatrixXd derivatives;
   for (Eigen::Index i = 0; i < levels.size(); ++i)
   {
-    // of the range of a variable, for quotients of formulas: rounding and curvature are 1e-10 then
+    // of the range of a variable, for quotients of formulas: rounding is 1e-10 then, curvature 1e-12
     constexpr double      formula_step = 1e-6;
     const double          step         = formula_step * variables[std::size_t(i)].variable.half_range();
     const Eigen::VectorXd column       = (values_beside(i, step) - values_beside(i, -step)) / (2. * step);

@@ -181,7 +181,7 @@ std::string missing_text(const StudyTable &table, std::size_t n_with)
 
 bool ResponseSurface::changes() const
 {
-  constexpr double rounding = 1e-9; // of the largest value: runs are computed to 1e-9 at best
+  constexpr double rounding = 1e-9; // of the largest value: chosen; noise of runs
   return computed.size() > 0 && computed.maxCoeff() - computed.minCoeff() > rounding * computed.cwiseAbs().maxCoeff();
 }
 

@@ -223,7 +223,7 @@ HermiteNodes::HermiteNodes(std::vector<double> sigma)
         inverse_[i] /= sigma_[i] - sigma_[j];
         own_slope_[i] += 1. / (sigma_[i] - sigma_[j]);
       }
-  // of a step: the largest value of a polynomial of degree 8 is met within some per mille
+  // of a step: a sine with 8 periods in it loses 1 - cos(2 pi 8 / 400), 0.8 %, of its largest value
   constexpr int samples = 200;
   for (int k = 0; k < samples; ++k)
   {

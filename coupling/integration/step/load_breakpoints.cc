@@ -44,7 +44,7 @@ private:
 
 LoadedMotion load_breakpoints(const SecondOrderSystem &system, const LocalState &at, double end)
 {
-  constexpr int instants = 64; // loads that change faster are met by the events of their tables
+  constexpr int instants = 64; // a load that acts only between two of them is missed
   const double  tau      = (end - at.t) / instants;
   if (!(tau > 0.) || !std::isfinite(tau))
     return {};

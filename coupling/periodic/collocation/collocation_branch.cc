@@ -147,7 +147,7 @@ private:
   bool too_large(const std::vector<double> &mesh) const
   {
     const auto n_u = member_.problem.system->forces().directions().cols();
-    // unknowns over stages and coordinates: a dense border of them takes seconds
+    // unknowns, intervals by stages by measures: a Newton step is dense and grows with their cube
     constexpr std::size_t most_of_branch = 1600;
     return mesh.size() > mesh_.size() && mesh.size() * std::size_t(PeriodicCollocation::stages * n_u) > most_of_branch;
   }

@@ -161,7 +161,7 @@ bool MeshSearch::refine()
       grid_.push_back(0.5 * (before[std::size_t(i)] + before[std::size_t(i) + 1]));
   flow_.pass(q_, v_, collocation_.period(), false);
   const Index   width         = PeriodicCollocation::stages * problem_.system->forces().directions().cols();
-  constexpr int most_unknowns = 3000; // a dense Newton step of as many takes a second or two
+  constexpr int most_unknowns = 3000; // dense: 27e9/3 multiplications a Newton step
   if (Index(grid_.size() + flow_.passage().events.size()) * width > most_unknowns)
     return false;
   set_mesh(grid_);

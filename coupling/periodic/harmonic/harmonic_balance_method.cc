@@ -191,7 +191,7 @@ int more_harmonics(const PeriodicProblem &problem, int harmonics)
 {
   const int     next = 2 * harmonics, n_u = int(problem.system->forces().directions().cols());
   constexpr int most_harmonics = 128;  // kinks leave 1 / 128^2 of their force; more are for collocation
-  constexpr int most_unknowns  = 2500; // a dense Newton step of as many takes a second
+  constexpr int most_unknowns  = 2500; // dense: 16e9/3 multiplications a Newton step
   return next > most_harmonics || n_u * (2 * next + 1) > most_unknowns ? 0 : next;
 }
 

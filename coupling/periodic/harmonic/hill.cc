@@ -147,7 +147,7 @@ HillMultipliers hill_multipliers(const PeriodicProblem &problem, double omega, i
 
 FloquetWay floquet_way(const PeriodicProblem &problem, int harmonics)
 {
-  constexpr int chosen_rows = 300; // eigenvalues of so many take less time than a period of shooting
+  constexpr int chosen_rows = 300; // chosen: their eigenvalues take 25 n^3 = 7e8 multiplications
   return 2. * problem.system->linear().size() * (2. * harmonics + 1.) <= chosen_rows ? FloquetWay::hill
                                                                                      : FloquetWay::shooting;
 }

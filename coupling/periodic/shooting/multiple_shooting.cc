@@ -96,7 +96,7 @@ double SegmentEquations::period_of(const VectorXd &z) const
 /// Off the round shares at which symmetric motions have their events: an event where two segments meet belongs to none.
 double SegmentEquations::share(int i) const
 {
-  constexpr double off_round = 0.0377; // of a segment, see SegmentEquations::share()
+  constexpr double off_round = 0.0377; // of a segment: no fraction of small numbers
   return i == 0 ? 0. : i == M_ ? 1. : (i - off_round) / M_;
 }
 

@@ -19,7 +19,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int    most_modes = 200; ///< beyond them another method is cheaper than more modes
+constexpr int    most_modes = 200; ///< chosen: the largest count that a search proposes
 constexpr double rule       = 3.5; // the book's
 
 } // namespace

@@ -53,8 +53,8 @@ Eigen::VectorXd raised_frequencies(fem::RaisedFrame frame, const Eigen::MatrixXd
 
 double error_by_raising(double omega, double raised)
 {
-  // What elements of degree three leave of the error of quadratic ones lies between nothing, in smooth fields, and (2 /
-  // 3)^2, at an edge with a singularity of the root: told is the middle in logarithms of what follows.
+  // Elements of degree three leave nothing of the error of quadratic ones in smooth fields, and 4/9 at an edge with a
+  // singularity of the root.  The factor is that of 1/5 left.
   constexpr double left_over = 1.25;
   return left_over * std::max(0., omega / raised - 1.);
 }

@@ -200,7 +200,7 @@ void add_of_loads(const Machine &machine, double h, RunOutcome &outcome)
 /// another angle, too, as that of a shaft between two rotors.  -1: none.
 Eigen::Index turning_with(const LocalForces &forces, const LocalState &last, int coordinate)
 {
-  constexpr int  looks = 16; // of a turn: forces of eight teeth are still seen
+  constexpr int  looks = 16; // of a turn: forces of up to seven teeth are seen
   const VectorXd turn  = forces.directions().row(coordinate).transpose();
   LocalState     state = last;
   VectorXd       p     = VectorXd::Zero(last.u.size()), first;

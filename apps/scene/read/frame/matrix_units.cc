@@ -104,7 +104,7 @@ std::string suspect_frequency(const coupling::ReducedFrame &frame)
   {
     if (!(f > 0.))
       continue;
-    constexpr double fastest_wave     = 6.5e3; // [m/s]
+    constexpr double fastest_wave     = 6.5e3; // [m/s] longitudinal waves in aluminium: 6400
     constexpr double highest_of_small = 2e4;   // [Hz] of a frame without size: the end of structure-borne sound
     if (size > 0. ? f * size > fastest_wave : f > highest_of_small)
       return text_of({"the lowest elastic frequency of the frame is ",
@@ -126,7 +126,7 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
                                  f));
   const auto       sides            = box_of(frame.picture.points, frame.interfaces);
   const double     size             = *std::max_element(sides.begin(), sides.end());
-  constexpr double largest_frame    = 1e3; // [m] positions in millimetres are above, every machine is below
+  constexpr double largest_frame    = 1e3; // [m] no frame is larger; one of 1 m in millimetres is at the limit
   constexpr double fastest_of_nodes = 6e4; // [m/s] ten times that of metals: of lumped masses, from node to node
   if (const double speed = wave_speed(frame, nodes); speed > fastest_of_nodes && size <= largest_frame)
     suspicions.push_back(
@@ -156,7 +156,7 @@ std::vector<std::string> suspect_units(const fem::FrameMatrices &frame, const st
                                     " kg/m^3: check the units of mass (kg) and of positions (m)"},
                                    density));
   }
-  constexpr double longest_bending  = 100.; // [m] a thousandth or less of what millimetres make of it
+  constexpr double longest_bending  = 100.; // [m] larger than a frame; moments in N mm make 1000 of 1
   constexpr double shortest_bending = 1e-4; // [m] a tenth of a millimetre: no part is thinner
   for (const auto &interface : frame.interfaces)
     if (const double length = bending_length(frame, interface);
