@@ -3,7 +3,6 @@
 #include "apps/analysis/analysis.h"
 #include "apps/output/describe/described_json.h"
 #include "apps/output/describe/described_schema.h"
-#include "apps/output/describe/member_list.h"
 #include "apps/output/report/section.h"
 #include "apps/output/values/result.h"
 
@@ -34,7 +33,6 @@ public:
 
   void                    describe(JsonMembers &v) const override { describe_answer(v, this->value); }
   void                    describe(SchemaMembers &v) const override { describe_answer(v, this->value); }
-  void                    describe(MemberList &v) const override { describe_answer(v, this->value); }
   std::vector<Section>    sections(const Result &result) const override { return sections_of(result, this->value); }
   std::string             subject() const override { return subject_of(this->value); }
   std::vector<NamedArray> arrays() const override { return arrays_of(this->value); }

@@ -108,15 +108,6 @@ std::string key_tables(const std::string &topic)
 namespace
 {
 
-std::string member_table(const std::vector<MemberLine> &members)
-{
-  std::string text = "| member | | unit | content |\n|---|---|---|---|\n";
-  for (const MemberLine &member : members)
-    text += "| `" + member.path + "` | " + member.type + (member.always ? "" : ", if any") + " | " + member.unit +
-            " | " + member.meaning + " |\n";
-  return text;
-}
-
 /// What stands behind a marker: "keys: run", "result files"; nothing behind other remarks.
 std::string generated(const std::string &marker)
 {
@@ -124,7 +115,7 @@ std::string generated(const std::string &marker)
   if (marker == "result files")
     return result_files_table();
   if (marker == "members: summary.json")
-    return member_table(summary_members(result_of_all_kinds()));
+    return "| member | | unit | content |\n|---|---|---|---|\n" + summary_members(result_of_all_kinds());
   if (marker.rfind(keys, 0) != 0)
     throw std::invalid_argument("the marker '" + marker +
                                 "' is not known; there are 'keys: TABLE', 'members: summary.json' and 'result files'");

@@ -3,13 +3,16 @@
 #include "apps/output/describe/described.h"
 #include "apps/output/text/json.h"
 
+#include <string>
+
 namespace gestell::apps
 {
 
 template <class T>
 Json described_schema();
 
-/// Members as a JSON schema; for sources alone, as Json is.
+/// Members as a JSON schema, and under keys that begin with "~" what member_rows() reads of them: "~" has unit and
+/// meaning, "~optional" is beside what may hold nothing.  For sources alone, as Json is.
 struct SchemaMembers
 {
   Json properties = Json::object(), required = Json::array();
@@ -25,6 +28,7 @@ struct SchemaMembers
   {
     Json &schema = properties[name] = described_schema<T>();
     schema["description"]           = std::string(meaning) + (unit.empty() ? "" : " [" + unit + "]");
+    schema["~"]                     = {unit, meaning};
   }
 };
 
@@ -45,6 +49,7 @@ Json described_schema()
     Json schema = described_schema<typename T::value_type>();
     if (!schema["type"].is_array())
       schema["type"] = {schema["type"], "null"};
+    schema["~optional"] = true;
     return schema;
   }
   else if constexpr (is_described<T>)
@@ -63,5 +68,12 @@ Json described_schema()
   else
     return {{"type", "string"}};
 }
+
+/// The schema without these keys.
+Json published(const Json &schema);
+
+/// The rows of a table in Markdown, a member each, with those of what it holds: path ("signals.NAME.max",
+/// "events[].t"), type, unit and meaning.
+std::string member_rows(const Json &schema, const std::string &at = "");
 
 } // namespace gestell::apps

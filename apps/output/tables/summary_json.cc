@@ -12,19 +12,16 @@ std::string summary_json(const Result &result)
   return json_text(described_json(result));
 }
 
-std::vector<MemberLine> summary_members(const Result &all)
+std::string summary_members(const Result &all)
 {
-  std::vector<MemberLine> lines;
-  MemberList              members{lines};
-  describe(members, all);
-  return lines;
+  return member_rows(object_schema(all));
 }
 
 std::string summary_schema(const Result &all)
 {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "summary.json of gestell"}};
   schema.update(object_schema(all));
-  return json_text(schema);
+  return json_text(published(schema));
 }
 
 } // namespace gestell::apps

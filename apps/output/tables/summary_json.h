@@ -1,7 +1,8 @@
 #pragma once
 
-#include "apps/output/describe/member_list.h"
 #include "apps/output/values/result.h"
+
+#include <string>
 
 namespace gestell::apps
 {
@@ -9,9 +10,9 @@ namespace gestell::apps
 /// summary.json: the whole result in numbers, as describe() lists its members.
 std::string summary_json(const Result &result);
 
-/// Its members, for docs/results.md, and its JSON schema, docs/summary.schema.json.
+/// The rows of its members, for docs/results.md, and its JSON schema, docs/summary.schema.json.
 /// @param all  a result with an empty answer of every analysis
-std::vector<MemberLine> summary_members(const Result &all);
-std::string             summary_schema(const Result &all);
+std::string summary_members(const Result &all);
+std::string summary_schema(const Result &all);
 
 } // namespace gestell::apps

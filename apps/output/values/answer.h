@@ -9,7 +9,6 @@ namespace gestell::apps
 {
 
 struct JsonMembers;
-struct MemberList;
 struct SchemaMembers;
 struct Result;
 struct Section;
@@ -28,10 +27,9 @@ class Answer
 public:
   virtual ~Answer() = default;
 
-  /// Members of summary.json, its schema and its list: describe_answer(visitor, value).
+  /// Members of summary.json and its schema: describe_answer(visitor, value).
   virtual void describe(JsonMembers &v) const   = 0;
   virtual void describe(SchemaMembers &v) const = 0;
-  virtual void describe(MemberList &v) const    = 0;
 
   /// What is read of it, on the page of the report and in a terminal.
   virtual std::vector<Section> sections(const Result &result) const = 0;

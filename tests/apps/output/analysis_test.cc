@@ -75,7 +75,6 @@ public:
 
   void                 describe(JsonMembers &) const override {}
   void                 describe(SchemaMembers &) const override {}
-  void                 describe(MemberList &) const override {}
   std::vector<Section> sections(const Result &) const override { return {section_}; }
 
 private:

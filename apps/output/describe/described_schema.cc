@@ -1,0 +1,47 @@
+#include "apps/output/describe/described_schema.h"
+
+#include <algorithm>
+
+namespace gestell::apps
+{
+
+namespace
+{
+
+/// "number or null", "array of objects"
+std::string type_name(const Json &schema)
+{
+  const Json       &type = schema["type"];
+  const std::string name = type.is_array() ? type[0] : type;
+  return (name == "array" ? "array of " + type_name(schema["items"]) + 's' : name) +
+         (schema.contains("~optional") ? " or null" : "");
+}
+
+} // namespace
+
+Json published(const Json &schema)
+{
+  return Json::parse(schema.dump(), [](int, Json::parse_event_t event, const Json &key)
+                     { return event != Json::parse_event_t::key || key.get<std::string>().rfind('~', 0) != 0; });
+}
+
+std::string member_rows(const Json &schema, const std::string &at)
+{
+  if (schema.contains("items"))
+    return member_rows(schema["items"], at + "[]");
+  if (schema.contains("additionalProperties"))
+    return member_rows(schema["additionalProperties"], at + ".NAME");
+  std::string rows;
+  if (schema.contains("properties"))
+    for (const auto &[name, own] : schema["properties"].items())
+    {
+      const Json       &always = schema["required"];
+      const std::string path = (at.empty() ? "" : at + '.') + name, unit = own["~"][0], meaning = own["~"][1];
+      rows += "| `" + path + "` | " + type_name(own) +
+              (std::find(always.begin(), always.end(), name) == always.end() ? ", if any" : "") + " | " + unit + " | " +
+              meaning + " |\n" + member_rows(own, path);
+    }
+  return rows;
+}
+
+} // namespace gestell::apps
