@@ -12,11 +12,8 @@
 
 namespace gestell::apps
 {
-namespace
-{
 
-/// Cells of a line; a doubled quote between quotes is one of the cell.
-std::vector<std::string> split(const std::string &line, char separator)
+std::vector<std::string> csv_cells(const std::string &line, char separator)
 {
   std::vector<std::string> cells(1);
   bool                     quoted = false;
@@ -32,6 +29,9 @@ std::vector<std::string> split(const std::string &line, char separator)
   std::transform(cells.begin(), cells.end(), cells.begin(), trimmed);
   return cells;
 }
+
+namespace
+{
 
 CsvFile parsed(const std::string &name, std::istream &in)
 {
@@ -54,11 +54,11 @@ CsvFile parsed(const std::string &name, std::istream &in)
     if (table.head.empty())
     {
       separator  = std::count(text.begin(), text.end(), ';') > std::count(text.begin(), text.end(), ',') ? ';' : ',';
-      table.head = split(text, separator);
+      table.head = csv_cells(text, separator);
       table.head_number = number;
       continue;
     }
-    table.lines.push_back({number, split(text, separator)});
+    table.lines.push_back({number, csv_cells(text, separator)});
     if (table.lines.back().cells.size() != table.head.size())
       throw std::invalid_argument(table.place(number) + "has " + std::to_string(table.lines.back().cells.size()) +
                                   " cells, but the head of the table has " + std::to_string(table.head.size()));

@@ -29,6 +29,9 @@ struct CsvFile
   int integer(const Line &line, std::size_t column) const;
 };
 
+/// Cells of a line, without blanks around them; a doubled quote between quotes is one of the cell.
+std::vector<std::string> csv_cells(const std::string &line, char separator = ',');
+
 /// @throws std::invalid_argument if the file cannot be read, has no head or a line of another number of cells.
 CsvFile read_csv(const std::string &file);
 /// Of a text; `name` stands in messages in place of the file.

@@ -1,6 +1,7 @@
 #include "apps/study/runs/rows_file.h"
 
 #include "apps/output/text/csv.h"
+#include "apps/scene/file/csv_file.h"
 #include "coupling/frame/atomic_file.h"
 #include "coupling/frame/number_in_file.h"
 #include "fem/values/number_text.h"
@@ -29,22 +30,6 @@ std::string cell(std::string text)
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   return csv_field(text);
-}
-
-std::vector<std::string> cells_of(const std::string &line)
-{
-  std::vector<std::string> cells(1);
-  bool                     quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i)
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[i++];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += line[i];
-  return cells;
 }
 
 double number_of(const std::string &text)
@@ -97,7 +82,7 @@ std::string RowsText::line(const RunRow &row, const Eigen::VectorXd &levels) con
 
 RunRow RowsText::row(const std::string &line) const
 {
-  const std::vector<std::string> cells    = cells_of(line);
+  const std::vector<std::string> cells    = csv_cells(line);
   const std::size_t              expected = 3 + variables_.size() + outputs_.size();
   if (cells.size() != expected)
     throw std::invalid_argument("has " + std::to_string(cells.size()) + " cells in place of " +
