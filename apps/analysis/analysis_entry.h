@@ -45,11 +45,11 @@ std::shared_ptr<const Answer> as_answer(Value found)
 }
 
 /// The content of a file that an answer makes; "" without one.
-template <class Value, std::string (*content)(const Value &)>
+template <class Value, auto content>
 std::string content_of(const Result &result)
 {
   const Value *found = answer_in<Value>(result.answers);
-  return found ? content(*found) : "";
+  return found ? std::string(content(*found)) : "";
 }
 
 /// @tparam Own    an Analysis

@@ -2,12 +2,9 @@
 
 #include "apps/analysis/analyses.h"
 #include "apps/output/folder/own_folder.h"
-#include "apps/output/tables/basins_table.h"
-#include "apps/output/tables/energy_table.h"
-#include "apps/output/tables/modes_along_table.h"
+#include "apps/output/tables/mode_tables.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
-#include "apps/output/tables/section_table.h"
 #include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/values/result.h"
@@ -19,59 +16,16 @@ namespace gestell::apps
 namespace
 {
 
-std::string history(const Result &result)
+/// The content of a file of a part that a result may have; "" without it.
+template <auto part, auto table>
+std::string csv_of(const Result &result)
 {
-  return result.run && !result.run->columns.empty() ? history_csv(*result.run) : "";
+  return result.*part ? std::string(table(*(result.*part))) : "";
 }
-
-std::string modes(const Result &result)
+template <auto table>
+std::string csv_of(const Result &result)
 {
-  return result.frame_modes.empty() && result.coupled_modes.empty() ? "" : modes_csv(result);
-}
-
-std::string mode_energies(const Result &result)
-{
-  return result.energy_shares ? mode_energies_csv(result) : "";
-}
-
-std::string along(const Result &result)
-{
-  return result.along ? modes_along_csv(*result.along) : "";
-}
-
-std::string along_shapes(const Result &result)
-{
-  return result.along ? modes_along_shapes_csv(*result.along, result.coordinate_names) : "";
-}
-
-std::string solutions(const Result &result)
-{
-  return result.periodic ? solutions_csv(*result.periodic) : "";
-}
-
-std::string multipliers(const Result &result)
-{
-  return result.periodic ? multipliers_csv(*result.periodic) : "";
-}
-
-std::string special_points(const Result &result)
-{
-  return result.periodic ? special_points_csv(*result.periodic) : "";
-}
-
-std::string basins_of_motions(const Result &result)
-{
-  return result.periodic ? basins_csv(*result.periodic) : "";
-}
-
-std::string section_of_motion(const Result &result)
-{
-  return result.periodic ? section_csv(*result.periodic) : "";
-}
-
-std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
-{
-  return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
+  return table(result);
 }
 
 std::string sensitivities(const Result &result)
@@ -79,27 +33,31 @@ std::string sensitivities(const Result &result)
   return result.sensitivities && result.sensitivities->failure.empty() ? sensitivities_csv(*result.sensitivities) : "";
 }
 
-std::string models(const Result &result)
+std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
 {
-  return result.size ? size_csv(*result.size) : "";
+  return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
 }
 
 /// Of what is no analysis.
 const std::vector<ResultFile> own_files = {
-    {"history.csv", "to plot: every signal over time", history},
-    {"modes.csv", "natural frequencies, damping, effective masses", modes},
-    {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", mode_energies},
-    {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", along},
-    {"modes_along_shapes.csv", "the shapes to them", along_shapes},
-    {"solutions.csv", "periodic motions with their stability and signals, of `periodic`", solutions},
-    {"multipliers.csv", "their Floquet multipliers", multipliers},
-    {"special_points.csv", "where they begin, end or change, with `periodic --along`", special_points},
+    {"history.csv", "to plot: every signal over time", csv_of<&Result::run, history_csv>},
+    {"modes.csv", "natural frequencies, damping, effective masses", csv_of<modes_csv>},
+    {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", csv_of<mode_energies_csv>},
+    {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", csv_of<modes_along_csv>},
+    {"modes_along_shapes.csv", "the shapes to them", csv_of<modes_along_shapes_csv>},
+    {"solutions.csv", "periodic motions with their stability and signals, of `periodic`",
+     csv_of<&Result::periodic, solutions_csv>},
+    {"multipliers.csv", "their Floquet multipliers", csv_of<&Result::periodic, multipliers_csv>},
+    {"special_points.csv", "where they begin, end or change, with `periodic --along`",
+     csv_of<&Result::periodic, special_points_csv>},
     {"orbit_*.csv", "one period of all signals, by the number of the solution", nullptr, "", "", orbits},
-    {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long", section_of_motion},
-    {"basins.csv", "which start settles to which motion, with `periodic --basins`", basins_of_motions},
+    {"section.csv", "a motion at the begin of every period, where `periodic` follows it for long",
+     csv_of<&Result::periodic, section_csv>},
+    {"basins.csv", "which start settles to which motion, with `periodic --basins`",
+     csv_of<&Result::periodic, basins_csv>},
     {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
      sensitivities},
-    {"size.csv", "models that `size` tried, with their cost and errors", models},
+    {"size.csv", "models that `size` tried, with their cost and errors", csv_of<&Result::size, size_csv>},
     {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
     {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,
      WrittenBy::its_command},

@@ -1,6 +1,7 @@
 #include "apps/cli/modes_converge.h"
 
 #include "apps/output/folder/own_folder.h"
+#include "apps/output/text/csv.h"
 #include "coupling/plugin/mesh_service.h"
 #include "fem/values/number_text.h"
 
@@ -27,16 +28,6 @@ std::string number(double value)
   std::ostringstream text;
   text << std::setprecision(17) << value;
   return text.str();
-}
-
-template <typename Value>
-void add_row(std::string &table, const std::string &name, const coupling::MeshConvergence &convergence,
-             const Value &value)
-{
-  table += name + ",,,,";
-  for (const coupling::ConvergedQuantity &quantity : convergence.quantities)
-    table += "," + number(value(quantity)) + ",";
-  table += '\n';
 }
 
 double largest_bound(const coupling::MeshConvergence &convergence, const std::string &kind)
@@ -125,24 +116,30 @@ std::vector<std::string> convergence_warnings(const coupling::MeshConvergence &c
 
 void write_convergence(const std::filesystem::path &folder, const coupling::MeshConvergence &convergence)
 {
-  std::string table = "mesh,largest cell [m],cells,coordinates,CPU time [s]";
+  std::vector<std::string> heads{"mesh", "largest cell [m]", "cells", "coordinates", "CPU time [s]"};
   for (const auto &quantity : convergence.quantities)
-    table += "," + quantity.name + " [" + quantity.unit + "]," + quantity.name + " estimated error";
-  table += '\n';
-  for (std::size_t i = 0; i < convergence.levels.size(); ++i)
+    heads.insert(heads.end(), {quantity.name + " [" + quantity.unit + "]", quantity.name + " estimated error"});
+  CsvTable csv(heads);
+  int      mesh = 0;
+  for (const coupling::MeshLevel &level : convergence.levels)
   {
-    const coupling::MeshLevel &level = convergence.levels[i];
-    table += std::to_string(i + 1) + "," + number(level.size) + "," + std::to_string(level.n_cells) + "," +
-             std::to_string(level.n_coordinates) + "," + number(level.cpu_s);
+    std::vector<std::string> values;
     for (std::size_t j = 0; j < level.values.size(); ++j)
-      table += "," + number(level.values[j]) + "," + number(level.estimates[j]);
-    table += '\n';
+      values.insert(values.end(), {number(level.values[j]), number(level.estimates[j])});
+    csv.add(++mesh, number(level.size), level.n_cells, level.n_coordinates, number(level.cpu_s), values);
   }
-  add_row(table, "limit", convergence, [](const auto &quantity) { return quantity.limit; });
-  add_row(table, "uncertainty", convergence, [](const auto &quantity) { return quantity.uncertainty; });
-  add_row(table, "error", convergence, [](const auto &quantity) { return quantity.error; });
-  add_row(table, "order", convergence, [](const auto &quantity) { return quantity.order; });
-  OwnFolder(folder).write("mesh_convergence.csv", table);
+  using Quantity = coupling::ConvergedQuantity;
+  for (const auto &[name, part] : {std::pair("limit", &Quantity::limit),
+                                   {"uncertainty", &Quantity::uncertainty},
+                                   {"error", &Quantity::error},
+                                   {"order", &Quantity::order}})
+  {
+    std::vector<std::string> values;
+    for (const Quantity &quantity : convergence.quantities)
+      values.insert(values.end(), {number(quantity.*part), ""});
+    csv.add(name, "", "", "", "", values);
+  }
+  OwnFolder(folder).write("mesh_convergence.csv", csv);
 }
 
 } // namespace gestell::apps

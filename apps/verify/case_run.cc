@@ -246,12 +246,12 @@ const std::vector<Computation> &scene_computations()
   return all;
 }
 
-std::string events(const coupling::RunResult &run)
+CsvTable events(const coupling::RunResult &run)
 {
-  std::string text = "t [s],name,kind\n";
+  CsvTable csv({"t [s]", "name", "kind"});
   for (const auto &event : run.events)
-    text += exact_text(event.t) + ',' + csv_field(event.name) + ',' + csv_field(event.kind) + '\n';
-  return text;
+    csv.add(event.t, event.name, event.kind);
+  return csv;
 }
 
 std::vector<std::string> segments_of(const std::string &entry)

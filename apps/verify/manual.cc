@@ -1,6 +1,5 @@
 #include "apps/verify/manual.h"
 
-#include "apps/output/text/csv.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"
@@ -268,29 +267,17 @@ std::string verification_document(const Verification &all)
              : text + "## Not covered\n\n| file of reference values | why no case reads it |\n|---|---|\n" + rows;
 }
 
-std::string verification_csv(const Verification &all)
+CsvTable verification_csv(const Verification &all)
 {
-  std::string text = "file,case,check,compared,expected,obtained,error,allowed,numbers,passed,source,failure\n";
+  CsvTable csv({"file", "case", "check", "compared", "expected", "obtained", "error", "allowed", "numbers", "passed",
+                "source", "failure"});
   for_each_check(all,
                  [&](const CaseFile &file, const ReferenceCase &one, const Check &check, const CheckOutcome &out)
                  {
-                   const std::string fields[] = {file_name(file.path),
-                                                 one.name,
-                                                 check.name,
-                                                 compared(check),
-                                                 out.expected,
-                                                 out.obtained,
-                                                 exact_text(out.error),
-                                                 exact_text(out.allowed),
-                                                 std::to_string(out.n_numbers),
-                                                 out.passed ? "yes" : "no",
-                                                 check.source,
-                                                 out.failure};
-                   for (const std::string &field : fields)
-                     text += (&field == fields ? "" : ",") + csv_field(field);
-                   text += '\n';
+                   csv.add(file_name(file.path), one.name, check.name, compared(check), out.expected, out.obtained,
+                           out.error, out.allowed, out.n_numbers, out.passed ? "yes" : "no", check.source, out.failure);
                  });
-  return text;
+  return csv;
 }
 
 } // namespace gestell::apps

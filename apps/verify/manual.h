@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/text/csv.h"
 #include "apps/verify/judge.h"
 
 #include <string>
@@ -29,7 +30,7 @@ struct Verification
 
 std::string verification_page(const Verification &all);     ///< HTML, self-contained
 std::string verification_document(const Verification &all); ///< Markdown
-std::string verification_csv(const Verification &all);      ///< one row a check
+CsvTable    verification_csv(const Verification &all);      ///< one row a check
 
 /// "18 cases, 43 checks: all passed".
 std::string verdict_text(const Verification &all);

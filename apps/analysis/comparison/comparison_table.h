@@ -2,22 +2,21 @@
 
 #include "apps/analysis/comparison/mode_comparison.h"
 #include "apps/analysis/comparison/run_comparison.h"
-
-#include <string>
+#include "apps/output/text/csv.h"
 
 namespace gestell::apps
 {
 
 /// `mode, frequency [Hz], other mode, other frequency [Hz], ratio, MAC, seen, other seen`: a row for each mode of the
 /// scene, with empty cells where it has no partner; then those of the other scene that have none.
-std::string compared_modes_csv(const ComparedShapes &shapes);
+CsvTable compared_modes_csv(const ComparedShapes &shapes);
 
 /// The whole matrix: a row for each mode of the scene, a column for each of the other one.
-std::string mac_csv(const ComparedShapes &shapes);
+CsvTable mac_csv(const ComparedShapes &shapes);
 
 /// `signal, unit, extreme, value, t [s], other value, other t [s], ratio`: two rows for each signal that both runs
 /// have.
-std::string compared_run_csv(const coupling::RunResult &run, const ComparedRun &other);
+CsvTable compared_run_csv(const coupling::RunResult &run, const ComparedRun &other);
 
 /// f_b / f_a; nan where the first does not vibrate.
 double frequency_ratio(const ComparedShapes &shapes, const coupling::ModePair &pair);

@@ -108,12 +108,12 @@ public:
 std::string compared_run_file(const Result &result)
 {
   const auto *found = answer_in<ComparedRun>(result.answers);
-  return found ? compared_run_csv(*result.run, *found) : "";
+  return found ? std::string(compared_run_csv(*result.run, *found)) : "";
 }
 
-std::string compared_history_csv(const ComparedRun &other)
+CsvTable compared_history_csv(const ComparedRun &other)
 {
-  return other.run.columns.empty() ? "" : history_csv(other.run);
+  return history_csv(other.run);
 }
 
 void add_warnings(const Result &of_other, Result &result)

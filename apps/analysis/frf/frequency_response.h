@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/text/csv.h"
 #include "apps/output/values/answer.h"
 #include "apps/output/values/coupling_descriptions.h"
 
@@ -92,6 +93,6 @@ std::vector<Section> sections_of(const Result &result, const FrequencyResponse &
 
 /// frf.csv: `frequency [Hz]`, then for each pair `NAME re [unit]`, `NAME im [unit]`, `NAME abs [unit]`, `NAME phase
 /// [deg]`.
-std::string frequency_response_csv(const FrequencyResponse &response);
+CsvTable frequency_response_csv(const FrequencyResponse &response);
 
 } // namespace gestell::apps

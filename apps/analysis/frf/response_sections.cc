@@ -202,22 +202,25 @@ std::vector<Section> sections_of(const Result &, const FrequencyResponse &respon
   return {section};
 }
 
-std::string frequency_response_csv(const FrequencyResponse &response)
+CsvTable frequency_response_csv(const FrequencyResponse &response)
 {
-  std::string csv = "frequency [Hz]";
+  std::vector<std::string> heads{"frequency [Hz]"};
   for (const ResponsePair &pair : response.pairs)
-    for (const std::string part : {"re", "im", "abs"})
-      csv += ',' + pair.name() + ' ' + part + " [" + pair.unit + ']' +
-             (part == "abs" ? "," + pair.name() + " phase [deg]" : "");
-  csv += '\n';
+  {
+    for (const char *part : {" re [", " im [", " abs ["})
+      heads.push_back(pair.name() + part + pair.unit + ']');
+    heads.push_back(pair.name() + " phase [deg]");
+  }
+  CsvTable csv(heads);
   for (std::size_t i = 0; i < response.frequencies_hz.size(); ++i)
   {
-    append_exact(csv, response.frequencies_hz[i]);
+    std::vector<double> row{response.frequencies_hz[i]};
     for (const ResponsePair &pair : response.pairs)
-      for (const double value :
-           {pair.values[i].real(), pair.values[i].imag(), std::abs(pair.values[i]), phase_degrees(pair.values[i])})
-        append_exact(csv += ',', value);
-    csv += '\n';
+    {
+      const std::complex<double> z = pair.values[i];
+      row.insert(row.end(), {z.real(), z.imag(), std::abs(z), phase_degrees(z)});
+    }
+    csv.add(row);
   }
   return csv;
 }

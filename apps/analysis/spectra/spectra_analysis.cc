@@ -2,7 +2,6 @@
 #include "apps/analysis/spectra/order_tracking.h"
 #include "apps/analysis/spectra/spectra.h"
 #include "apps/output/text/csv.h"
-#include "fem/values/number_text.h"
 
 namespace gestell::apps
 {
@@ -35,24 +34,23 @@ public:
   }
 };
 
-std::string orders_csv(const RunSpectra &found)
+CsvTable orders_csv(const RunSpectra &found)
 {
   if (!found.orders)
-    return "";
-  const OrderTracking &tracking = *found.orders;
-  std::string          csv      = "t [s],speed [1/min]";
+    return {};
+  const OrderTracking     &tracking = *found.orders;
+  std::vector<std::string> heads{"t [s]", "speed [1/min]"};
   for (const OrderedSignal &signal : tracking.signals)
     for (const int order : tracking.orders)
-      csv += ',' + signal.name + " order " + std::to_string(order) + " [" + signal.unit + ']';
-  csv += '\n';
+      heads.push_back(signal.name + " order " + std::to_string(order) + " [" + signal.unit + ']');
+  CsvTable csv(heads);
   for (std::size_t window = 0; window < tracking.t.size(); ++window)
   {
-    append_exact(csv, tracking.t[window]);
-    append_exact(csv += ',', tracking.speed_rpm[window]);
+    std::vector<double> row{tracking.t[window], tracking.speed_rpm[window]};
     for (const OrderedSignal &signal : tracking.signals)
       for (const std::vector<double> &order : signal.amplitudes)
-        append_exact(csv += ',', order[window]);
-    csv += '\n';
+        row.push_back(order[window]);
+    csv.add(row);
   }
   return csv;
 }

@@ -55,14 +55,6 @@ MappedMethod exact(ForceRule force, int order, const std::string &name)
   return {options_of("exact", order).with("force", force_rule_name(force)), Spring::contact, name};
 }
 
-void append_row(std::string &csv, const std::string &name, std::initializer_list<double> values)
-{
-  csv += name;
-  for (const double value : values)
-    append_exact(csv += ',', value);
-  csv += '\n';
-}
-
 const StabilityMap *map_of(const std::vector<StabilityMap> &maps, const std::string &method, double zeta)
 {
   for (const StabilityMap &map : maps)
@@ -146,15 +138,14 @@ std::vector<MappedInterval> unstable_maps(const std::vector<MethodFamily> &famil
   return intervals;
 }
 
-std::string maps_csv(const std::vector<StabilityMap> &maps)
+CsvTable maps_csv(const std::vector<StabilityMap> &maps)
 {
-  std::string csv = "method,damping ratio [1],omega h [1],spectral radius [1],period elongation [1],"
-                    "numerical damping [1],overshoot displacement [1],overshoot velocity [1]\n";
+  CsvTable csv({"method", "damping ratio [1]", "omega h [1]", "spectral radius [1]", "period elongation [1]",
+                "numerical damping [1]", "overshoot displacement [1]", "overshoot velocity [1]"});
   for (const StabilityMap &map : maps)
     for (std::size_t i = 0; i < map.omega_h.size(); ++i)
-      append_row(csv, map.method,
-                 {map.zeta, map.omega_h[i], map.step[i].spectral_radius, map.step[i].period_elongation,
-                  map.step[i].numerical_damping, map.displaced[i].displacement, map.displaced[i].velocity});
+      csv.add(map.method, map.zeta, map.omega_h[i], map.step[i].spectral_radius, map.step[i].period_elongation,
+              map.step[i].numerical_damping, map.displaced[i].displacement, map.displaced[i].velocity);
   return csv;
 }
 

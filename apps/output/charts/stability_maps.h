@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/output/text/csv.h"
 #include "coupling/integration/stability/overshoot.h"
 #include "coupling/integration/stability/stability.h"
 #include "coupling/simulation/checks/stability_guard.h"
@@ -62,7 +63,7 @@ void describe(Visitor &v, const MappedInterval &x)
 std::vector<MappedInterval> unstable_maps(const std::vector<MethodFamily> &families, const std::vector<double> &zetas);
 
 /// stability_maps.csv
-std::string maps_csv(const std::vector<StabilityMap> &maps);
+CsvTable maps_csv(const std::vector<StabilityMap> &maps);
 
 struct NamedSvg
 {

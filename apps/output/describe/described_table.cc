@@ -1,6 +1,5 @@
 #include "apps/output/describe/described_table.h"
 
-#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -12,22 +11,22 @@ namespace gestell::apps
 namespace
 {
 
-std::string cell_text(const DescribedTable::Cell &cell, std::string (*number)(double), const char *yes, const char *no)
-{
-  if (const double *x = std::get_if<double>(&cell))
-    return number(*x);
-  if (const long *n = std::get_if<long>(&cell))
-    return std::to_string(*n);
-  if (const bool *truth = std::get_if<bool>(&cell))
-    return *truth ? yes : no;
-  return std::get<std::string>(cell);
-}
-
 /// Five digits; eight of a number near one, as a growth per step, which is read by its distance from one.
 std::string short_number(double x)
 {
   constexpr double near_one = 0.01; // farther away, five digits leave three of the distance
   return std::isnan(x) ? "–" : short_text(x, std::abs(x - 1.) < near_one ? 8 : 5);
+}
+
+std::string cell_text(const DescribedTable::Cell &cell)
+{
+  if (const double *x = std::get_if<double>(&cell))
+    return short_number(*x);
+  if (const long *n = std::get_if<long>(&cell))
+    return std::to_string(*n);
+  if (const bool *truth = std::get_if<bool>(&cell))
+    return *truth ? "yes" : "no";
+  return std::get<std::string>(cell);
 }
 
 bool ends_with(const std::string &text, const std::string &end)
@@ -56,15 +55,15 @@ DescribedTable DescribedTable::renamed(const std::vector<std::pair<std::string, 
   return std::move(*this);
 }
 
-std::string DescribedTable::csv() const
+CsvTable DescribedTable::csv() const
 {
-  std::string text;
+  std::vector<std::string> heads;
   for (const Column &column : columns)
-    text += (&column == &columns.front() ? "" : ",") + csv_field(column.head());
+    heads.push_back(column.head());
+  CsvTable csv(heads);
   for (const auto &row : rows)
-    for (const Cell &cell : row)
-      text += (&cell == &row.front() ? '\n' : ',') + csv_field(cell_text(cell, exact_text, "1", "0"));
-  return text + '\n';
+    csv.add(row);
+  return csv;
 }
 
 HtmlTable DescribedTable::shown() const
@@ -77,7 +76,7 @@ HtmlTable DescribedTable::shown() const
   {
     std::vector<HtmlTable::Cell> cells;
     for (const Cell &cell : row)
-      cells.push_back(cell_text(cell, short_number, "yes", "no"));
+      cells.push_back(cell_text(cell));
     table.add(cells);
   }
   return table;

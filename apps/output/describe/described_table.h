@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/describe/described.h"
+#include "apps/output/text/csv.h"
 #include "apps/output/text/html.h"
 
 #include <variant>
@@ -24,7 +25,7 @@ struct DescribedTable
   /// Columns under the names that files have had for long.
   DescribedTable renamed(const std::vector<std::pair<std::string, std::string>> &names) &&;
 
-  std::string csv() const;   ///< RFC 4180, numbers in full precision, truths as 1 and 0
+  CsvTable    csv() const;
   HtmlTable   shown() const; ///< numbers to five digits
   std::string html() const { return shown().scrolled_html(); }
   std::string terminal() const { return shown().terminal(); }

@@ -2,7 +2,6 @@
 
 #include "apps/output/charts/mode_charts.h"
 #include "apps/output/interactive/live_chart.h"
-#include "apps/output/tables/modes_along_table.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "apps/output/values/line_extremes.h"

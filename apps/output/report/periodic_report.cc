@@ -1,8 +1,7 @@
 #include "apps/output/report/periodic_report.h"
 
 #include "apps/output/report/periodic_charts.h"
-#include "apps/output/tables/basins_table.h"
-#include "apps/output/tables/section_table.h"
+#include "apps/output/tables/periodic_tables.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"
 #include "fem/values/number_text.h"

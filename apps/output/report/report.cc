@@ -16,7 +16,7 @@
 #include "apps/output/report/stage_report.h"
 #include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
-#include "apps/output/tables/energy_table.h"
+#include "apps/output/tables/mode_tables.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/text/html.h"
 #include "apps/output/text/svg.h"

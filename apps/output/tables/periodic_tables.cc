@@ -1,8 +1,5 @@
 #include "apps/output/tables/periodic_tables.h"
 
-#include "apps/output/tables/basins_table.h"
-#include "apps/output/tables/section_table.h"
-#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -14,21 +11,50 @@ namespace
 
 std::string parameter_head(const PeriodicResult &result)
 {
-  if (result.parameter.empty())
-    return "parameter";
-  return csv_field(result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]"));
+  return result.parameter.empty()
+             ? "parameter"
+             : result.parameter + (result.parameter_unit.empty() ? "" : " [" + result.parameter_unit + "]");
 }
 
-std::string yes_no(const coupling::PeriodicSolution &solution)
+/// Nothing where no parameter is followed.
+std::optional<double> parameter_of(const PeriodicResult &result, double value)
 {
-  return !solution.stability_is_known() ? "" : solution.stable() ? "yes" : "no";
+  return result.parameter.empty() ? std::nullopt : std::optional(value);
 }
 
-void append_parameter(const PeriodicResult &result, double value, std::string &csv)
+std::vector<double> numbers_of(const SignalOrbit &signal)
 {
-  csv += ',';
-  if (!result.parameter.empty())
-    append_exact(csv, value);
+  std::vector<double> numbers{signal.max, signal.min, signal.mean};
+  for (std::size_t k = 0; k < signal.amplitude.size(); ++k)
+    numbers.insert(numbers.end(), {signal.amplitude[k], signal.phase[k]});
+  return numbers;
+}
+
+std::string kind_text(const coupling::Recurrence &motion)
+{
+  if (motion.kind == "periodic")
+    return "periodic: it repeats after one period of the excitation";
+  if (motion.kind == "sub-harmonic")
+    return "sub-harmonic: it repeats after " + std::to_string(motion.repeats) + " periods of the excitation";
+  if (motion.kind == "quasi-periodic")
+    return "quasi-periodic: it beats and never repeats, neighbouring motions keep their distance";
+  if (motion.kind == "drifting")
+    return "drifting: it lies ever farther away over these periods, as a motion that nothing holds";
+  if (motion.kind == "chaotic")
+    return "chaotic: it never repeats, neighbouring motions part";
+  return "still settling: it comes ever nearer to a motion that repeats" +
+         (motion.repeats > 0 ? " after " + std::to_string(motion.repeats) + " period" + (motion.repeats > 1 ? "s" : "")
+                             : std::string());
+}
+
+std::string range_text(const std::string &name, double begin, double end)
+{
+  return name + " from " + short_text(begin, 4) + " to " + short_text(end, 4);
+}
+
+std::string percent(double share)
+{
+  return short_text(100. * share, 3) + " %";
 }
 
 } // namespace
@@ -38,97 +64,129 @@ std::string kind_of(const coupling::PeriodicSolution &solution)
   return solution.ratio > 1 ? "sub-harmonic 1/" + std::to_string(solution.ratio) : "periodic";
 }
 
-std::string solutions_csv(const PeriodicResult &result)
+CsvTable solutions_csv(const PeriodicResult &result)
 {
-  std::string csv =
-      "solution,branch," + parameter_head(result) + ",period [s],period ratio,residual,stable,largest multiplier,kind";
+  std::vector<std::string> heads{"solution", "branch", parameter_head(result), "period [s]", "period ratio",
+                                 "residual", "stable", "largest multiplier",   "kind"};
   if (!result.entries.empty())
     for (const SignalOrbit &signal : result.entries.front().signals)
     {
       for (const char *what : {" max", " min", " mean"})
-        csv += ',' + csv_field(signal.name + what);
+        heads.push_back(signal.name + what);
       for (std::size_t k = 1; k <= signal.amplitude.size(); ++k)
-        csv += ',' + csv_field(signal.name + " a" + std::to_string(k)) + ',' +
-               csv_field(signal.name + " phi" + std::to_string(k));
+        for (const char *what : {" a", " phi"})
+          heads.push_back(signal.name + what + std::to_string(k));
     }
-  csv += '\n';
-  int number = 0;
+  CsvTable csv(heads);
+  int      number = 0;
   for (const PeriodicEntry &entry : result.entries)
   {
-    csv += std::to_string(++number) + ',' + std::to_string(entry.branch);
-    append_parameter(result, entry.parameter, csv);
-    append_exact(csv += ',', entry.solution.period);
-    csv += ',' + std::to_string(entry.solution.ratio);
-    append_exact(csv += ',', entry.solution.residual);
-    csv += ',' + yes_no(entry.solution);
-    append_exact(csv += ',', entry.solution.largest_multiplier());
-    csv += ',' + kind_of(entry.solution);
+    const coupling::PeriodicSolution &s = entry.solution;
+    std::vector<std::vector<double>>  signals;
     for (const SignalOrbit &signal : entry.signals)
-    {
-      for (const double x : {signal.max, signal.min, signal.mean})
-        append_exact(csv += ',', x);
-      for (std::size_t k = 0; k < signal.amplitude.size(); ++k)
-      {
-        append_exact(csv += ',', signal.amplitude[k]);
-        append_exact(csv += ',', signal.phase[k]);
-      }
-    }
-    csv += '\n';
+      signals.push_back(numbers_of(signal));
+    csv.add(++number, entry.branch, parameter_of(result, entry.parameter), s.period, s.ratio, s.residual,
+            !s.stability_is_known() ? ""
+            : s.stable()            ? "yes"
+                                    : "no",
+            s.largest_multiplier(), kind_of(s), signals);
   }
   return csv;
 }
 
-std::string multipliers_csv(const PeriodicResult &result)
+CsvTable multipliers_csv(const PeriodicResult &result)
 {
-  std::string csv    = "solution,re,im,abs\n";
-  int         number = 0;
+  CsvTable csv({"solution", "re", "im", "abs"});
+  int      number = 0;
   for (const PeriodicEntry &entry : result.entries)
   {
     ++number;
     for (const auto &mu : entry.solution.multipliers)
-    {
-      csv += std::to_string(number);
-      for (const double x : {mu.real(), mu.imag(), std::abs(mu)})
-        append_exact(csv += ',', x);
-      csv += '\n';
-    }
+      csv.add(number, mu.real(), mu.imag(), std::abs(mu));
   }
   return csv;
 }
 
-std::string special_points_csv(const PeriodicResult &result)
+CsvTable special_points_csv(const PeriodicResult &result)
 {
-  std::string csv = "kind," + parameter_head(result) + ",period [s],solution\n";
+  CsvTable csv({"kind", parameter_head(result), "period [s]", "solution"});
   for (const SpecialPoint &point : result.special_points)
-  {
-    csv += point.kind;
-    append_parameter(result, point.parameter, csv);
-    append_exact(csv += ',', point.period);
-    csv += ',' + std::to_string(point.solution) + '\n';
-  }
+    csv.add(point.kind, parameter_of(result, point.parameter), point.period, point.solution);
   return csv;
 }
 
 std::vector<std::pair<std::string, std::string>> orbit_files(const PeriodicResult &result)
 {
   std::vector<std::pair<std::string, std::string>> files;
-  int                                              number = 0;
   for (const PeriodicEntry &entry : result.entries)
   {
-    ++number;
-    const std::size_t width = entry.signals.size() + 1;
-    std::string       csv   = "t [s]";
+    std::vector<std::string> heads{"t [s]"};
     for (const SignalOrbit &signal : entry.signals)
-      csv += ',' + csv_field(signal.name + " [" + signal.unit + "]");
-    csv += '\n';
-    for (std::size_t i = 0; i < entry.rows.size(); ++i)
-    {
-      append_exact(csv, entry.rows[i]);
-      csv += (i + 1) % width == 0 ? '\n' : ',';
-    }
-    files.emplace_back("orbit_" + std::to_string(number) + ".csv", csv);
+      heads.push_back(signal.name + " [" + signal.unit + "]");
+    CsvTable csv(heads);
+    csv.add_rows(entry.rows);
+    files.emplace_back("orbit_" + std::to_string(files.size() + 1) + ".csv", csv);
   }
   return files;
+}
+
+CsvTable section_csv(const PeriodicResult &result)
+{
+  if (!result.long_run)
+    return {};
+  const LongRun           &run = *result.long_run;
+  std::vector<std::string> heads{"period"};
+  for (const NamedCoordinate &coordinate : result.coordinates)
+    heads.insert(heads.end(), {coordinate.name, coordinate.name + "'"});
+  heads.insert(heads.end(), run.columns.begin(), run.columns.end());
+  CsvTable               csv(heads);
+  const Eigen::MatrixXd &section = run.motion.section;
+  const auto             n       = section.rows() / 2;
+  auto                   signals = run.rows.begin();
+  for (Eigen::Index k = 0; k < section.cols(); ++k)
+  {
+    std::vector<double> numbers;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (const double x : {section(i, k), section(n + i, k)})
+        numbers.push_back(result.coordinates[std::size_t(i)].sign * x);
+    for (std::size_t j = 0; j < run.columns.size(); ++j)
+      numbers.push_back(*signals++);
+    csv.add(run.motion.periods + k, numbers);
+  }
+  return csv;
+}
+
+CsvTable basins_csv(const PeriodicResult &result)
+{
+  if (!result.basins)
+    return {};
+  const coupling::Basins &basins = result.basins->basins;
+  CsvTable                csv({result.basins->x_name, result.basins->y_name, "solution", "periods"});
+  for (int j = 0; j < basins.plane.points; ++j)
+    for (int i = 0; i < basins.plane.points; ++i)
+      if (basins.motion(i, j) != coupling::Basins::not_looked_at)
+        csv.add(basins.plane.x_at(i), basins.plane.y_at(j), basins.motion(i, j), basins.periods(i, j));
+  return csv;
+}
+
+std::string long_run_text(const LongRun &run)
+{
+  const coupling::Recurrence &motion = run.motion;
+  return "in the long run (" + std::to_string(motion.periods) + " periods, behind as many) the motion is " +
+         kind_text(motion) + "; largest Lyapunov exponent " + short_text(motion.exponent, 3) + " 1/s, standard error " +
+         short_text(motion.error, 2) + " 1/s";
+}
+
+std::string basins_text(const BasinMap &map)
+{
+  const coupling::Basins &basins = map.basins;
+  std::string text = "basins over " + range_text(map.x_name, basins.plane.x_begin, basins.plane.x_end) + ", " +
+                     range_text(map.y_name, basins.plane.y_begin, basins.plane.y_end) + ":";
+  for (int number = 1; number <= basins.motion.maxCoeff(); ++number)
+    if (const double share = basins.share(number); share > 0.)
+      text += " no. " + std::to_string(number) + " " + percent(share) + ",";
+  text += " none of the stable motions found " + percent(basins.share(coupling::Basins::not_reached));
+  return text + (basins.is_complete() ? "" : "; interrupted");
 }
 
 } // namespace gestell::apps

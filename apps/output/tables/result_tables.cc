@@ -1,33 +1,14 @@
 #include "apps/output/tables/result_tables.h"
 
-#include "apps/output/text/csv.h"
 #include "coupling/simulation/checks/contacts_and_switches.h"
-#include "fem/values/number_text.h"
 
 #include <algorithm>
-#include <cmath>
 #include <regex>
 
 namespace gestell::apps
 {
 namespace
 {
-
-void append_modes(std::string &csv, const std::vector<coupling::Mode> &modes, const char *kind)
-{
-  int number = 0;
-  for (const coupling::Mode &mode : modes)
-  {
-    csv += std::to_string(++number);
-    for (const double x : {mode.frequency_hz, mode.damped_frequency_hz, mode.damping_ratio, mode.effective_mass[0],
-                           mode.effective_mass[1], mode.effective_mass[2]})
-      append_exact(csv += ',', x);
-    csv += std::string(",") + kind + ',';
-    append_exact(csv, mode.growth);
-    append_exact(csv += ',', mode.refined_hz);
-    csv += '\n';
-  }
-}
 
 /// "press.toml:12: element.stop: never acts in this run ...; expected: ...": its place is the key it begins with.
 coupling::Finding of_the_scene(const std::string &warning)
@@ -82,34 +63,12 @@ std::vector<std::string> all_warnings(const Result &result)
   return coupling::texts_of(all_findings(result));
 }
 
-std::string history_csv(const coupling::RunResult &run)
+CsvTable history_csv(const coupling::RunResult &run)
 {
-  const std::size_t width = run.columns.size();
-  std::string       csv;
-  csv.reserve(20 * (run.rows.size() + width));
-  for (std::size_t j = 0; j < width; ++j)
-    csv += (j > 0 ? "," : "") + csv_field(run.columns[j] + " [" + run.units[j] + "]");
-  csv += '\n';
-  for (std::size_t i = 0; i + width <= run.rows.size(); i += width)
-  {
-    for (std::size_t j = 0; j < width; ++j)
-    {
-      if (j > 0)
-        csv += ',';
-      append_exact(csv, run.rows[i + j]);
-    }
-    csv += '\n';
-  }
-  return csv;
-}
-
-std::string modes_csv(const Result &result)
-{
-  std::string csv =
-      "mode,frequency [Hz],damped frequency [Hz],damping ratio,"
-      "effective mass x [kg],effective mass y [kg],effective mass z [kg],kind,growth [1/s],refined frequency [Hz]\n";
-  append_modes(csv, result.frame_modes, "frame");
-  append_modes(csv, result.coupled_modes, "coupled");
+  if (run.columns.empty())
+    return {};
+  CsvTable csv(heads_of(run.columns, run.units));
+  csv.add_rows(run.rows);
   return csv;
 }
 

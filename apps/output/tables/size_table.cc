@@ -1,6 +1,5 @@
 #include "apps/output/tables/size_table.h"
 
-#include "apps/output/text/csv.h"
 #include "fem/values/number_text.h"
 
 #include <cmath>
@@ -13,48 +12,43 @@ namespace gestell::apps
 namespace
 {
 
-/// Full precision; empty: not known.
-std::string field(const std::optional<double> &value)
+std::optional<int> known_modes(const SizeRung &rung)
 {
-  return value ? ',' + exact_text(*value) : ",";
+  return rung.modes >= 0 ? std::optional(rung.modes) : std::nullopt;
 }
 
 } // namespace
 
-std::string size_csv(const SizeResult &size)
+CsvTable size_csv(const SizeResult &size)
 {
-  std::string csv = "rung,mesh size [m],coordinates,interface,modes,method,step [s],tolerance,cpu_s";
+  std::vector<std::string> heads{"rung",   "mesh size [m]", "coordinates", "interface", "modes",
+                                 "method", "step [s]",      "tolerance",   "cpu_s"};
   for (const BudgetEntry &entry : size.ladder.front().entries)
-  {
     for (const char *what : {"value", "mesh", "reduction", "time", "total"})
-      csv += ',' + csv_field(entry.output + ' ' + what + " [" + entry.unit + ']');
-  }
-  csv += '\n';
-  int number = 0;
+      heads.push_back(entry.output + ' ' + what + " [" + entry.unit + ']');
+  CsvTable csv(heads);
+  int      number = 0;
   for (const SizeRung &rung : size.ladder)
   {
-    csv += std::to_string(++number) + (rung.mesh_size > 0. ? field(rung.mesh_size) : ",") + ',' +
-           std::to_string(rung.coordinates) + ',' + std::to_string(rung.interface) + ',' +
-           (rung.modes >= 0 ? std::to_string(rung.modes) : "") + ',' + rung.method + field(rung.step) +
-           field(rung.tolerance) + field(rung.cpu_s);
+    std::vector<std::optional<double>> errors;
     for (const BudgetEntry &entry : rung.entries)
-      csv += field(entry.value) + field(entry.mesh.error) + field(entry.reduction.error) + field(entry.time.error) +
-             field(entry.total);
-    csv += '\n';
+      errors.insert(errors.end(),
+                    {entry.value, entry.mesh.error, entry.reduction.error, entry.time.error, entry.total});
+    csv.add(++number, unless_zero(rung.mesh_size), rung.coordinates, rung.interface, known_modes(rung), rung.method,
+            rung.step, rung.tolerance, rung.cpu_s, errors);
   }
   return csv;
 }
 
-std::string size_all_csv(const SizeResult &size)
+CsvTable size_all_csv(const SizeResult &size)
 {
   if (size.all.empty())
-    return "";
-  std::string csv = "mesh size [m],coordinates,interface,modes,method,step [s],tolerance,cpu_s,share,worst\n";
+    return {};
+  CsvTable csv({"mesh size [m]", "coordinates", "interface", "modes", "method", "step [s]", "tolerance", "cpu_s",
+                "share", "worst"});
   for (const SizeRung &rung : size.all)
-    csv += (rung.mesh_size > 0. ? exact_text(rung.mesh_size) : "") + ',' + std::to_string(rung.coordinates) + ',' +
-           std::to_string(rung.interface) + ',' + (rung.modes >= 0 ? std::to_string(rung.modes) : "") + ',' +
-           rung.method + field(rung.step) + field(rung.tolerance) + field(rung.cpu_s) + field(rung.share) + ',' +
-           csv_field(rung.worst) + '\n';
+    csv.add(unless_zero(rung.mesh_size), rung.coordinates, rung.interface, known_modes(rung), rung.method, rung.step,
+            rung.tolerance, rung.cpu_s, rung.share, rung.worst);
   return csv;
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 
+#include "apps/output/text/csv.h"
 #include "apps/output/values/size_result.h"
 
 namespace gestell::apps
 {
 
 /// size.csv: a row for each model that was tried.
-std::string size_csv(const SizeResult &size);
+CsvTable size_csv(const SizeResult &size);
 
 /// size_all.csv: a row for each model of an exhaustive search; empty without one.
-std::string size_all_csv(const SizeResult &size);
+CsvTable size_all_csv(const SizeResult &size);
 
 /// Of all models tried the cheapest within the tolerance against the finer one; null: there is none.
 const SizeRung *cheapest_of(const SizeResult &size);

@@ -1,5 +1,9 @@
 #include "apps/output/text/csv.h"
 
+#include "fem/values/number_text.h"
+
+#include <cmath>
+
 namespace gestell::apps
 {
 
@@ -11,6 +15,38 @@ std::string csv_field(const std::string &text)
   for (const char c : text)
     quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
+}
+
+void CsvTable::add_rows(const std::vector<double> &numbers)
+{
+  text_.reserve(text_.size() + 20 * numbers.size()); // 17 digits, sign, point, separator
+  for (std::size_t i = 0; i < numbers.size() / columns_ * columns_; ++i)
+  {
+    append_exact(text_, numbers[i]);
+    text_ += (i + 1) % columns_ == 0 ? '\n' : ',';
+  }
+}
+
+void CsvTable::number(double x)
+{
+  append_exact(text_, x);
+  text_ += ',';
+}
+
+std::vector<std::string> heads_of(const std::vector<std::string> &names, const std::vector<std::string> &units)
+{
+  std::vector<std::string> heads;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    heads.push_back(names[i] + " [" + units[i] + "]");
+  return heads;
+}
+
+std::vector<std::optional<double>> unless_nan(const std::vector<double> &numbers)
+{
+  std::vector<std::optional<double>> fields;
+  for (const double x : numbers)
+    fields.push_back(std::isnan(x) ? std::nullopt : std::optional(x));
+  return fields;
 }
 
 } // namespace gestell::apps

@@ -1,99 +1,84 @@
 #include "apps/study/report/study_tables.h"
 
-#include "apps/output/text/csv.h"
-#include "fem/values/number_text.h"
-
-#include <cmath>
-
 namespace gestell::apps
 {
-namespace
+CsvTable surface_csv(const std::vector<ResponseSurface> &surfaces)
 {
-
-/// ",x"; nothing behind the comma for what is not known.
-std::string csv_number(double x)
-{
-  return std::isnan(x) ? "," : "," + exact_text(x);
-}
-
-} // namespace
-
-std::string surface_csv(const std::vector<ResponseSurface> &surfaces)
-{
-  std::string csv = "output,term,coefficient,confidence\n";
+  CsvTable csv({"output", "term", "coefficient", "confidence"});
   for (const ResponseSurface &surface : surfaces)
     for (int j = 0; j < surface.coefficients.size(); ++j)
-      csv += csv_field(surface.output.name) + "," + csv_field(surface.term_name(j)) +
-             csv_number(surface.coefficients(j)) + csv_number(surface.confidence(j)) + "\n";
+      csv.add(surface.output.name, surface.term_name(j), unless_nan({surface.coefficients(j), surface.confidence(j)}));
   return csv;
 }
 
-std::string surface_quality_csv(const std::vector<ResponseSurface> &surfaces)
+CsvTable surface_quality_csv(const std::vector<ResponseSurface> &surfaces)
 {
-  std::string csv =
-      "output,runs,coefficients,R2,adjusted R2,predicted R2,standard error,PRESS,lack of fit,degrees of freedom,"
-      "pure error,degrees of freedom,F,p\n";
+  CsvTable csv({"output", "runs", "coefficients", "R2", "adjusted R2", "predicted R2", "standard error", "PRESS",
+                "lack of fit", "degrees of freedom", "pure error", "degrees of freedom", "F", "p"});
   for (const ResponseSurface &surface : surfaces)
   {
     const FitQuality &q = surface.quality;
-    csv += csv_field(surface.output.head()) + "," + std::to_string(q.n_runs) + "," + std::to_string(q.n_coefficients);
-    for (const double x : {q.r2, q.adjusted_r2, q.predicted_r2, q.standard_error, q.press, q.lack_of_fit,
-                           static_cast<double>(q.lack_of_fit_dof), q.pure_error, static_cast<double>(q.pure_error_dof),
-                           q.lack_of_fit_F, q.lack_of_fit_p_value})
-      csv += csv_number(x);
-    csv += "\n";
+    csv.add(surface.output.head(), q.n_runs, q.n_coefficients,
+            unless_nan({q.r2, q.adjusted_r2, q.predicted_r2, q.standard_error, q.press, q.lack_of_fit,
+                        double(q.lack_of_fit_dof), q.pure_error, double(q.pure_error_dof), q.lack_of_fit_F,
+                        q.lack_of_fit_p_value}));
   }
   return csv;
 }
 
-std::string effects_csv(const std::vector<ResponseSurface> &surfaces)
+CsvTable effects_csv(const std::vector<ResponseSurface> &surfaces)
 {
-  std::string csv = "output,effect,kind,value,confidence,share of variance\n";
+  CsvTable csv({"output", "effect", "kind", "value", "confidence", "share of variance"});
   for (const ResponseSurface &surface : surfaces)
     for (const Effect &effect : effects_of(surface))
-      csv += csv_field(surface.output.name) + "," + csv_field(effect.name) + "," + kind_word(effect.kind) +
-             csv_number(effect.value) + csv_number(effect.confidence) + csv_number(effect.share) + "\n";
+      csv.add(surface.output.name, effect.name, kind_word(effect.kind),
+              unless_nan({effect.value, effect.confidence, effect.share}));
   return csv;
 }
 
-std::string front_csv(const StudyFindings &findings)
+CsvTable front_csv(const StudyFindings &findings)
 {
-  std::string csv = "point";
+  std::vector<std::string> heads{"point"};
   for (const StudyVariable &variable : findings.table.variables)
-    csv += "," + csv_field(variable.head());
+    heads.push_back(variable.head());
   for (const StudyOutput &output : findings.table.outputs)
-    csv += "," + csv_field(output.head());
-  csv += "\n";
-  int number = 0;
+    heads.push_back(output.head());
+  CsvTable csv(heads);
+  int      number = 0;
   for (const ParetoPoint &point : findings.front)
   {
-    csv += std::to_string(++number);
+    std::vector<double> row;
     for (std::size_t j = 0; j < findings.table.variables.size(); ++j)
-      csv += csv_number(findings.table.variables[j].physical(point.coded(static_cast<Eigen::Index>(j))));
-    for (const double value : point.values)
-      csv += csv_number(value);
-    csv += "\n";
+      row.push_back(findings.table.variables[j].physical(point.coded(static_cast<Eigen::Index>(j))));
+    row.insert(row.end(), point.values.begin(), point.values.end());
+    csv.add(++number, unless_nan(row));
   }
   return csv;
 }
 
-std::string robust_csv(const std::vector<RobustResult> &results)
+CsvTable robust_csv(const std::vector<RobustResult> &results)
 {
-  std::string csv =
-      "source,output,draws,failed,nominal,mean,error of the mean,standard deviation,error of the deviation,min,max";
-  for (const char *share : {"1 %", "5 %", "50 %", "95 %", "99 %"})
-    csv += std::string(",") + share + "," + share + " low," + share + " high";
-  csv += "\n";
+  std::vector<std::string> heads{"source",
+                                 "output",
+                                 "draws",
+                                 "failed",
+                                 "nominal",
+                                 "mean",
+                                 "error of the mean",
+                                 "standard deviation",
+                                 "error of the deviation",
+                                 "min",
+                                 "max"};
+  for (const std::string share : {"1 %", "5 %", "50 %", "95 %", "99 %"})
+    heads.insert(heads.end(), {share, share + " low", share + " high"});
+  CsvTable csv(heads);
   for (const RobustResult &result : results)
     for (const RobustFigures &f : result.figures)
     {
-      csv += result.source + "," + csv_field(f.output.head()) + "," + std::to_string(result.draws) + "," +
-             std::to_string(result.failed);
-      for (const double x : {f.nominal, f.mean, f.mean_error, f.deviation, f.deviation_error, f.min, f.max})
-        csv += csv_number(x);
+      std::vector<double> row{f.nominal, f.mean, f.mean_error, f.deviation, f.deviation_error, f.min, f.max};
       for (const Quantile &q : f.quantiles)
-        csv += csv_number(q.value) + csv_number(q.low) + csv_number(q.high);
-      csv += "\n";
+        row.insert(row.end(), {q.value, q.low, q.high});
+      csv.add(result.source, f.output.head(), result.draws, result.failed, unless_nan(row));
     }
   return csv;
 }

@@ -1,26 +1,25 @@
 #pragma once
 
+#include "apps/output/text/csv.h"
 #include "apps/study/report/study_findings.h"
-
-#include <string>
 
 namespace gestell::apps
 {
 
 /// `surface.csv`: output, term, coefficient (of coded variables, in the output's SI unit), confidence (half width;
 /// empty: unknown).
-std::string surface_csv(const std::vector<ResponseSurface> &surfaces);
+CsvTable surface_csv(const std::vector<ResponseSurface> &surfaces);
 
 /// `surface_quality.csv`: output and the numbers of FitQuality.
-std::string surface_quality_csv(const std::vector<ResponseSurface> &surfaces);
+CsvTable surface_quality_csv(const std::vector<ResponseSurface> &surfaces);
 
 /// `effects.csv`: output, effect, kind, value, confidence, share of variance.
-std::string effects_csv(const std::vector<ResponseSurface> &surfaces);
+CsvTable effects_csv(const std::vector<ResponseSurface> &surfaces);
 
 /// `front.csv`: a point a row, variables in their units, then all outputs.
-std::string front_csv(const StudyFindings &findings);
+CsvTable front_csv(const StudyFindings &findings);
 
 /// `robust.csv`: source, output, nominal, mean, error, deviation, error, then quantiles with their intervals.
-std::string robust_csv(const std::vector<RobustResult> &results);
+CsvTable robust_csv(const std::vector<RobustResult> &results);
 
 } // namespace gestell::apps

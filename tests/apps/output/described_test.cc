@@ -66,9 +66,9 @@ TEST(Described, TablesHaveAColumnForEachValue)
   with.inner                 = Inner();
   with.number                = 4;
   const DescribedTable table = table_of(std::vector<Outer>{without, with});
-  EXPECT_EQ(table.csv(), "number,flag,text,inner value [Hz],named x [m],named y [m],more [s]\n"
-                         "3,1,\"a, b\",,1,2,\n"
-                         "4,1,\"a, b\",2.5,1,2,1\n");
+  EXPECT_EQ(std::string(table.csv()), "number,flag,text,inner value [Hz],named x [m],named y [m],more [s]\n"
+                                      "3,1,\"a, b\",,1,2,\n"
+                                      "4,1,\"a, b\",2.5,1,2,1\n");
   EXPECT_NE(table.html().find("inner value [Hz]"), std::string::npos);
 }
 

@@ -1,8 +1,6 @@
 #include "apps/output/describe/described_json.h"
 #include "apps/output/report/periodic_charts.h"
-#include "apps/output/tables/basins_table.h"
 #include "apps/output/tables/periodic_tables.h"
-#include "apps/output/tables/section_table.h"
 #include "apps/output/tables/summary_json.h"
 #include "apps/output/text/json.h"
 #include "apps/output/values/periodic_description.h"
@@ -80,9 +78,9 @@ TEST(BasinsChart, JoinsCellsAndLeavesOutWhatWasNotLookedAt)
   EXPECT_NEAR(chart.panels[0].tiles[0].y_end, 2., 0.2);
   EXPECT_THAT(chart.panels[0].curves[0].name, StartsWith("no. 3, 66.7 %"));
   PeriodicResult result;
-  EXPECT_EQ(basins_csv(result), "");
+  EXPECT_EQ(std::string(basins_csv(result)), "");
   result.basins = map;
-  EXPECT_EQ(basins_csv(result), "x,x',solution,periods\n0.5,1,3,7\n1.5,1,3,9\n0.5,3,0,8\n");
+  EXPECT_EQ(std::string(basins_csv(result)), "x,x',solution,periods\n0.5,1,3,7\n1.5,1,3,9\n0.5,3,0,8\n");
   EXPECT_THAT(basins_text(map), HasSubstr("interrupted"));
   EXPECT_EQ(described_json(map)["complete"], false);
 }
@@ -90,7 +88,7 @@ TEST(BasinsChart, JoinsCellsAndLeavesOutWhatWasNotLookedAt)
 TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
 {
   PeriodicResult result;
-  EXPECT_EQ(section_csv(result), "");
+  EXPECT_EQ(std::string(section_csv(result)), "");
   result.coordinates = {{"slide", -1.}}; // of a frame whose row is that of the opposite motion
   LongRun run;
   run.motion.kind    = "quasi-periodic";
@@ -99,7 +97,7 @@ TEST(SectionTable, HasARowForEveryPeriodWithCoordinatesRatesAndSignals)
   run.columns        = {"F [N]"};
   run.rows           = {5., 6.};
   result.long_run    = run;
-  EXPECT_EQ(section_csv(result), "period,slide,slide',F [N]\n64,-1,-3,5\n65,-2,-4,6\n");
+  EXPECT_EQ(std::string(section_csv(result)), "period,slide,slide',F [N]\n64,-1,-3,5\n65,-2,-4,6\n");
   EXPECT_THAT(long_run_text(run), HasSubstr("quasi-periodic"));
   EXPECT_EQ(described_json(run.motion)["kind"], "quasi-periodic");
 }

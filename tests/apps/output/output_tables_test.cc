@@ -85,6 +85,17 @@ TEST(Json, EscapesTextAndHasNullForWhatIsNoNumber)
             "  \"x\": [\n    0.3333333333333333,\n    null,\n    null\n  ]\n}\n");
 }
 
+TEST(Tables, CsvTakesNumbersTextsListsAndWhatIsNotKnown)
+{
+  CsvTable csv({"a", "b, c"});
+  csv.add(0.1, "x\"y");
+  csv.add(unless_nan({1., std::nan("")}));
+  csv.add(true, std::variant<double, std::string>("word"));
+  csv.add_rows({1., 2., 3.});
+  EXPECT_EQ(std::string(csv), "a,\"b, c\"\n0.1,\"x\"\"y\"\n1,\n1,word\n1,2\n");
+  EXPECT_EQ(std::string(CsvTable()), "");
+}
+
 TEST(Tables, HistoryKeepsEveryDigitAndNamesUnits)
 {
   const Result result = example_result(50);

@@ -1,7 +1,7 @@
 // Columns under loads that follow their motion: modes, frequency responses and derivatives against closed
 // forms.
 
-#include "apps/output/tables/energy_table.h"
+#include "apps/output/tables/mode_tables.h"
 #include "apps/scene/build/build_machine.h"
 #include "coupling/modes/energy_shares.h"
 #include "coupling/modes/modes.h"
