@@ -1,5 +1,6 @@
 #include "apps/analysis/result_folder.h"
 #include "apps/output/folder/own_folder.h"
+#include "apps/output/tables/mode_tables.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/tables/summary_json.h"
