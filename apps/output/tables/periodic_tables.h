@@ -16,11 +16,11 @@ CsvTable special_points_csv(const PeriodicResult &result);
 /// orbit_1.csv ... of all solutions: names and contents.
 std::vector<std::pair<std::string, std::string>> orbit_files(const PeriodicResult &result);
 
-/// section.csv: `period`, every coordinate and its rate ("NAME", "NAME'"), every signal; a row at the begin of each
+/// section.csv: `period`, every coordinate and its rate ("NAME", "NAME'"), every signal; a row at the start of each
 /// period.  Empty: the motion was not followed.
 CsvTable section_csv(const PeriodicResult &result);
 
-/// basins.csv: both coordinates of every start that was looked at, the solution it settles to (0: none) and after how
+/// basins.csv: both coordinates of every start that was examined, the solution it settles to (0: none) and after how
 /// many periods it was there.  Empty: there are no basins.
 CsvTable basins_csv(const PeriodicResult &result);
 

@@ -19,11 +19,13 @@ std::string csv_field(const std::string &text)
 
 void CsvTable::add_rows(const std::vector<double> &numbers)
 {
+  const std::size_t width = columns_;
   text_.reserve(text_.size() + 20 * numbers.size()); // 17 digits, sign, point, separator
-  for (std::size_t i = 0; i < numbers.size() / columns_ * columns_; ++i)
+  for (std::size_t i = 0; width > 0 && i + width <= numbers.size(); i += width)
   {
-    append_exact(text_, numbers[i]);
-    text_ += (i + 1) % columns_ == 0 ? '\n' : ',';
+    for (std::size_t j = 0; j < width; ++j)
+      number(numbers[i + j]);
+    text_.back() = '\n';
   }
 }
 

@@ -13,7 +13,7 @@ namespace gestell::apps
 /// A field of a row (RFC 4180): in quotes where it holds a separator, a quote or a line end, its quotes doubled.
 std::string csv_field(const std::string &text);
 
-/// A table as a file holds it: a line of heads, then a line a row.
+/// A table as a file holds it: a line of heads, then one line per row.
 class CsvTable
 {
 public:
@@ -26,7 +26,8 @@ public:
   void add(const Fields &...fields)
   {
     (field(fields), ...);
-    text_.back() = '\n';
+    if (!text_.empty())
+      text_.back() = '\n';
   }
   /// Rows of numbers, one after the other; what does not fill a row is left out.
   void add_rows(const std::vector<double> &numbers);
@@ -67,7 +68,7 @@ private:
 /// Heads of columns, "F_P [N]".
 std::vector<std::string> heads_of(const std::vector<std::string> &names, const std::vector<std::string> &units);
 
-/// Fields of numbers, empty of nan, which is not known.
+/// Fields of numbers; nan, which is unknown, becomes an empty field.
 std::vector<std::optional<double>> unless_nan(const std::vector<double> &numbers);
 
 } // namespace gestell::apps
