@@ -143,6 +143,15 @@ class Words(unittest.TestCase):
         if wrong:
             self.fail("\n" + "\n".join(wrong))
 
+    def test_troubleshooting_quotes_the_program(self):
+        sources = [path for folder in PROGRAM for end in ("cc", "h") for path in (self.top / folder).rglob(f"*.{end}")]
+        printed = [text for path in sources for _, text in strings(path.read_text(encoding="utf-8"))]
+        page = (self.top / "docs/help/troubleshooting.md").read_text(encoding="utf-8")
+        messages = re.findall(r"^\| (`+)(.+?)\1 \|", page, re.M)
+        self.assertEqual(len(messages), 25)
+        pieces = [piece.strip() for _, message in messages for piece in message.split("...") if len(piece.strip()) > 9]
+        self.assertFalse([piece for piece in pieces if not any(piece in text for text in printed)])
+
     def test_every_exception_has_a_reason(self):
         self.assertFalse([row for row in rows_of("ignore.tsv") if len(row) != 3 or len(row[2]) < 15])
 
