@@ -2,15 +2,19 @@
 
 #include "fem/values/nearest_name.h"
 
+#include <algorithm>
+
 namespace gestell::apps
 {
 
-AnalysisEntry compare_run_analysis(), budget_analysis(), spectra_analysis(), frf_analysis(), compare_modes_analysis();
+AnalysisEntry along_analysis(), sensitivity_analysis(), stage_analysis(), compare_run_analysis(), budget_analysis(),
+    spectra_analysis(), frf_analysis(), compare_modes_analysis();
 
 const std::vector<AnalysisEntry> &analyses()
 {
-  static const std::vector<AnalysisEntry> all = {compare_run_analysis(), budget_analysis(), spectra_analysis(),
-                                                 frf_analysis(), compare_modes_analysis()};
+  static const std::vector<AnalysisEntry> all = {along_analysis(),       sensitivity_analysis(),  stage_analysis(),
+                                                 compare_run_analysis(), budget_analysis(),       spectra_analysis(),
+                                                 frf_analysis(),         compare_modes_analysis()};
   return all;
 }
 
@@ -18,24 +22,41 @@ const AnalysisEntry &analysis_named(const std::string &name)
 {
   std::vector<std::string> names;
   for (const AnalysisEntry &entry : analyses())
-    if (entry.of.empty())
+    if (entry.is_command())
       if (names.push_back(entry.name); entry.name == name)
         return entry;
   throw std::invalid_argument("there is no analysis '" + name + "'" + suggestion(name, names));
 }
 
-Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session)
+Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session, AnalysisOutcome &outcome)
 {
   analysis.check(session);
-  return session.answered(entry.name, [&](Result &result) { analysis.compute(session, result); });
+  const auto add = [&](Result &result) { outcome = analysis.compute(session, result); };
+  if (entry.of != "run")
+    return session.answered(entry.name, add);
+  Result result  = session.run({&analysis});
+  result.command = entry.name;
+  add(result);
+  if (!result.run->failure.empty())
+    outcome = AnalysisOutcome::failed;
+  else if (result.run->interrupted)
+    outcome = std::max(outcome, AnalysisOutcome::interrupted);
+  return result;
 }
 
-Analyses analyses_of(const std::string &command)
+void set_options(Analysis &analysis, const OptionTexts &options)
+{
+  for (const CommandOption &option : analysis.options())
+    if (const auto given = options.find(option.name); given != options.end())
+      option.set(given->second);
+}
+
+Analyses analyses_of(const std::string &command, const OptionTexts &options)
 {
   Analyses own;
   for (const AnalysisEntry &entry : analyses())
     if (entry.of == command)
-      own.push_back(entry.begin());
+      set_options(*own.emplace_back(entry.begin()), options);
   return own;
 }
 
@@ -55,26 +76,55 @@ std::vector<std::string> files_read_by(const Analyses &analyses)
   return files;
 }
 
+namespace
+{
+
+Analyses requested_of(const Analyses &analyses, const Scene &scene)
+{
+  Analyses own;
+  for (const auto &analysis : analyses)
+    if (analysis->requested(scene))
+      own.push_back(analysis);
+  return own;
+}
+
+} // namespace
+
 void check_all(const Analyses &analyses, Session &session)
 {
-  for (const auto &analysis : analyses)
-    if (analysis->requested())
-      analysis->check(session);
+  for (const auto &analysis : requested_of(analyses, session.scene()))
+    analysis->check(session);
 }
 
-bool add_answers(const Analyses &analyses, Session &session, Result &result)
+std::string needs_trajectory(const Analyses &analyses, const Scene &scene)
 {
-  bool all = true;
-  for (const auto &analysis : analyses)
-    if (analysis->requested() && !analysis->compute(session, result))
-      all = false;
-  return all;
+  std::string option;
+  for (const auto &analysis : requested_of(analyses, scene))
+    option += option.empty() ? analysis->needs_trajectory() : "";
+  return option;
 }
 
-Result complete_run(Session &session, const std::optional<std::string> &sensitivities)
+Result run_with(const Analyses &analyses, Session &session)
 {
-  Result result = session.run(sensitivities);
-  add_answers(analyses_of("run"), session, result);
+  check_all(analyses, session);
+  RunParts parts;
+  for (const auto &analysis : requested_of(analyses, session.scene()))
+    parts.push_back(analysis.get());
+  return session.run(parts);
+}
+
+AnalysisOutcome add_answers(const Analyses &analyses, Session &session, Result &result)
+{
+  AnalysisOutcome worst = AnalysisOutcome::done;
+  for (const auto &analysis : requested_of(analyses, session.scene()))
+    worst = std::max(worst, analysis->compute(session, result));
+  return worst;
+}
+
+Result complete_run(Session &session, const Analyses &analyses)
+{
+  Result result = run_with(analyses, session);
+  add_answers(analyses, session, result);
   return result;
 }
 

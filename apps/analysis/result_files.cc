@@ -5,7 +5,6 @@
 #include "apps/output/tables/mode_tables.h"
 #include "apps/output/tables/periodic_tables.h"
 #include "apps/output/tables/result_tables.h"
-#include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/size_table.h"
 #include "apps/output/values/result.h"
 
@@ -28,11 +27,6 @@ std::string csv_of(const Result &result)
   return table(result);
 }
 
-std::string sensitivities(const Result &result)
-{
-  return result.sensitivities && result.sensitivities->failure.empty() ? sensitivities_csv(*result.sensitivities) : "";
-}
-
 std::vector<std::pair<std::string, std::string>> orbits(const Result &result)
 {
   return result.periodic ? orbit_files(*result.periodic) : std::vector<std::pair<std::string, std::string>>();
@@ -43,8 +37,6 @@ const std::vector<ResultFile> own_files = {
     {"history.csv", "to plot: every signal over time", csv_of<&Result::run, history_csv>},
     {"modes.csv", "natural frequencies, damping, effective masses", csv_of<modes_csv>},
     {"mode_energies.csv", "where the strain and kinetic energy of each coupled mode lies", csv_of<mode_energies_csv>},
-    {"modes_along.csv", "frequencies and damping at each position, with `modes --along`", csv_of<modes_along_csv>},
-    {"modes_along_shapes.csv", "the shapes to them", csv_of<modes_along_shapes_csv>},
     {"solutions.csv", "periodic motions with their stability and signals, of `periodic`",
      csv_of<&Result::periodic, solutions_csv>},
     {"multipliers.csv", "their Floquet multipliers", csv_of<&Result::periodic, multipliers_csv>},
@@ -55,8 +47,6 @@ const std::vector<ResultFile> own_files = {
      csv_of<&Result::periodic, section_csv>},
     {"basins.csv", "which start settles to which motion, with `periodic --basins`",
      csv_of<&Result::periodic, basins_csv>},
-    {"sensitivities.csv", "derivatives of peaks, instants, events and frequencies, with `run --sensitivities`",
-     sensitivities},
     {"size.csv", "models that `size` tried, with their cost and errors", csv_of<&Result::size, size_csv>},
     {"sized.toml", "the one that it chose, as a scene", nullptr, "", "", nullptr, WrittenBy::its_command},
     {"mesh_convergence.csv", "meshes, limits and errors, with `modes --converge`", nullptr, "", "", nullptr,

@@ -3,7 +3,6 @@
 #include "apps/analysis/result_files.h"
 #include "apps/output/folder/writing.h"
 #include "apps/output/paraview/paraview.h"
-#include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/report.h"
 #include "apps/output/report/section.h"
 #include "apps/output/tables/summary_json.h"
@@ -165,18 +164,12 @@ void write_modes(const fs::path &folder, const Result &result)
                result); // without a run no history
   for (const auto &series : paraview_series())
     series(own, result, names);
-  const auto write_pictures = [&](const Pictures &pictures)
-  {
-    for (const auto &[name, svg] : pictures)
-      own.write("charts/" + name + ".svg", svg);
-  };
-  if (result.along)
-    write_pictures(along_pictures(*result.along));
   Pictures pictures;
   for (const auto &answer : result.answers)
     for (const Section &section : answer->sections(result))
       section_html(section, pictures);
-  write_pictures(pictures);
+  for (const auto &[name, svg] : pictures)
+    own.write("charts/" + name + ".svg", svg);
 }
 
 } // namespace gestell::apps

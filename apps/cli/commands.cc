@@ -3,6 +3,7 @@
 #include "apps/analysis/analyses.h"
 #include "apps/analysis/analysis.h"
 #include "apps/cli/command.h"
+#include "apps/cli/interruption.h"
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
@@ -38,16 +39,25 @@ std::string write_answer_of(const AnalysisEntry &entry, const Result &result, co
          "tables of modes, their charts and frame_modes.pvd were written";
 }
 
+int exit_code_of(AnalysisOutcome outcome)
+{
+  return outcome == AnalysisOutcome::done          ? exit_done
+         : outcome == AnalysisOutcome::interrupted ? exit_interrupted
+                                                   : exit_failed;
+}
+
 int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const CommonOptions &options)
 {
   ProgressLine progress(options.quiet);
-  Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
+  Session      session(options.input, options.overrides, options.scripts,
+                       {progress.callback(), entry.of == "run" ? &interruption() : nullptr});
   session.check();
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, analysis.reads());
   require_room(folder, analysis.writes(), inputs);
-  const Result result = computed(entry, analysis, session);
+  AnalysisOutcome outcome = AnalysisOutcome::done;
+  const Result    result  = computed(entry, analysis, session, outcome);
   progress.done();
   const std::string where = write_answer_of(entry, result, folder, inputs);
   OwnFolder         own(folder);
@@ -55,10 +65,10 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const Commo
   if (answers_in_json())
     answer_with(summary_json(result));
   std::cout << answers_text(result);
-  for (const std::string &warning : result.warnings)
+  for (const std::string &warning : all_warnings(result))
     std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << (more.empty() ? "" : more + '\n') << where << '\n';
-  return exit_done;
+  return exit_code_of(outcome);
 }
 
 /// The command of an analysis: checks, holds the folder of results, computes, writes, prints what it found, warns.
@@ -86,7 +96,7 @@ std::vector<Command> commands()
                               export_command(), size_command(),   study_command(),     show_command(),
                               new_command(),    verify_command(), help_command()};
   for (const AnalysisEntry &entry : analyses())
-    if (entry.of.empty())
+    if (entry.is_command())
       all.push_back(analysis_command(entry));
   return all;
 }

@@ -10,8 +10,6 @@
 #include "apps/output/report/section.h"
 #include "apps/output/tables/mode_tables.h"
 #include "apps/output/tables/summary_json.h"
-#include "apps/output/values/line_extremes.h"
-#include "apps/session/modes_along.h"
 #include "apps/session/session.h"
 #include "fem/values/number_text.h"
 
@@ -72,31 +70,6 @@ void print_poles(const std::vector<coupling::Pole> &poles)
               << '\n';
 }
 
-void print_along(const AlongResult &along)
-{
-  const coupling::SweptCoordinate &coordinate = along.modes.coordinate;
-  std::cout << "along " << coordinate.name
-            << "\n  line    lowest [Hz]             at   highest [Hz]             at   moves most\n";
-  for (std::size_t i = 0; i < along.modes.free.size(); ++i)
-  {
-    const LineExtremes own = line_extremes(along.modes, i);
-    std::cout << "  " << std::setw(4) << i + 1;
-    if (along.modes.free[i])
-      std::cout << "   free motion, no frequency: " << along.modes.moves_most[i];
-    else
-      std::cout << std::setw(15) << short_text(own.min, 6) << std::setw(15) << position_text(coordinate, own.x_min)
-                << std::setw(15) << short_text(own.max, 6) << std::setw(15) << position_text(coordinate, own.x_max)
-                << "   " << along.modes.moves_most[i];
-    if (own.growth > 0.)
-      std::cout << "   unstable: grows with up to " << short_text(own.growth, 3) << " 1/s at "
-                << position_text(coordinate, own.x_growth);
-    std::cout << '\n';
-  }
-  for (const coupling::OrderMeeting &meeting : along.meetings)
-    std::cout << "  order " << meeting.order << " is near line " << meeting.line + 1 << " at "
-              << position_text(coordinate, meeting.x) << ", " << short_text(meeting.frequency_hz, 5) << " Hz\n";
-}
-
 void print_energies(const Result &result)
 {
   if (!result.energy_shares)
@@ -136,19 +109,10 @@ void print_answer(const Result &result, const std::optional<coupling::MeshConver
   print_modes("frame as supported, interface free", result.frame_modes, "rigid motion", result.model.frequency_limit);
   print_coupled_modes(result);
   print_poles(result.poles);
-  if (result.along)
-    print_along(*result.along);
   std::cout << answers_text(result);
 }
 
-/// Of the command line.
-struct ModesCommand
-{
-  ModesOptions    modes;
-  ConvergeOptions mesh;
-};
-
-int find_modes(const CommonOptions &options, const ModesCommand &requested, const Analyses &more)
+int find_modes(const CommonOptions &options, bool geometric, const ConvergeOptions &mesh, const Analyses &more)
 {
   ProgressLine progress(options.quiet);
   Session      session(options.input, options.overrides, options.scripts, {progress.callback()});
@@ -156,19 +120,20 @@ int find_modes(const CommonOptions &options, const ModesCommand &requested, cons
   const std::filesystem::path folder = results_path(options, session.scene());
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, files_read_by(more));
-  require_room(folder, {requested.mesh.converge > 0. ? "mesh_convergence.csv" : ""}, inputs);
+  require_room(folder, {mesh.converge > 0. ? "mesh_convergence.csv" : ""}, inputs);
   check_all(more, session);
 
   std::optional<coupling::MeshConvergence> convergence;
-  if (requested.mesh.converge > 0.)
+  if (mesh.converge > 0.)
   {
-    convergence = converge_frame(session.scene(), requested.mesh, folder, session.progress());
+    convergence = converge_frame(session.scene(), mesh, folder, session.progress());
     session.use_frame(convergence->frame);
   }
-  Result result = session.modes(requested.modes);
-  add_answers(more, session, result);
+  Result result =
+      session.modes(geometric ? coupling::GeometricStiffness::included : coupling::GeometricStiffness::left_out);
+  const AnalysisOutcome outcome = add_answers(more, session, result);
   if (convergence)
-    for (const std::string &warning : convergence_warnings(*convergence, requested.mesh.converge))
+    for (const std::string &warning : convergence_warnings(*convergence, mesh.converge))
       result.warnings.push_back(warning);
   progress.done();
   const bool beside_a_run = OwnFolder(folder).owns("history.csv");
@@ -186,7 +151,7 @@ int find_modes(const CommonOptions &options, const ModesCommand &requested, cons
     write_convergence(folder, *convergence);
   if (answers_in_json())
     answer_with(summary_json(result));
-  print_answer(result, convergence, requested.mesh.converge);
+  print_answer(result, convergence, mesh.converge);
   for (const std::string &warning : result.warnings)
     std::cerr << "gestell: warning: " << warning << '\n';
   if (beside_a_run)
@@ -194,55 +159,33 @@ int find_modes(const CommonOptions &options, const ModesCommand &requested, cons
               << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
   else
     std::cout << "report: " << (folder / "report.html").string() << '\n';
-  return convergence && !convergence->converged ? exit_failed : exit_done;
+  return outcome == AnalysisOutcome::failed || (convergence && !convergence->converged) ? exit_failed : exit_done;
 }
 
 } // namespace
 
 Command modes_command()
 {
-  const auto                 own     = std::make_shared<ModesCommand>();
-  const auto                 more    = analyses_of("modes");
-  std::vector<CommandOption> options = {
-      {"--along", &own->modes.along, "follow them along a coordinate: a body, a measure or a driven joint"},
-      CommandOption{"--from", &own->modes.from,
-                    "first position, such as \"100 deg\" or \"2.4 m\" (default 0 for angles)"}
-          .with("--along"),
-      CommandOption{"--to", &own->modes.to, "last position (default one turn further)"}.with("--along"),
-      CommandOption{"--positions", &own->modes.positions,
-                    "how many, both ends included (default 73: every 5 deg of a turn)"}
-          .at_most(1e5)
-          .with("--along"),
-      CommandOption{"--configuration", &own->modes.configuration,
-                    "equilibrium (default): standing still under weights and springs; or undeformed"}
-          .one_of({"equilibrium", "undeformed"})
-          .with("--along"),
-      CommandOption{"--hold", &own->modes.hold, "coordinates that do not vibrate, such as a held drive"}.with(
-          "--along"),
-      CommandOption{"--speed", &own->modes.speed,
-                    "speed whose orders excite, such as \"30 1/min\" (default: at the start)"}
-          .with("--along"),
-      CommandOption{"--orders", &own->modes.orders, "highest order (default 10)"}.above_zero().at_most(1e4).with(
-          "--along"),
-      CommandOption{"--band", &own->modes.band, "how near an order must come to be listed (default \"5 %\")"}.with(
-          "--along"),
-      CommandOption{"--converge", &own->mesh.converge,
+  const auto                 geometric = std::make_shared<std::string>("on");
+  const auto                 mesh      = std::make_shared<ConvergeOptions>();
+  const auto                 more      = analyses_of("modes");
+  std::vector<CommandOption> options   = {
+        CommandOption{"--converge", &mesh->converge,
                     "refine the frame's mesh until frequencies and compliances are within this share, such as 0.01; "
-                    "tell error and uncertainty"}
-          .above_zero(),
-      CommandOption{"--frequencies", &own->mesh.frequencies, "lowest elastic ones of the frame to converge (default 4)"}
-          .above_zero()
-          .with("--converge"),
-      CommandOption{"--watch", &own->mesh.watch,
+                      "tell error and uncertainty"}
+            .above_zero(),
+        CommandOption{"--frequencies", &mesh->frequencies, "lowest elastic ones of the frame to converge (default 4)"}
+            .above_zero()
+            .with("--converge"),
+        CommandOption{"--watch", &mesh->watch,
                     "what is to converge: all, or frequencies without compliances (default all)"}
-          .one_of({"all", "frequencies"})
-          .with("--converge"),
-      CommandOption{"--max-coordinates", &own->mesh.max_coordinates, "of the finest mesh (default 1000000)"}
-          .above_zero()
-          .with("--converge"),
-      CommandOption{"--geometric", &own->modes.geometric,
-                    "on (default) or off: geometric stiffness of forces that turn"}
-          .one_of({"on", "off"})};
+            .one_of({"all", "frequencies"})
+            .with("--converge"),
+        CommandOption{"--max-coordinates", &mesh->max_coordinates, "of the finest mesh (default 1000000)"}
+            .above_zero()
+            .with("--converge"),
+        CommandOption{"--geometric", geometric.get(), "on (default) or off: geometric stiffness of forces that turn"}
+            .one_of({"on", "off"})};
   add_options(more, options);
   return {"modes",
           "natural frequencies and shapes of the frame and of the coupled machine",
@@ -250,7 +193,8 @@ Command modes_command()
            "gestell modes apps/scenes/press.toml --compare apps/scenes/press_minimal.toml"},
           CommandInput::scene,
           options,
-          [own, more](const CommonOptions &common) { return find_modes(common, *own, more); }};
+          [geometric, mesh, more](const CommonOptions &common)
+          { return find_modes(common, *geometric == "on", *mesh, more); }};
 }
 
 } // namespace gestell::apps

@@ -5,15 +5,12 @@
 #include "apps/cli/json_answer.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/results_path.h"
-#include "apps/output/describe/described_table.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/report/section.h"
 #include "apps/output/tables/noise.h"
 #include "apps/output/tables/result_tables.h"
-#include "apps/output/tables/sensitivity_table.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/tables/summary_json.h"
-#include "apps/output/values/stage_result.h"
 #include "apps/session/session.h"
 #include "apps/session/story/run_facts.h"
 #include "coupling/frame/atomic_file.h"
@@ -35,23 +32,6 @@ namespace gestell::apps
 namespace
 {
 
-/// For the terminal.
-std::string stages_text(const StageResult &result)
-{
-  std::string text;
-  for (const Stage &stage : result.stages)
-    text += "stage " + stage.name + ": " + short_text(stage.begin, 6) + " to " + short_text(stage.end, 6) + " s\n";
-  for (const LiftOff &off : result.lift_offs)
-    text += "  " + off.wheel + " is off the ground from " + short_text(off.begin, 6) + " to " + short_text(off.end, 6) +
-            " s\n";
-  const Ringing &ringing = result.ringing;
-  if (!ringing.modes.empty())
-    text += "ringing from " + short_text(ringing.begin) + " to " + short_text(ringing.end) +
-            " s, beside the machine linearised at rest\n" + table_of(ringing.modes).terminal();
-  if (!ringing.note.empty() && !ringing.signals.empty())
-    text += "ringing: " + ringing.note + '\n';
-  return text;
-}
 void print_answer(const coupling::RunResult &run)
 {
   std::cout << std::left << std::setw(12) << "signal" << std::right << std::setw(16) << "min" << std::setw(14)
@@ -74,13 +54,6 @@ void print_answer(const coupling::RunResult &run)
 
 const char *const checkpoint_name = "checkpoint.bin";
 
-struct RunCommand
-{
-  bool        resume     = false;
-  double      checkpoint = 30.; ///< [s] of wall time
-  std::string sensitivities;
-};
-
 /// A checkpoint that the run goes on from is ours wherever it came from: it was read as that of this run.
 void claim_checkpoint(const std::filesystem::path &folder, bool resumed)
 {
@@ -98,15 +71,18 @@ void remove_checkpoint(const std::filesystem::path &folder, bool resumed)
   OwnFolder(folder).remove(checkpoint_name);
 }
 
-/// Derivatives follow the whole motion, which is not kept.
-void keep_checkpoints(const RunCommand &requested, const std::filesystem::path &folder, Session &session)
+/// Checkpoints have no trajectory.
+/// @param trajectory_for  an option that needs it; empty: none
+void keep_checkpoints(const CheckpointRequest &requested, const std::filesystem::path &folder, Session &session,
+                      const std::string &trajectory_for)
 {
-  if (requested.sensitivities.empty())
-    session.keep_checkpoints({folder / checkpoint_name, requested.checkpoint, requested.resume,
+  if (trajectory_for.empty())
+    session.keep_checkpoints({folder / checkpoint_name, requested.every, requested.resume,
                               [folder, resumed = requested.resume] { claim_checkpoint(folder, resumed); }});
   else if (requested.resume)
-    throw std::invalid_argument("--resume: a run with --sensitivities cannot go on from a checkpoint, as derivatives "
-                                "follow its whole motion; leave out one of the two");
+    throw std::invalid_argument("--resume: a run with " + trajectory_for +
+                                " cannot go on from a checkpoint, as it needs the whole motion; leave out one of the "
+                                "two");
 }
 
 /// The command that goes on, as it is typed.
@@ -140,12 +116,12 @@ void write_answer(const std::filesystem::path &folder, const Result &result, con
   }
 }
 
-int run_scene(const CommonOptions &options, const RunCommand &requested, const Analyses &more)
+int run_scene(const CommonOptions &options, const CheckpointRequest &requested, const Analyses &more)
 {
   ProgressLine progress(options.quiet);
-  if (!(requested.checkpoint >= 0.) || !std::isfinite(requested.checkpoint))
+  if (!(requested.every >= 0.) || !std::isfinite(requested.every))
     throw std::invalid_argument("--checkpoint: needs a plain number of seconds, zero or above, got " +
-                                std::to_string(requested.checkpoint));
+                                std::to_string(requested.every));
   const auto on_progress = nothing_to_save_before("integration", progress.callback());
   Session    session(options.input, options.overrides, options.scripts, {on_progress, &interruption()});
   session.check_run();
@@ -153,28 +129,24 @@ int run_scene(const CommonOptions &options, const RunCommand &requested, const A
   const ResultsLock           held(folder);
   const auto                  inputs = inputs_of(options, files_read_by(more));
   require_room(folder, {requested.resume ? "" : checkpoint_name}, inputs);
-  check_all(more, session);
   session.keep_swings();
-  keep_checkpoints(requested, folder, session);
-  Result result = requested.sensitivities.empty() ? session.run() : session.run(requested.sensitivities);
+  const std::string trajectory_for = needs_trajectory(more, session.scene());
+  keep_checkpoints(requested, folder, session, trajectory_for);
+  Result result = run_with(more, session);
   add_story(session, result);
-  const bool complete = add_answers(more, session, result);
+  const AnalysisOutcome outcome = add_answers(more, session, result);
   prepare_folder(folder, inputs);
   progress.done();
-  write_answer(folder, result, requested.sensitivities.empty() ? resuming(options, folder) : "");
+  write_answer(folder, result, trajectory_for.empty() ? resuming(options, folder) : "");
   if (!result.run->interrupted)
     remove_checkpoint(folder, requested.resume);
 
   if (answers_in_json())
     answer_with(summary_json(result));
   print_answer(*result.run);
-  if (result.stages)
-    std::cout << stages_text(*result.stages);
   if (result.story)
     std::cout << story_text(*result.story);
   std::cout << answers_text(result);
-  if (result.sensitivities && result.sensitivities->failure.empty())
-    std::cout << sensitivities_text(*result.sensitivities);
   if (!result.model.damping.empty())
     std::cout << "damping of the frame: " << result.model.damping << '\n';
   for (const auto &warnings : {result.warnings, coupling::texts_of(result.run->findings)})
@@ -189,35 +161,25 @@ int run_scene(const CommonOptions &options, const RunCommand &requested, const A
     error_in_json(message);
     return exit_failed;
   }
-  if (result.sensitivities && !result.sensitivities->failure.empty())
-  {
-    std::cerr << "gestell: the run has no sensitivities: " << result.sensitivities->failure
-              << "\n  the run itself is in " << folder.string() << '\n';
+  if (outcome == AnalysisOutcome::failed)
     return exit_failed;
-  }
-  if (!complete)
-    return interruption() ? exit_interrupted : exit_failed;
-  if (result.run->interrupted && requested.sensitivities.empty() && std::filesystem::exists(folder / checkpoint_name))
+  if (result.run->interrupted && trajectory_for.empty() && std::filesystem::exists(folder / checkpoint_name))
     std::cerr << "gestell: interrupted; " << resuming(options, folder) << " goes on from there\n";
-  const bool interrupted = result.run->interrupted || (result.sensitivities && result.sensitivities->interrupted);
-  return interrupted ? exit_interrupted : exit_done;
+  return result.run->interrupted || outcome == AnalysisOutcome::interrupted ? exit_interrupted : exit_done;
 }
 
 } // namespace
 
 Command run_command()
 {
-  const auto                 requested = std::make_shared<RunCommand>();
+  const auto                 requested = std::make_shared<CheckpointRequest>();
   const auto                 more      = analyses_of("run");
   std::vector<CommandOption> options   = {
         {"--resume", &requested->resume,
          "go on from the checkpoint that a run of the same scene left in its folder when it was stopped"},
-        {"--checkpoint", &requested->checkpoint,
+        {"--checkpoint", &requested->every,
          "seconds between two checkpoints (default 30; more where they would take more than half a per cent of the "
-           "time), 0: when interrupted alone"},
-        {"--sensitivities", &requested->sensitivities,
-         "derivatives of peaks, instants, events, final values and frequencies by these entries of the scene, such as "
-           "parameters.c_P,parameters.s_cl, or all (every number of [parameters])"}};
+           "time), 0: when interrupted alone"}};
   add_options(more, options);
   return {"run",
           "simulate a scene in time",

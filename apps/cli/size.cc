@@ -71,7 +71,7 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
   OwnFolder(folder).write(sized_name, sized_scene(scene, options.overrides, model.chosen, folder));
   const double begin = cpu_now();
   Session      sized(file.string(), {}, options.scripts, {{}, &interruption()});
-  Result       result = sized.run();
+  Result       result = complete_run(sized);
   model.result.cpu_s += cpu_now() - begin;
   result.command       = "size";
   result.size          = model.result;
@@ -79,7 +79,6 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
   ErrorBudget     budget;
   budget.entries   = rung.entries;
   budget.run_cpu_s = rung.cpu_s;
-  add_answers(analyses_of("run"), sized, result);
   result.answers.push_back(budget_answer(std::move(budget)));
   if (!model.result.met)
     result.warnings.push_back("no model keeps all outputs within the tolerance: " + model.result.stopped);

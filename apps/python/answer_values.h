@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/output/report/stability_report.h"
+#include "apps/output/values/along_result.h"
 #include "apps/output/values/result.h"
 
 #include <pybind11/pybind11.h>

@@ -19,23 +19,7 @@ using Names = std::vector<std::string>;
 std::shared_ptr<PythonResult> run(const PythonScene &scene, std::optional<Names> signals, bool history, bool lean,
                                   std::string sensitivities, py::object progress)
 {
-  return scene.run({std::move(signals), history, lean, std::move(sensitivities), std::move(progress)});
-}
-
-std::shared_ptr<PythonResult> modes_along(const PythonScene &scene, const std::string &along, const std::string &from,
-                                          const std::string &to, int positions, const std::string &configuration,
-                                          Names hold, const std::string &speed, int orders, py::object progress)
-{
-  apps::ModesOptions options;
-  options.along         = along;
-  options.from          = from;
-  options.to            = to;
-  options.positions     = positions;
-  options.configuration = configuration;
-  options.hold          = std::move(hold);
-  options.speed         = speed;
-  options.orders        = orders;
-  return scene.modes(options, std::move(progress));
+  return scene.run({std::move(signals), history, lean, {{"--sensitivities", {sensitivities}}}, std::move(progress)});
 }
 
 std::shared_ptr<PythonResult> periodic(const PythonScene &scene, const std::string &method, const std::string &period,
@@ -79,7 +63,7 @@ void bind_scene(py::module_ &module)
   py::dict analyses;
   for (const apps::AnalysisEntry &entry : apps::analyses())
   {
-    if (!entry.of.empty())
+    if (!entry.is_command())
       continue;
     py::list options;
     for (const apps::CommandOption &option : entry.begin()->options())
@@ -102,8 +86,7 @@ void bind_scene(py::module_ &module)
       .def("check", &PythonScene::check)
       .def("words", &PythonScene::words)
       .def("run", &run)
-      .def("modes", [](const PythonScene &scene) { return scene.modes({}, py::none()); })
-      .def("modes_along", &modes_along)
+      .def("modes", &PythonScene::modes)
       .def("periodic", &periodic)
       .def("frame", &PythonScene::frame)
       .def("full_frame", &PythonScene::full_frame)

@@ -166,7 +166,7 @@ class Scene:
 
     def modes(self) -> Result:
         """Natural frequencies [Hz], damping and shapes of the coupled machine and of its frame."""
-        return self._core.modes()
+        return self._core.modes({}, None)
 
     def modes_along(self, coordinate: str, from_="", to="", positions=73, configuration="equilibrium", hold=(), speed="",
                     orders=10, progress=None) -> "ModesAlong":
@@ -175,8 +175,9 @@ class Scene:
         configuration: "equilibrium" or "undeformed".  hold: coordinates that do not vibrate.
         speed: whose multiples up to `orders` excite, "30 1/min"; by default that of the start.
         """
-        return ModesAlong(self._core.modes_along(coordinate, _text(from_), _text(to), positions, configuration, _names(hold),
-                                                 _text(speed), orders, _progress(progress)))
+        options = {"--along": coordinate, "--from": _text(from_), "--to": _text(to), "--positions": positions,
+                   "--configuration": configuration, "--hold": hold, "--speed": _text(speed), "--orders": orders}
+        return ModesAlong(self._core.modes({name: _texts(value) for name, value in options.items()}, _progress(progress)))
 
     def periodic(self, method="", period="", ratio=1, harmonics=0, along="", from_="", to="", points=0, check="",
                  progress=None, **own) -> "Periodic":

@@ -4,6 +4,8 @@
 #include "apps/output/folder_lock.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/output/tables/summary_json.h"
+#include "apps/output/values/along_result.h"
+#include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/state_space_model.h"
 #include "apps/python/answer_values.h"
 #include "apps/python/bind_scene.h"
@@ -60,7 +62,7 @@ std::vector<double> numbers_of(const PythonResult &result)
 /// [output x key], with their names.
 py::object sensitivities_of(const PythonResult &result)
 {
-  const auto &found = result.result().sensitivities;
+  const auto *found = apps::answer_in<apps::SensitivityResult>(result.result().answers);
   if (!found)
     return py::none();
   if (!found->failure.empty())
@@ -218,7 +220,7 @@ void bind_result(py::module_ &module)
       .def_property_readonly("_along",
                              [](const PythonResult &result) -> py::object
                              {
-                               const auto &along = result.result().along;
+                               const auto *along = apps::answer_in<apps::AlongResult>(result.result().answers);
                                return along ? py::object(along_values(*along)) : py::none();
                              })
       .def_property_readonly("_summary", [](const PythonResult &result) { return apps::summary_json(result.result()); })

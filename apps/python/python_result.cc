@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace gestell::python
 {
@@ -81,7 +82,7 @@ const coupling::RunResult &PythonResult::run() const
 const apps::Result &PythonResult::whole_result()
 {
   const bool has_rows = result_.run && result_.run->rows.size() > result_.run->columns.size();
-  if (result_.command == "run" && has_rows && result_.answers.empty())
+  if (result_.command == "run" && has_rows && !std::exchange(whole_, true))
     apps::add_answers(apps::analyses_of("run"), *session_, result_);
   return result_;
 }

@@ -30,6 +30,7 @@ public:
 private:
   std::shared_ptr<apps::Session> session_;
   apps::Result                   result_;
+  bool                           whole_ = false;
 };
 
 /// Numbers of an object as an array that keeps it alive and cannot be written to.

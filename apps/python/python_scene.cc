@@ -306,21 +306,23 @@ std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
         Scene scene = choice.signals ? self.scene_with(*choice.signals) : self.scene();
         apps::require_run(scene);
         keep(scene, choice);
-        auto       session = self.session(std::move(scene), watch);
-        const auto keys    = choice.sensitivities.empty() ? std::nullopt : std::optional(choice.sensitivities);
-        auto       run     = session->run(keys);
+        auto session = self.session(std::move(scene), watch);
+        auto run     = apps::run_with(apps::analyses_of("run", choice.options), *session);
         return std::make_shared<PythonResult>(std::move(session), std::move(run));
       },
       choice.progress);
 }
 
-std::shared_ptr<PythonResult> PythonScene::modes(const apps::ModesOptions &options, py::object progress) const
+std::shared_ptr<PythonResult> PythonScene::modes(const apps::OptionTexts &options, py::object progress) const
 {
   return interruptibly(
       [&, self = *this](const apps::Watch &watch)
       {
-        auto session = self.session(self.scene(), watch);
-        auto modes   = session->modes(options);
+        auto       session = self.session(self.scene(), watch);
+        auto       modes   = session->modes();
+        const auto more    = apps::analyses_of("modes", options);
+        apps::check_all(more, *session);
+        apps::add_answers(more, *session, modes);
         return std::make_shared<PythonResult>(std::move(session), std::move(modes));
       },
       std::move(progress));
@@ -344,22 +346,24 @@ std::shared_ptr<PythonResult> PythonScene::periodic(const apps::PeriodicRequest 
   return result;
 }
 
-std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, const Texts &options,
+std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, const apps::OptionTexts &options,
                                                    py::object progress) const
 {
   const apps::AnalysisEntry &entry    = apps::analysis_named(name);
   const auto                 analysis = entry.begin();
-  for (const apps::CommandOption &option : analysis->options())
-    if (const auto given = options.find(option.name); given != options.end())
-      option.set(given->second);
-  return interruptibly(
+  apps::AnalysisOutcome      outcome  = apps::AnalysisOutcome::done;
+  apps::set_options(*analysis, options);
+  const auto result = interruptibly(
       [&, self = *this](const apps::Watch &watch)
       {
         auto session = self.session(self.scene(), watch);
-        auto answer  = apps::computed(entry, *analysis, *session);
+        auto answer  = apps::computed(entry, *analysis, *session, outcome);
         return std::make_shared<PythonResult>(std::move(session), std::move(answer));
       },
       std::move(progress));
+  if (outcome == apps::AnalysisOutcome::failed)
+    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(result->result().warnings.back()), result);
+  return result;
 }
 
 std::shared_ptr<apps::StateSpaceModel> PythonScene::state_space(const apps::FrfOptions &options) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/frf/response_search.h"
 #include "apps/output/report/stability_report.h"
 #include "apps/output/values/state_space_model.h"
@@ -26,11 +27,9 @@ struct RunChoice
   std::optional<std::vector<std::string>> signals{};
   bool                                    history = true;  ///< false: their extremes alone
   bool                                    lean    = false; ///< no energy balance and no pictures, as in studies
-  std::string                             sensitivities{}; ///< entries, as at Session::run()
+  apps::OptionTexts                       options{};       ///< of analyses, {"--sensitivities", {"all"}}
   pybind11::object                        progress = pybind11::none();
 };
-
-using Texts = std::map<std::string, std::vector<std::string>>;
 
 struct SizeChoice
 {
@@ -68,7 +67,7 @@ public:
 
   /// @throws pybind11::error_already_set ComputationFailed, KeyboardInterrupt: with what was computed in `result`
   std::shared_ptr<PythonResult>    run(const RunChoice &choice) const;
-  std::shared_ptr<PythonResult>    modes(const apps::ModesOptions &options, pybind11::object progress) const;
+  std::shared_ptr<PythonResult>    modes(const apps::OptionTexts &options, pybind11::object progress) const;
   std::shared_ptr<PythonResult>    periodic(const apps::PeriodicRequest &request, pybind11::object progress) const;
   std::shared_ptr<PythonFrame>     frame() const; ///< reduced
   std::shared_ptr<PythonFullFrame> full_frame() const;
@@ -77,7 +76,7 @@ public:
   std::pair<apps::SizeResult, PythonScene> size(const SizeChoice &choice) const;
   std::shared_ptr<apps::StateSpaceModel>   state_space(const apps::FrfOptions &options) const;
   /// @param options  texts by the names of options, "--from"
-  std::shared_ptr<PythonResult> analyse(const std::string &analysis, const Texts &options,
+  std::shared_ptr<PythonResult> analyse(const std::string &analysis, const apps::OptionTexts &options,
                                         pybind11::object progress) const;
 
 private:

@@ -11,14 +11,11 @@
 #include "apps/session/basin_answer.h"
 #include "apps/session/joint_opening.h"
 #include "apps/session/long_run.h"
-#include "apps/session/modes_along.h"
+#include "apps/session/main_peak.h"
 #include "apps/session/periodic_answer.h"
 #include "apps/session/periodic_branches.h"
 #include "apps/session/phase_planes.h"
 #include "apps/session/run_magnitudes.h"
-#include "apps/session/sensitivity/sensitivity_answer.h"
-#include "apps/session/stages/main_peak.h"
-#include "apps/session/stages/stage_answer.h"
 #include "apps/session/story/dense_pictures.h"
 #include "apps/session/story/swing_shares.h"
 #include "apps/session/stress_answer.h"
@@ -26,7 +23,6 @@
 #include "coupling/periodic/settling.h"
 
 #include <algorithm>
-#include <ctime>
 
 namespace gestell::apps
 {
@@ -226,24 +222,15 @@ Result Session::answered(const std::string &command, const std::function<void(Re
   PreparedMachine &prepared = machine();
   progress()("modes", -1.);
   Result result    = begin_result(scene_, command, prepared, geometric);
-  result.requested = {path_, overrides_, std::nullopt};
+  result.requested = {path_, overrides_, std::nullopt, geometric};
   add(result);
   return finished(std::move(result));
 }
 
-Result Session::modes(const ModesOptions &options)
+Result Session::modes(coupling::GeometricStiffness geometric)
 {
-  const auto add = [&](Result &result)
-  {
-    if (options.along.empty())
-      return;
-    result.along = modes_along_result(scene_, *machine_, options, progress());
-    for (const std::string &warning : along_warnings(*result.along))
-      result.warnings.push_back(warning);
-  };
-  return answered("modes", add,
-                  options.geometric == "off" ? coupling::GeometricStiffness::left_out
-                                             : coupling::GeometricStiffness::included);
+  return answered(
+      "modes", [](Result &) {}, geometric);
 }
 
 SceneNode Session::entries() const
@@ -251,14 +238,14 @@ SceneNode Session::entries() const
   return entries_ ? *entries_ : read_scene_file(path_, overrides_);
 }
 
-Result Session::run(const std::optional<std::string> &sensitivities)
+SceneFileAt Session::file() const
+{
+  return {entries(), path_, scripts_};
+}
+
+Result Session::run(const RunParts &parts)
 {
   check_run();
-  const bool               differentiated = sensitivities.has_value();
-  const SceneNode          root           = differentiated ? entries() : SceneNode();
-  std::vector<std::string> left_out;
-  std::vector<VariedKey>   keys =
-      differentiated ? varied_keys(root, *sensitivities, &left_out) : std::vector<VariedKey>();
   PreparedMachine &prepared = machine();
   require_stress(scene_, prepared.machine.model().reduced_frame());
   const auto signals = with_normal_forces(scene_, prepared.machine, scene_signals(scene_, prepared.machine));
@@ -269,29 +256,19 @@ Result Session::run(const std::optional<std::string> &sensitivities)
   scene_.run.options.from = result_window(scene_, prepared.machine, initial);
   Result result           = begin_result(scene_, "run", prepared);
   result.settings         = settings_text(scene_.run.options);
-  result.requested        = {path_, overrides_, scene_.run.options};
-  PerturbedScenes      twins;
-  coupling::Trajectory trajectory, *const followed = differentiated ? &trajectory : nullptr;
-  const std::clock_t at_twins = std::clock();
-  if (differentiated)
-    twins = perturbed_scenes({root, path_, scripts_}, scene_, prepared, keys,
-                             sensitivities == "all" ? &left_out : nullptr, progress());
-  for (const auto *warnings : {&left_out, &twins.warnings})
-    result.warnings.insert(result.warnings.end(), warnings->begin(), warnings->end());
-  const std::clock_t at_run     = std::clock();
-  result.run                    = failure.empty() ? simulated(initial, signals, followed, result.warnings)
-                                                  : not_started(scene_.run.options, failure);
-  const std::clock_t behind_run = std::clock();
-  if (differentiated && result.run->failure.empty() && !result.run->interrupted)
-  {
-    progress()("sensitivities", -1.);
-    result.sensitivities =
-        sensitivity_answer(scene_, prepared, twins, keys, signals, trajectory, watch_.interruption, result);
-    result.sensitivities->run_cpu_s = double(behind_run - at_run) / CLOCKS_PER_SEC;
-    result.sensitivities->cpu_s     = double(at_run - at_twins + std::clock() - behind_run) / CLOCKS_PER_SEC;
-  }
+  result.requested        = {path_, overrides_, scene_.run.options, coupling::GeometricStiffness::included};
+  RunInProgress in_progress{*this, signals, result};
+  for (RunPart *part : parts)
+    part->before_motion(in_progress);
+  const bool followed =
+      std::any_of(parts.begin(), parts.end(), [](const RunPart *part) { return !part->needs_trajectory().empty(); });
+  result.run = failure.empty()
+                   ? simulated(initial, signals, followed ? &in_progress.trajectory : nullptr, result.warnings)
+                   : not_started(scene_.run.options, failure);
   progress()("results", -1.);
-  result.stages = stage_answer(scene_, prepared, result.run->end_state, *result.run);
+  for (RunPart *part : parts)
+    part->after_motion(in_progress);
+  progress()("results", -1.);
   for (std::string &opening : opening_joints(scene_, signals, *result.run))
     result.warnings.push_back(std::move(opening));
   result.peak = taken_peak(signals, *result.run);
@@ -351,7 +328,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
     found.coordinates.push_back({machine.coordinate_name(i), coordinate_sign(machine, i)});
   std::optional<SceneFamily> family;
   if (!request.along.empty())
-    family.emplace(SceneFileAt{entries(), path_, scripts_}, *machine_, request, repeating.problem);
+    family.emplace(file(), *machine_, request, repeating.problem);
   progress()("periodic motions", -1.);
   const coupling::PeriodicGuess &guess     = repeating.guess;
   auto                           solutions = searched(chosen, repeating.problem, guess, options, found);

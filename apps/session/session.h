@@ -2,11 +2,11 @@
 
 #include "apps/scene/file/scene_node.h"
 #include "apps/session/checkpoint/run_checkpoints.h"
-#include "apps/session/modes_options.h"
 #include "apps/session/partition.h"
 #include "apps/session/periodic_request.h"
 #include "apps/session/phase_times.h"
 #include "apps/session/prepared_machine.h"
+#include "apps/session/run_part.h"
 
 #include <atomic>
 #include <functional>
@@ -17,6 +17,8 @@
 
 namespace gestell::apps
 {
+
+struct SceneFileAt;
 
 /// Receives the progress of a session, and may interrupt it.
 struct Watch
@@ -56,6 +58,7 @@ public:
   void take_entries(SceneNode entries) { entries_ = std::move(entries); }
 
   const Scene             &scene() const { return scene_; }
+  SceneFileAt              file() const; ///< as it is now, to vary its entries
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
   /// Another scene, as in its file, with the progress and the interruption of this one, which must outlive it.
   std::unique_ptr<Session> beside(const std::string &file) const;
@@ -72,8 +75,8 @@ public:
   FrameAnswer reduced_frame();
   /// Why the coordinates of its interfaces are kept.
   Partition partition();
-  /// Modes of the frame and of the coupled machine, and along a coordinate where options say so.
-  Result modes(const ModesOptions &options = {});
+  /// Modes of the frame and of the coupled machine.
+  Result modes(coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
   /// Model and modes, as of every command, with what `add` finds of machine().
   Result answered(const std::string &command, const std::function<void(Result &)> &add,
                   coupling::GeometricStiffness geometric = coupling::GeometricStiffness::included);
@@ -84,8 +87,8 @@ public:
   void keep_checkpoints(const CheckpointRequest &request) { checkpoints_ = request; }
   /// The scene simulated in time, with modes, stresses and warnings.
   /// @throws std::invalid_argument as read_checkpoint()
-  /// @param sensitivities  entries by which its outputs are differentiated, see varied_keys(); nothing: none
-  Result run(const std::optional<std::string> &sensitivities = {});
+  /// @param parts  what is found of it besides
+  Result run(const RunParts &parts = {});
 
   /// Periodic motions of the scene's machine, with their stability; the first stable one as a run of one period.
   Result periodic(const PeriodicRequest &request = {});

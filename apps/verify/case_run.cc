@@ -179,27 +179,36 @@ private:
   std::vector<std::string> names_;
 };
 
-Result modes(Session &session, CaseRequest &requested)
+/// Settings are options of the analysis, by their names.
+void take_options(Analysis &analysis, CaseRequest &requested)
 {
-  ModesOptions options;
-  options.along         = requested.text("along");
-  options.from          = requested.text("from");
-  options.to            = requested.text("to");
-  options.positions     = requested.number("positions", options.positions);
-  options.configuration = requested.text("configuration", options.configuration);
-  requested.finish();
-  return session.modes(options);
+  for (const CommandOption &option : analysis.options())
+    if (const auto texts = requested.texts(option.key()); !option.writes && !texts.empty())
+      option.set(texts);
 }
 
-/// Settings are options of the analysis, by their names.
+Result modes(Session &session, CaseRequest &requested)
+{
+  const Analyses more = analyses_of("modes");
+  for (const auto &analysis : more)
+    take_options(*analysis, requested);
+  requested.finish();
+  check_all(more, session);
+  Result result = session.modes();
+  add_answers(more, session, result);
+  return result;
+}
+
 Result analysed(const AnalysisEntry &entry, Session &session, CaseRequest &requested)
 {
   const auto analysis = entry.begin();
-  for (const CommandOption &option : analysis->options())
-    if (const auto texts = requested.texts(option.key()); !option.writes && !texts.empty())
-      option.set(texts);
+  take_options(*analysis, requested);
   requested.finish();
-  return computed(entry, *analysis, session);
+  AnalysisOutcome outcome = AnalysisOutcome::done;
+  Result          result  = computed(entry, *analysis, session, outcome);
+  if (outcome == AnalysisOutcome::failed)
+    throw std::runtime_error(result.run && !result.run->failure.empty() ? result.run->failure : result.warnings.back());
+  return result;
 }
 
 Result periodic(Session &session, CaseRequest &requested)
@@ -282,7 +291,7 @@ CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more,
     if (computation.name == one.compute)
       result_ = computation.compute(session, requested);
   for (const AnalysisEntry &entry : analyses())
-    if (entry.of.empty() && entry.name == one.compute)
+    if (entry.is_command() && entry.name == one.compute)
       result_ = analysed(entry, session, requested);
 }
 

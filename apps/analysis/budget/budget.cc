@@ -148,23 +148,23 @@ public:
                           "every signal)"}
                 .with("--budget")};
   }
-  bool requested() const override { return requested_; }
+  bool requested(const Scene &) const override { return requested_; }
   void check(Session &session) override { outputs_ = budget_outputs(session.scene(), list_); }
   /// What stops a budget leaves the run that it is of; a run that stopped early has none.
-  bool compute(Session &session, Result &result) const override
+  AnalysisOutcome compute(Session &session, Result &result) const override
   {
     if (!result.run->failure.empty() || result.run->interrupted)
-      return true;
+      return AnalysisOutcome::done;
     try
     {
       result.answers.push_back(
           budget_answer(error_budget(session.scene(), outputs_, answer_of(result, outputs_), session.interruption())));
-      return true;
+      return AnalysisOutcome::done;
     }
     catch (const std::runtime_error &failure)
     {
       result.warnings.push_back("there is no error budget: " + std::string(failure.what()));
-      return false;
+      return session.interruption() && *session.interruption() ? AnalysisOutcome::interrupted : AnalysisOutcome::failed;
     }
   }
 

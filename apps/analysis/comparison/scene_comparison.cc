@@ -1,5 +1,6 @@
 #include "apps/analysis/comparison/scene_comparison.h"
 
+#include "apps/analysis/analyses.h"
 #include "apps/analysis/analysis_entry.h"
 #include "apps/analysis/comparison/comparison_sections.h"
 #include "apps/analysis/comparison/comparison_table.h"
@@ -60,18 +61,18 @@ public:
   }
 
   std::vector<CommandOption> options() override { return {CommandOption{"--compare", &file_, does_}.existing_file()}; }
-  bool                       requested() const override { return !file_.empty(); }
+  bool                       requested(const Scene &) const override { return !file_.empty(); }
   std::vector<std::string>   reads() const override { return {file_}; }
   void                       check(Session &session) override
   {
     other_ = session.beside(file_);
     check_(session, *other_);
   }
-  bool compute(Session &session, Result &result) const override
+  AnalysisOutcome compute(Session &session, Result &result) const override
   {
     if (!result.run || !result.run->interrupted)
       add_(session, result, *other_);
-    return true;
+    return AnalysisOutcome::done;
   }
 
 private:
@@ -80,29 +81,6 @@ private:
   void (*add_)(Session &, Result &, Session &);
   std::string              file_; ///< of the other scene; empty: none
   std::shared_ptr<Session> other_;
-};
-
-class CompareRun : public Compare
-{
-public:
-  CompareRun()
-      : Compare(
-            "another scene, which runs as it stands in its file: its signals in the same charts, extremes and modes "
-            "beside each other",
-            require_comparable_runs, add_compared_run)
-  {
-  }
-};
-
-class CompareModes : public Compare
-{
-public:
-  CompareModes()
-      : Compare(
-            "another scene, whose modes are matched with these by what both call by the same name",
-            [](Session &, Session &) {}, add_compared_modes)
-  {
-  }
 };
 
 std::string compared_run_file(const Result &result)
@@ -135,7 +113,7 @@ void require_comparable_runs(Session &session, Session &other)
 
 void add_compared_run(Session &session, Result &result, Session &other)
 {
-  Result of_other = other.run();
+  Result of_other = run_with(analyses_of("run"), other);
   add_warnings(of_other, result);
   if (result.run && result.run->from != of_other.run->from)
     result.warnings.push_back("the extremes compared are of different windows: output.from of " + result.scene +
@@ -164,21 +142,39 @@ std::shared_ptr<const Answer> compared_run_answer(ComparedRun compared)
 
 AnalysisEntry compare_run_analysis()
 {
-  return analysis_entry<CompareRun, ComparedRun>(
-      "compare", "", {},
+  return {
+      "compare",
+      "",
+      {},
       {{"compared_run.csv", "extremes beside those of another scene's run, with `run --compare`", compared_run_file},
        {"compared_history.csv", "the other run over time", content_of<ComparedRun, compared_history_csv>}},
-      "run");
+      []
+      {
+        return std::make_unique<Compare>(
+            "another scene, which runs as it stands in its file: its signals in the same charts, extremes and modes "
+            "beside each other",
+            require_comparable_runs, add_compared_run);
+      },
+      [] { return as_answer(ComparedRun()); },
+      "run"};
 }
 
 AnalysisEntry compare_modes_analysis()
 {
-  return analysis_entry<CompareModes, ComparedShapes>(
-      "compare", "", {},
-      {{"compared_modes.csv", "modes beside those of another scene, with `--compare`",
-        content_of<ComparedShapes, compared_modes_csv>},
-       {"mac.csv", "how alike their shapes are, each with each", content_of<ComparedShapes, mac_csv>}},
-      "modes");
+  return {"compare",
+          "",
+          {},
+          {{"compared_modes.csv", "modes beside those of another scene, with `--compare`",
+            content_of<ComparedShapes, compared_modes_csv>},
+           {"mac.csv", "how alike their shapes are, each with each", content_of<ComparedShapes, mac_csv>}},
+          []
+          {
+            return std::make_unique<Compare>(
+                "another scene, whose modes are matched with these by what both call by the same name",
+                [](Session &, Session &) {}, add_compared_modes);
+          },
+          [] { return as_answer(ComparedShapes()); },
+          "modes"};
 }
 
 } // namespace gestell::apps

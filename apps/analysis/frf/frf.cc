@@ -149,11 +149,11 @@ public:
   {
     return format_.empty() ? std::vector<std::string>() : state_space_files(format_);
   }
-  bool compute(Session &session, Result &result) const override
+  AnalysisOutcome compute(Session &session, Result &result) const override
   {
     result.answers.push_back(as_answer(
         frequency_response_of(session.scene(), session.machine(), own_, session.progress(), result.warnings)));
-    return true;
+    return AnalysisOutcome::done;
   }
   std::string write(Session &session, OwnFolder &folder) const override
   {

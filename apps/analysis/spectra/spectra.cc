@@ -1,6 +1,6 @@
 #include "apps/analysis/spectra/spectra.h"
 
-#include "apps/session/stages/history_rows.h"
+#include "apps/session/history_rows.h"
 #include "fem/values/two_pi.h"
 
 #include <unsupported/Eigen/FFT>

@@ -23,14 +23,14 @@ namespace
 class SpectraOfRun : public Analysis
 {
 public:
-  bool compute(Session &session, Result &result) const override
+  AnalysisOutcome compute(Session &session, Result &result) const override
   {
     const RunRequest &run = session.scene().run;
     RunSpectra        found{spectra(*result.run, run.last_period ? run.options.begin : result.run->from),
                      order_tracking(session.scene(), *result.run)};
     if (found.spectra || found.orders)
       result.answers.push_back(as_answer(std::move(found)));
-    return true;
+    return AnalysisOutcome::done;
   }
 };
 

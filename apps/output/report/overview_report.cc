@@ -111,7 +111,8 @@ std::string computed_subject(const Result &result)
 {
   std::string subject;
   for (const auto &answer : result.answers)
-    subject += (subject.empty() ? "" : ", ") + answer->subject();
+    if (const std::string own = answer->subject(); !own.empty())
+      subject += (subject.empty() ? "" : ", ") + own;
   return subject;
 }
 
@@ -124,9 +125,6 @@ std::string other_sentences(const Result &result)
             model_text(result.model) + ". ";
   else if (const std::string subject = computed_subject(result); !subject.empty())
     text += subject + " of " + result.scene + " were computed" + model_text(result.model) + ". ";
-  else if (result.along)
-    text += "The natural frequencies of " + result.scene + " were computed along " +
-            result.along->modes.coordinate.name + model_text(result.model) + ". ";
   else if (!result.coupled_modes.empty() || !result.frame_modes.empty())
     text += "The natural frequencies of " + result.scene + " were computed" + model_text(result.model) + ". ";
   if (const coupling::Mode *first = first_that_vibrates(result.coupled_modes))

@@ -8,12 +8,9 @@
 #include "apps/output/interactive/page_scripts.h"
 #include "apps/output/report/frame_text.h"
 #include "apps/output/report/machine_report.h"
-#include "apps/output/report/modes_along_report.h"
 #include "apps/output/report/overview_report.h"
 #include "apps/output/report/periodic_report.h"
 #include "apps/output/report/section.h"
-#include "apps/output/report/sensitivity_report.h"
-#include "apps/output/report/stage_report.h"
 #include "apps/output/report/story_report.h"
 #include "apps/output/report/stress_report.h"
 #include "apps/output/tables/mode_tables.h"
@@ -369,8 +366,7 @@ Report make_report(const Result &result)
   body.add(Section::Place::first);
   body.add(answer_section(result, has_view), "peaks", "Answer");
   body.add(section("view", "The machine to turn", view), "view", "Machine");
-  body.add(stage_section(result));
-  body.add(sensitivity_section(result, report.charts), "sensitivities", "Sensitivities");
+  body.add(Section::Place::course);
   body.add(Section::Place::results);
   body.add(stress_section(result, has_view), "stress", "Stress");
   body.add(chart_section(charts, ChartTopic::force, "forces", "Forces"), "forces", "Forces");
@@ -380,7 +376,6 @@ Report make_report(const Result &result)
   body.add(Section::Place::history);
   body.add(events_section(result), "events", "Events");
   body.add(energy_section(result, charts), "energy", "Energy");
-  body.add(along_section(result, report.charts), "along", "Frequencies along");
   body.add(Section::Place::frequencies);
   body.add(modes_section(result, has_view, report.charts), "modes", "Modes");
   body.add(numerics_section(result), "numerics", "Model and work");

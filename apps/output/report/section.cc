@@ -35,8 +35,8 @@ struct PartHtml
   std::string operator()(const Section::PageTable &part) const { return (*this)(part.table); }
   std::string operator()(const Section::Picture &part) const
   {
-    pictures.emplace_back(part.name, part.svg);
-    return figure(part.svg);
+    pictures.push_back(part);
+    return figure(part.second);
   }
 };
 

@@ -19,6 +19,7 @@ struct Section
   enum class Place ///< among those of the report
   {
     first,
+    course,     ///< before the other results: what the run went through
     results,    ///< behind the peaks
     history,    ///< behind the charts over time
     frequencies ///< before the modes
@@ -41,10 +42,7 @@ struct Section
       named ///< live, without a copy for paper, where a line names its file
     } shown = Shown::live;
   };
-  struct Picture
-  {
-    std::string name, svg;
-  };
+  using Picture = Pictures::value_type;
   struct PageTable ///< not for a terminal
   {
     HtmlTable table;

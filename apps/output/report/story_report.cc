@@ -3,6 +3,7 @@
 #include "apps/output/describe/described_table.h"
 #include "apps/output/tables/story_table.h"
 #include "apps/output/text/html.h"
+#include "apps/output/text/svg.h"
 
 namespace gestell::apps
 {

@@ -31,11 +31,6 @@ std::string words(const std::vector<std::string> &names, const Eigen::MatrixXd &
   return text;
 }
 
-std::string position_head(const coupling::SweptCoordinate &coordinate)
-{
-  return coordinate.name + " [" + coordinate.unit + "]";
-}
-
 } // namespace
 
 CsvTable modes_csv(const Result &result)
@@ -70,37 +65,6 @@ CsvTable mode_energies_csv(const Result &result)
     add("strain", shares.springs, shares.strain);
     add("kinetic", shares.masses, shares.kinetic);
   }
-  return csv;
-}
-
-CsvTable modes_along_csv(const Result &result)
-{
-  if (!result.along)
-    return {};
-  const coupling::ModesAlong &along = result.along->modes;
-  CsvTable csv({position_head(along.coordinate), "line", "frequency [Hz]", "damped frequency [Hz]", "damping ratio",
-                "mac", "configuration", "growth [1/s]"});
-  for (const coupling::ModesAt &at : along.positions)
-    for (std::size_t i = 0; i < at.modes.size(); ++i)
-    {
-      const coupling::Mode &mode = at.modes[i];
-      csv.add(at.x, i + 1, mode.frequency_hz, mode.damped_frequency_hz, mode.damping_ratio,
-              i < at.assurance.size() ? at.assurance[i] : std::nan(""),
-              at.configuration == coupling::Configuration::equilibrium ? "equilibrium" : "undeformed", mode.growth);
-    }
-  return csv;
-}
-
-CsvTable modes_along_shapes_csv(const Result &result)
-{
-  if (!result.along)
-    return {};
-  std::vector<std::string> heads{position_head(result.along->modes.coordinate), "line"};
-  heads.insert(heads.end(), result.coordinate_names.begin(), result.coordinate_names.end());
-  CsvTable csv(heads);
-  for (const coupling::ModesAt &at : result.along->modes.positions)
-    for (std::size_t i = 0; i < at.modes.size(); ++i)
-      csv.add(at.x, i + 1, at.modes[i].shape);
   return csv;
 }
 

@@ -14,12 +14,6 @@ CsvTable modes_csv(const Result &result);
 /// mode_energies.csv: a row for each part of a coupled mode's strain and kinetic energy.
 CsvTable mode_energies_csv(const Result &result);
 
-/// modes_along.csv: one row per position and line, SI.
-CsvTable modes_along_csv(const Result &result);
-
-/// modes_along_shapes.csv: the shapes to these rows, mass normalised, one column per coordinate of the machine.
-CsvTable modes_along_shapes_csv(const Result &result);
-
 /// For a terminal: "frame 97 %, clutch 3 %", the largest first; shares below a percent are left out.
 std::string strain_text(const coupling::EnergyShares &shares, std::size_t mode);
 std::string kinetic_text(const coupling::EnergyShares &shares, std::size_t mode);

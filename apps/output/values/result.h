@@ -4,12 +4,9 @@
 #include "apps/output/values/periodic_result.h"
 #include "apps/output/values/run_story.h"
 #include "apps/output/values/scenery.h"
-#include "apps/output/values/sensitivity_result.h"
 #include "apps/output/values/size_result.h"
-#include "apps/output/values/stage_result.h"
 #include "apps/output/values/stress_result.h"
 #include "coupling/modes/energy_shares.h"
-#include "coupling/modes/excitation_orders.h"
 #include "coupling/modes/modes.h"
 #include "coupling/simulation/simulation.h"
 #include "fem/values/frame_matrices.h"
@@ -48,24 +45,13 @@ struct ModelFacts
   std::vector<std::string> statements; ///< what was checked of the frame and is as it should be
 };
 
-/// Modes along a coordinate, and what excites them there.
-struct AlongResult
-{
-  coupling::ModesAlong                modes;
-  coupling::GeometricStiffness        geometric = coupling::GeometricStiffness::included;
-  std::string                         fixed;       ///< coordinates at rest, for people; may be empty
-  double                              speed  = 0.; ///< [rad/s] of the excitation; 0: unknown
-  int                                 orders = 10; ///< highest multiple of the speed that is looked at
-  double                              band   = 0.05;
-  std::vector<coupling::OrderMeeting> meetings;
-};
-
 /// What the computation was asked for.
 struct Request
 {
   std::string                         file; ///< of the scene, as it was given
   std::vector<std::string>            set;  ///< entries of the scene overridden on the command line
   std::optional<coupling::RunOptions> run;  ///< of a run
+  coupling::GeometricStiffness        geometric = coupling::GeometricStiffness::included; ///< of its modes
 };
 
 /// The machine at the extreme of one signal.
@@ -98,11 +84,8 @@ struct Result
   std::optional<PeakState>                    peak;             ///< of a run: see main_peak()
   std::vector<coupling::Pole>                 poles;            ///< with drives and lags, at the speeds of the start
   std::optional<RunStory>                     story;            ///< of a run with events
-  std::optional<StageResult>                  stages;           ///< of a run with stages or wheels that lift off
   std::optional<StressResult>                 stress;           ///< of a run that was asked for it
   std::optional<PeriodicResult>               periodic;         ///< of `periodic`, the first solution as a run
-  std::optional<AlongResult>                  along;            ///< of `modes --along`
-  std::optional<SensitivityResult>            sensitivities;    ///< of a run that was asked for them
   std::optional<SizeResult>                   size;             ///< of `size`, whose chosen model ran
   std::vector<std::string>                    coordinate_names; ///< of the machine, for mode shapes without a picture
   std::vector<std::string>                    bodies_from_cad;  ///< what was found of each, for people

@@ -2,7 +2,6 @@
 
 #include "apps/output/describe/described.h"
 #include "apps/output/values/coupling_descriptions.h"
-#include "apps/output/values/line_extremes.h"
 #include "apps/output/values/periodic_description.h"
 #include "apps/output/values/result.h"
 
@@ -59,47 +58,6 @@ void describe(Visitor &v, const Request &x)
   v.maybe(x.run.has_value(), "end", run.end, "s", "end asked for");
   v.maybe(x.run.has_value(), "from", std::max(run.from, run.begin), "s", "where extremes begin to count");
   v.maybe(x.run.has_value(), "events", run.events, "", "events are located");
-}
-
-/// A mode followed over the positions.
-struct LineRow
-{
-  LineExtremes extremes{};
-  std::string  moves_most{};
-  bool         free = false;
-};
-
-template <class Visitor>
-void describe(Visitor &v, const LineRow &x)
-{
-  v("min_hz", x.extremes.min, "Hz", "lowest frequency");
-  v("at_min", x.extremes.x_min, "", "coordinate there");
-  v("max_hz", x.extremes.max, "Hz", "highest frequency");
-  v("at_max", x.extremes.x_max, "", "coordinate there");
-  v("least_mac", x.extremes.least_assurance, "1", "least assurance between neighbouring positions");
-  v("moves_most", x.moves_most, "", "coordinate that moves most at the first position");
-  v("free", x.free, "", "without a frequency at every position");
-}
-
-inline std::vector<LineRow> line_rows(const coupling::ModesAlong &modes)
-{
-  std::vector<LineRow> rows;
-  for (std::size_t i = 0; i < modes.free.size(); ++i)
-    rows.push_back({line_extremes(modes, i), modes.moves_most[i], bool(modes.free[i])});
-  return rows;
-}
-
-template <class Visitor>
-void describe(Visitor &v, const AlongResult &x)
-{
-  v("coordinate", x.modes.coordinate.name, "", "that is moved");
-  v("unit", x.modes.coordinate.unit, "", "of the coordinate");
-  v("positions", x.modes.positions.size(), "", "number of positions");
-  v("linearisations", x.modes.linearisations, "", "positions, and what tracking took between them");
-  v("geometric", x.geometric == coupling::GeometricStiffness::included, "", "with geometric stiffness");
-  v("speed", x.speed, "rad/s", "of the excitation; 0: not known");
-  v("lines", line_rows(x.modes), "", "modes followed over the positions");
-  v("order_meetings", x.meetings, "", "where a frequency lies near a multiple of the speed");
 }
 
 template <class Visitor>
@@ -180,8 +138,7 @@ void describe(Visitor &v, const Result &x)
   };
   const auto part = [&v](const char *name, const auto &value, const char *meaning)
   { v.maybe(value.has_value(), name, value, "", meaning); };
-  const StageResult stages       = x.stages.value_or(StageResult());
-  const bool        keeps_energy = std::count(run.columns.begin(), run.columns.end(), "energy input") > 0 ||
+  const bool keeps_energy = std::count(run.columns.begin(), run.columns.end(), "energy input") > 0 ||
                             run.energy.exchanged > 0. || run.energy.residual > 0.;
 
   v("scene", x.scene, "", "name of the scene");
@@ -203,15 +160,10 @@ void describe(Visitor &v, const Result &x)
   v.maybe(x.energy_shares.has_value(), "mode_energies",
           mode_energies(x.energy_shares.value_or(coupling::EnergyShares())), "",
           "shares of the energies of each coupled mode");
-  part("modes_along", x.along, "`modes --along`");
   part("periodic", x.periodic, "`periodic`");
   for (const auto &answer : x.answers)
     answer->describe(v);
-  part("sensitivities", x.sensitivities, "`run --sensitivities`");
   part("size", x.size, "`size`");
-  v.maybe(x.stages.has_value(), "stages", stages.stages, "", "parts of the run between events");
-  v.maybe(x.stages.has_value(), "lift_off", stages.lift_offs, "", "wheels off the ground");
-  v.maybe(x.stages.has_value(), "ringing", stages.ringing, "", "oscillations in the last stage");
   part("story", x.story, "of a run with events");
   part("stress", x.stress, "`[output.stress]`");
   part("main_peak", x.peak, "extreme of the first signal in N, else of the first of all, that is larger");

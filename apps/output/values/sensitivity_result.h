@@ -77,7 +77,13 @@ struct SensitivityResult
   double                         run_cpu_s = 0., cpu_s = 0.; ///< of the run, and of all derivatives
 };
 
-std::string derivative_unit(const SensitivityOutput &output, const SensitivityKey &key);
+/// "N/(kg/s^2)"
+inline std::string derivative_unit(const SensitivityOutput &output, const SensitivityKey &key)
+{
+  if (key.unit.empty())
+    return output.unit;
+  return (output.unit.empty() ? "1" : output.unit) + "/(" + key.unit + ')';
+}
 
 template <class Visitor>
 void describe(Visitor &v, const OutputDerivatives &x)

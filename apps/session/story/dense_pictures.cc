@@ -1,6 +1,6 @@
 #include "apps/session/story/dense_pictures.h"
 
-#include "apps/session/stages/history_rows.h"
+#include "apps/session/history_rows.h"
 #include "apps/session/story/turning_points.h"
 
 #include <algorithm>

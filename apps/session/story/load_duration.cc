@@ -1,6 +1,6 @@
 #include "apps/session/story/load_duration.h"
 
-#include "apps/session/stages/history_rows.h"
+#include "apps/session/history_rows.h"
 #include "mechanism/facets.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "apps/session/story/play_estimate.h"
 
-#include "apps/session/stages/history_rows.h"
+#include "apps/session/history_rows.h"
 #include "coupling/periodic/averaging/describing_function.h"
 #include "fem/values/two_pi.h"
 #include "mechanism/facets.h"

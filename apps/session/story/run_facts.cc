@@ -1,7 +1,7 @@
 #include "apps/session/story/run_facts.h"
 
+#include "apps/session/history_rows.h"
 #include "apps/session/joint_opening.h"
-#include "apps/session/stages/history_rows.h"
 #include "apps/session/story/load_duration.h"
 #include "apps/session/story/play_estimate.h"
 #include "apps/session/story/swing_shares.h"

@@ -1,6 +1,6 @@
 #include "apps/session/story/swing_shares.h"
 
-#include "apps/session/stages/main_peak.h"
+#include "apps/session/main_peak.h"
 #include "coupling/machine/configuration/dense_matrices.h"
 
 #include <algorithm>

@@ -72,13 +72,13 @@ std::string differentiated_keys(const std::vector<VariableRequest> &variables)
 Eigen::MatrixXd output_derivatives(const OutputFormulas &outputs, const Result &result, const SceneVariants &variants,
                                    const std::vector<VariableRequest> &variables, const Eigen::VectorXd &levels)
 {
-  if (!result.sensitivities || !result.sensitivities->failure.empty())
-    throw std::invalid_argument("the run has no derivatives" +
-                                (result.sensitivities ? ": " + result.sensitivities->failure : std::string()));
+  const auto *found = answer_in<SensitivityResult>(result.answers);
+  if (!found || !found->failure.empty())
+    throw std::invalid_argument("the run has no derivatives" + (found ? ": " + found->failure : std::string()));
   const auto                   entries = outputs.entries_of(result);
   std::vector<Eigen::VectorXd> by_key;
   for (const auto &path : outputs.paths())
-    by_key.push_back(entry_derivative(path, *result.sensitivities));
+    by_key.push_back(entry_derivative(path, *found));
   const auto values_beside = [&](Eigen::Index variable, double step)
   {
     Eigen::VectorXd nearby = levels;
@@ -225,8 +225,8 @@ Result StudyRunner::single_result(const Eigen::VectorXd &levels, const std::atom
   Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
   if (frame)
     session.use_frame(*frame);
-  const std::optional<std::string> keys = sensitivities.empty() ? std::nullopt : std::optional(sensitivities);
-  return kept_.empty() ? session.run(keys) : complete_run(session, keys);
+  const Analyses analyses = analyses_of("run", {{"--sensitivities", {sensitivities}}});
+  return kept_.empty() ? run_with(analyses, session) : complete_run(session, analyses);
 }
 
 void StudyRunner::keep(int number, const Result &result) const

@@ -1,6 +1,6 @@
 // Natural frequencies along a coordinate against closed forms.
 
-#include "apps/session/modes_along.h"
+#include "apps/analysis/along/modes_along.h"
 #include "coupling/machine/configuration/loop_closure.h"
 #include "fem/values/two_pi.h"
 #include "tests/support/refusal.h"
@@ -170,7 +170,7 @@ TEST(ModesAlong, ALoadSwingsByItsGeometricStiffness)
     ModesOptions options      = of("trolley", 3, "0 m", "1 m");
     options.hold              = {"trolley"};
     const AlongResult with    = along(load_on_rope + (elastic ? elastic_rope : ideal_rope), options);
-    options.geometric         = "off";
+    options.geometric         = coupling::GeometricStiffness::left_out;
     const AlongResult without = along(load_on_rope + (elastic ? elastic_rope : ideal_rope), options);
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < 2; ++j) // in the plane and out of it
@@ -272,7 +272,7 @@ TEST(ModesAlong, StiffnessOfACompressedRodIsItsWholeTangent)
 TEST(ModesAlong, WithoutGeometricStiffnessThePressHasTheFrequenciesOfItsReference)
 {
   ModesOptions options     = of("crank", 3, "140 deg", "180 deg");
-  options.geometric        = "off";
+  options.geometric        = coupling::GeometricStiffness::left_out;
   const AlongResult result = along(press(), options);
   const auto       &modes  = result.modes.positions[1].modes;
   EXPECT_EQ(result.modes.positions[1].configuration, coupling::Configuration::equilibrium);

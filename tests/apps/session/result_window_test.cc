@@ -5,6 +5,7 @@
 #include "apps/analysis/spectra/spectrum_values.h"
 #include "apps/output/tables/result_tables.h"
 #include "apps/session/session.h"
+#include "tests/apps/session/differentiated.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
@@ -32,9 +33,9 @@ class Window : public ::testing::Test
 {
 protected:
   Result run(const std::vector<std::string> &overrides = {}, const std::string &text = fading,
-             const std::optional<std::string> &sensitivities = std::nullopt)
+             const std::string &sensitivities = "")
   {
-    return Session(folder_.write("scene.toml", test::quoted(text)), overrides).run(sensitivities);
+    return differentiated(Session(folder_.write("scene.toml", test::quoted(text)), overrides), sensitivities);
   }
 
   static const coupling::SignalSummary &signal(const Result &result, const std::string &name)
@@ -105,7 +106,7 @@ TEST_F(Window, DerivativesAreThoseOfItsExtremes)
 {
   const auto derivative = [](const Result &result, const std::string &name, std::size_t key)
   {
-    for (const auto &output : result.sensitivities->outputs)
+    for (const auto &output : sensitivities_of(result).outputs)
       if (output.output == name)
         return output.derivative[Eigen::Index(key)];
     throw std::out_of_range(name);

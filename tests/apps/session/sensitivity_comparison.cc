@@ -6,6 +6,7 @@
 #include "apps/session/session.h"
 #include "coupling/frame/frame_recipe.h"
 #include "fem/values/number_text.h"
+#include "tests/apps/session/differentiated.h"
 #include "tests/support/test.h"
 
 #include <random>
@@ -270,13 +271,12 @@ Comparison compared_with_differences(const ComparedScene &compared)
   std::string       list;
   for (const VariedKey &key : keys)
     list += (list.empty() ? "" : ",") + key.reported.key;
-  const apps::Result base = Session(path, compared.overrides).run(list);
+  const apps::Result base = differentiated(Session(path, compared.overrides), list);
+  const auto         all  = sensitivities_of(base);
   Comparison         found;
-  EXPECT_TRUE(base.sensitivities) << base.run->failure;
-  EXPECT_EQ(base.sensitivities ? base.sensitivities->failure : "", "") << compared.scene;
-  if (!base.sensitivities || !base.sensitivities->failure.empty())
+  EXPECT_EQ(all.failure, "") << compared.scene;
+  if (!all.failure.empty())
     return found;
-  const auto &all = *base.sensitivities;
   std::cout << compared.scene << " by " << list << ": " << base.run->events.size() << " events, CPU time "
             << short_text(all.run_cpu_s) << " s of the run, " << short_text(all.cpu_s) << " s of " << all.steps
             << " steps of derivatives\n";

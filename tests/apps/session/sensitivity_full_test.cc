@@ -1,6 +1,6 @@
 // Derivatives of runs by entries of their FE frame, against runs on frames reduced anew.
 
-#include "apps/session/session.h"
+#include "tests/apps/session/differentiated.h"
 #include "tests/support/test.h"
 
 namespace gestell::tests
@@ -27,8 +27,8 @@ TEST(FrameSensitivities, ByTheDensityOfTheFrameAreQuotientsOfRuns)
   // The quotient of runs errs by the square of the share and by rounding of the runs over it, some 1e-4.
   const std::vector<std::string> overrides = {"material.mine={E='210 GPa',nu=0.3,rho='7850 kg/m^3'}",
                                               "frame.material=mine", "run.tolerance=1e-9", "run.end=1.6 s"};
-  const auto                     found     = Session(scene, overrides).run("material.mine.rho");
-  EXPECT_NE(found.sensitivities->keys[0].frame.find("differences of two reductions"), std::string::npos);
+  const auto found = sensitivities_of(differentiated(Session(scene, overrides), "material.mine.rho"));
+  EXPECT_NE(found.keys[0].frame.find("differences of two reductions"), std::string::npos);
   const auto with = [&](const char *density)
   {
     auto more = overrides;
@@ -37,7 +37,7 @@ TEST(FrameSensitivities, ByTheDensityOfTheFrameAreQuotientsOfRuns)
   };
   const apps::Result below = with("7834.3 kg/m^3"), above = with("7865.7 kg/m^3");
   for (const std::string name : {"events.1.t", "F_stop.max", "F_A.max", "u_right.max", "x.max", "omega.final"})
-    for (const auto &output : found.sensitivities->outputs)
+    for (const auto &output : found.outputs)
       if (output.output == name)
       {
         const double quotient = (value_of(above, name) - value_of(below, name)) / 31.4;

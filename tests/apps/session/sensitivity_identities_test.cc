@@ -6,6 +6,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/scene.h"
 #include "apps/session/session.h"
+#include "tests/apps/session/differentiated.h"
 #include "tests/apps/session/sensitivity_comparison.h"
 #include "tests/support/moved_scene.h"
 #include "tests/support/scaled_scene.h"
@@ -52,8 +53,8 @@ TEST_P(Identities, OfLengthMassAndTimeHold)
   std::string             keys;
   for (const char *scale : test::scales)
     keys += (keys.empty() ? "parameters." : ",parameters.") + std::string(scale);
-  const apps::Result result = Session(path, shipped.overrides).run(keys);
-  const auto        &found  = *result.sensitivities;
+  const apps::Result result = differentiated(Session(path, shipped.overrides), keys);
+  const auto         found  = sensitivities_of(result);
   ASSERT_EQ(found.failure, "");
   std::map<std::string, double> sizes;
   for (const SensitivityOutput &output : found.outputs)
@@ -108,10 +109,10 @@ std::map<std::string, SensitivityOutput> derivatives(const SceneNode &tree)
 {
   apps::Session session(apps::read_scene(tree, shipped(scene), fem::Scripts::harmless), {}, {});
   session.take_entries(tree);
-  const apps::Result result = session.run(keys);
-  EXPECT_EQ(result.sensitivities->failure, "");
+  const auto found = sensitivities_of(differentiated(std::move(session), keys));
+  EXPECT_EQ(found.failure, "");
   std::map<std::string, SensitivityOutput> outputs;
-  for (const SensitivityOutput &output : result.sensitivities->outputs)
+  for (const SensitivityOutput &output : found.outputs)
     outputs[output.output] = output;
   return outputs;
 }

@@ -1,7 +1,6 @@
 // Derivatives of runs by entries of their scenes: names, units, what is refused, and quotients of converged runs.
 
-#include "apps/session/sensitivity/output_gradients.h"
-#include "apps/session/session.h"
+#include "tests/apps/session/differentiated.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_parts.h"
 #include "tests/support/test.h"
@@ -43,10 +42,10 @@ class OfFlight : public ::testing::Test
 protected:
   SensitivityResult found(const std::string &keys, std::vector<std::string> *warnings = nullptr) const
   {
-    apps::Result result = Session(path_).run(keys);
+    apps::Result result = differentiated(Session(path_), keys);
     if (warnings)
       *warnings = result.warnings;
-    return *result.sensitivities;
+    return sensitivities_of(result);
   }
 
   test::SceneFolder folder_;
@@ -88,20 +87,18 @@ TEST_F(OfFlight, ANumberOfAnElementIsAsGoodAsAParameter)
   EXPECT_NEAR(output(both, "q.max").derivative[0], output(both, "q.max").derivative[1], 1e-12);
 }
 
-TEST_F(OfFlight, GradientsAreThoseOfTheOutputsNamed)
+TEST_F(OfFlight, AreThoseOfTheClosedSolution) // q_max = gap + v_0/omega
 {
-  const apps::OutputGradients at =
-      apps::output_gradients(path_, {"parameters.v_0=1 m/s"}, {"parameters.v_0", "parameters.c"}, {"q.max", "q.final"});
-  EXPECT_NEAR(at.values[0], 0.2 + 1. / 40., 1e-8);
-  EXPECT_NEAR(at.gradients(0, 0), 1. / 40., 1e-8);
-  EXPECT_NEAR(at.gradients(0, 1), -1. / 40. / 9600., 1e-11);
-  expect_refusal([&] { apps::output_gradients(path_, {}, {"parameters.c"}, {"q.maxx"}); }, "did you mean 'q.max'");
+  const SensitivityResult by = found("parameters.v_0,parameters.c");
+  EXPECT_NEAR(output(by, "q.max").value, 0.2 + 0.8 / 40., 1e-8);
+  EXPECT_NEAR(output(by, "q.max").derivative[0], 1. / 40., 1e-8);
+  EXPECT_NEAR(output(by, "q.max").derivative[1], -0.8 / 40. / 9600., 1e-11);
 }
 
 TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
 {
   const auto refused = [&](const std::string &keys, const std::string &words)
-  { expect_refusal([&] { Session(path_).run(keys); }, words); };
+  { expect_refusal([&] { differentiated(Session(path_), keys); }, words); };
   refused("parameters.gapp", "has no entry \"gapp\"; did you mean 'gap'");
   refused("element.stop.stiffnes", "did you mean 'stiffness'");
   refused("element.stop.side", "\"above\" is no number");
@@ -111,18 +108,18 @@ TEST_F(OfFlight, WhatIsNoNumberOfTheMachineIsRefusedByName)
   refused("name", "the name of the scene");
   refused("parameters.m_1,parameters.m_1", "named twice");
   refused("parameters.m_1,", "with commas between them");
-  refused("", "it is empty");
+  refused(" ", "it is empty");
 }
 
 TEST_F(OfFlight, AnInterruptionKeepsTheRunAndWhatIsKnownByThen)
 {
   std::atomic<bool>  stop{false};
   const apps::Watch  watch{[&](const std::string &phase, double) { stop = stop || phase == "sensitivities"; }, &stop};
-  const apps::Result result = Session(path_, {}, fem::Scripts::harmless, watch).run("parameters.c");
+  const apps::Result result = differentiated(Session(path_, {}, fem::Scripts::harmless, watch), "parameters.c");
   EXPECT_FALSE(result.run->interrupted);
   EXPECT_EQ(result.run->events.size(), 2u);
-  EXPECT_TRUE(result.sensitivities->interrupted);
-  EXPECT_TRUE(std::isnan(output(*result.sensitivities, "q.max").derivative[0]));
+  EXPECT_TRUE(sensitivities_of(result).interrupted);
+  EXPECT_TRUE(std::isnan(output(sensitivities_of(result), "q.max").derivative[0]));
   EXPECT_THAT(result.warnings, ::testing::Contains(::testing::HasSubstr("interrupted: sensitivities are known of")));
 }
 
@@ -136,8 +133,8 @@ TEST_F(OfFlight, AMotionThatTouchesAStopHasNone)
   int               refused = 0; // rounding decides which of these speeds meets the stop at all
   for (const char *speed : {"0.8000000000001", "0.8000000000003", "0.8000000000005", "0.800000000001"})
   {
-    const SensitivityResult result =
-        *Session(path, {"parameters.v_0=" + std::string(speed) + " m/s"}).run("parameters.c").sensitivities;
+    const SensitivityResult result = sensitivities_of(
+        differentiated(Session(path, {"parameters.v_0=" + std::string(speed) + " m/s"}), "parameters.c"));
     if (!result.failure.empty())
     {
       EXPECT_THAT(result.failure, ::testing::HasSubstr("touches its switching point"));
@@ -184,7 +181,8 @@ TEST(Sensitivities, OfAStiffElementOnAMeasureThatTurnsHoldAcrossItToo)
   // Of a spring that is stiff enough z = h sin(wt), F = m z'' and M = F h cos(wt), but for (w^2 m/c) = 1e-5 and what
   // the tolerance leaves of s, times the stiffness.
   const test::SceneFolder folder;
-  const auto   found = *Session(folder.write("cam.toml", test::quoted(stiff_cam))).run("parameters.w").sensitivities;
+  const auto              found =
+      sensitivities_of(differentiated(Session(folder.write("cam.toml", test::quoted(stiff_cam))), "parameters.w"));
   const double m = 2., h = 0.02, w = 10., T = 0.53, phi = w * T;
   EXPECT_NEAR(std::abs(output(found, "F.final").derivative[0]),
               std::abs(m * h * (2. * w * std::sin(phi) + w * w * T * std::cos(phi))), 1e-3 * m * h * w * w);
@@ -198,7 +196,7 @@ TEST(Sensitivities, OfTheCraneAreQuotientsOfConvergedRuns)
   // is rounding and the fourth power of the step.
   const std::string              path      = GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal.toml";
   const std::vector<std::string> overrides = {"run.order=4", "run.step=1 ms", "run.end=3.4 s"};
-  const auto                     result = *Session(path, overrides).run("parameters.rope,parameters.r_K").sensitivities;
+  const auto result = sensitivities_of(differentiated(Session(path, overrides), "parameters.rope,parameters.r_K"));
   for (const std::string name : {"events.1.t", "Q4.max", "F_h.min", "q3.min"})
   {
     const SensitivityOutput &own     = output(result, name);
@@ -215,9 +213,8 @@ TEST(Sensitivities, OfFrequenciesAreThoseOfTheModesThatAreTold)
   const std::string crane = GESTELL_SOURCE_DIR "/apps/scenes/crane_minimal_lift.toml";
   const auto        found = [&](const std::string &rope)
   {
-    return *Session(crane, {"parameters.rope=" + rope, "run.step=1 ms", "run.end=20 ms"})
-                .run("parameters.rope")
-                .sensitivities;
+    return sensitivities_of(differentiated(
+        Session(crane, {"parameters.rope=" + rope, "run.step=1 ms", "run.end=20 ms"}), "parameters.rope"));
   };
   const SensitivityResult here = found("1.35"), below = found("1.3499"), above = found("1.3501");
   for (const std::string mode : {"modes.1", "modes.2", "modes.3", "modes.4"})
@@ -232,7 +229,7 @@ TEST(Sensitivities, OfThePressAreQuotientsOfConvergedRuns)
   // 14 events up to the smallest force.
   const std::string              path      = GESTELL_SOURCE_DIR "/apps/scenes/press_minimal.toml";
   const std::vector<std::string> overrides = {"run.tolerance=1e-11", "run.end=0.25 s"};
-  const auto                     result = *Session(path, overrides).run("parameters.c_P,parameters.s_cl").sensitivities;
+  const auto result = sensitivities_of(differentiated(Session(path, overrides), "parameters.c_P,parameters.s_cl"));
   for (const std::string name : {"events.13.t", "events.14.t", "F_P.min", "x2.final"})
   {
     const SensitivityOutput &own    = output(result, name);
@@ -247,7 +244,7 @@ TEST(Sensitivities, OfAChaoticMotionTellHowFarTheyHold)
 {
   // The follower leaves the cam at every turn.
   const auto result =
-      Session(GESTELL_SOURCE_DIR "/apps/scenes/cam_follower.toml", {"run.end=2 s"}).run("parameters.r_0");
+      differentiated(Session(GESTELL_SOURCE_DIR "/apps/scenes/cam_follower.toml", {"run.end=2 s"}), "parameters.r_0");
   EXPECT_THAT(result.warnings, ::testing::Contains(::testing::AllOf(::testing::HasSubstr("chaotic or unstable"),
                                                                     ::testing::HasSubstr("it grew by a factor of"))));
 }
@@ -255,8 +252,8 @@ TEST(Sensitivities, OfAChaoticMotionTellHowFarTheyHold)
 TEST(Sensitivities, OfATorqueThatAClutchTakesAwayAreThoseBehind)
 {
   // It falls from some 20 kN m to zero, exactly, which is its smallest value.
-  const auto by_J =
-      *Session(GESTELL_SOURCE_DIR "/apps/scenes/press_emergency_stop.toml").run("parameters.J2").sensitivities;
+  const auto by_J = sensitivities_of(
+      differentiated(Session(GESTELL_SOURCE_DIR "/apps/scenes/press_emergency_stop.toml"), "parameters.J2"));
   EXPECT_EQ(output(by_J, "M_T.min").value, 0.);
   EXPECT_EQ(output(by_J, "M_T.min").derivative[0], 0.);
   EXPECT_NE(output(by_J, "M_T.t_min").derivative[0], 0.);

@@ -68,7 +68,7 @@ TEST(Sizes, ModesAreLeftOutWhereNoneAreAskedFor)
   EXPECT_TRUE(result.run->failure.empty()) << result.run->failure;
   EXPECT_TRUE(result.coupled_modes.empty());
   EXPECT_TRUE(result.warnings.empty());
-  EXPECT_THAT(tests::refusal([] { session_of(row_of_sliders(3), {"modes.number=0"}).modes({}); }),
+  EXPECT_THAT(tests::refusal([] { session_of(row_of_sliders(3), {"modes.number=0"}).modes(); }),
               HasSubstr("modes.number = 0"));
 }
 

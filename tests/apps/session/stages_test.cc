@@ -1,7 +1,7 @@
 // Stages of a run and what rings in the last one: against closed solutions and the planar crane.
 
-#include "apps/session/session.h"
-#include "apps/session/stages/stage_answer.h"
+#include "apps/analysis/analyses.h"
+#include "apps/analysis/stages/stage_result.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scene_run.h"
 #include "tests/support/scene_text.h"
@@ -48,22 +48,28 @@ std::vector<std::string> crane(const std::vector<std::string> &more = {})
 
 apps::Result crane_run(const std::vector<std::string> &more = {}, const std::string &file = "crane_minimal.toml")
 {
-  return Session(shipped(file), crane(more)).run();
+  Session session(shipped(file), crane(more));
+  return apps::run_with(apps::analyses_of("run"), session);
+}
+
+const apps::StageResult &stages_of(const apps::Result &result)
+{
+  const auto *found = apps::answer_in<apps::StageResult>(result.answers);
+  return found ? *found : throw std::runtime_error("no stages");
 }
 
 TEST(Stages, OfTheCraneLieBetweenLimiterAndStandstill)
 {
   const apps::Result result = crane_run();
-  ASSERT_TRUE(result.stages);
-  const auto &stages = result.stages->stages;
+  const auto        &stages = stages_of(result).stages;
   ASSERT_EQ(stages.size(), 3u);
   EXPECT_NEAR(stages[0].end, 2.650085, 1e-4);
   EXPECT_NEAR(stages[1].end - stages[1].begin, 0.15, 1e-12);
   EXPECT_EQ(stages[2].end, 10.);
-  EXPECT_TRUE(result.stages->lift_offs.empty());
+  EXPECT_TRUE(stages_of(result).lift_offs.empty());
   // the pendulum beside that of the reference, linearised at rest: damped frequency [Hz] and damping ratio
-  ASSERT_FALSE(result.stages->ringing.modes.empty());
-  const auto &pendulum = result.stages->ringing.modes.front();
+  ASSERT_FALSE(stages_of(result).ringing.modes.empty());
+  const auto &pendulum = stages_of(result).ringing.modes.front();
   ASSERT_TRUE(pendulum.linearised);
   EXPECT_NEAR(pendulum.linearised->frequency_hz, 0.404116784280382, 1e-6);
   EXPECT_NEAR(pendulum.linearised->damping_ratio, 0.0040894005004324, 1e-6);
@@ -73,7 +79,7 @@ TEST(Stages, OfTheCraneLieBetweenLimiterAndStandstill)
 /// The mode found nearest to the linearised one of that frequency.
 const apps::RingingMode &mode_near(const apps::Result &result, double frequency_hz)
 {
-  const auto &modes = result.stages->ringing.modes;
+  const auto &modes = stages_of(result).ringing.modes;
   return *std::min_element(modes.begin(), modes.end(),
                            [&](const auto &a, const auto &b) {
                              return std::abs(a.frequency_hz - frequency_hz) < std::abs(b.frequency_hz - frequency_hz);
@@ -85,7 +91,6 @@ TEST(Stages, OfASoftlyBrakedCraneRingInItsLinearisedModes)
 {
   const apps::Result result =
       crane_run({"joint.cylinder.motion.brake.duration=\"2 s\"", "run.end=\"14 s\"", "output.stages.modes=5"});
-  ASSERT_TRUE(result.stages);
   for (const double expected : {0.407, 1.2}) // pendulum and pitch, further out than in the reference
   {
     const auto &mode = mode_near(result, expected);
@@ -99,11 +104,10 @@ TEST(Stages, OfASoftlyBrakedCraneRingInItsLinearisedModes)
 TEST(Stages, OfTyresThatLiftOffRingBehindTheLastTouchDown)
 {
   const apps::Result result = crane_run({}, "crane_minimal_lift.toml");
-  ASSERT_TRUE(result.stages);
-  ASSERT_EQ(result.stages->lift_offs.size(), 3u);
-  EXPECT_NEAR(result.stages->lift_offs[0].begin, 2.823789, 1e-3);
-  EXPECT_NEAR(result.stages->lift_offs[0].end, 3.310023, 1e-3);
-  EXPECT_EQ(result.stages->ringing.begin, result.stages->lift_offs[2].end);
+  ASSERT_EQ(stages_of(result).lift_offs.size(), 3u);
+  EXPECT_NEAR(stages_of(result).lift_offs[0].begin, 2.823789, 1e-3);
+  EXPECT_NEAR(stages_of(result).lift_offs[0].end, 3.310023, 1e-3);
+  EXPECT_EQ(stages_of(result).ringing.begin, stages_of(result).lift_offs[2].end);
 }
 
 TEST(Stages, TellHowFarALimitWasMissed)

@@ -1,4 +1,4 @@
-#include "apps/session/stages/main_peak.h"
+#include "apps/session/main_peak.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,8 @@
-#include "apps/output/report/modes_along_report.h"
+#include "apps/analysis/along/along_section.h"
 
 #include "apps/output/charts/mode_charts.h"
-#include "apps/output/interactive/live_chart.h"
-#include "apps/output/text/html.h"
-#include "apps/output/text/svg.h"
 #include "apps/output/values/line_extremes.h"
+#include "apps/output/values/result.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -136,10 +134,10 @@ void set_height(const AlongResult &along, const std::vector<std::size_t> &lines,
   chart.y.end   = middle + half;
 }
 
-std::string extremes_table(const AlongResult &along)
+HtmlTable line_table(const AlongResult &along)
 {
   HtmlTable table({"#line", "#lowest f [Hz]", "#at", "#highest f [Hz]", "#at", "#damping ratio from", "#to",
-                   "#least MAC", "moves most at first"});
+                   "#least MAC", "dominant DOF at first"});
   for (std::size_t i = 0; i < along.modes.free.size(); ++i)
   {
     const LineExtremes own  = line_extremes(along.modes, i);
@@ -157,31 +155,38 @@ std::string extremes_table(const AlongResult &along)
                                               short_text(own.growth, 3) + " t/s)"
                                         : "")});
   }
-  return table.html();
+  return table;
 }
 
-std::string meetings_table(const AlongResult &along)
+void add_meetings(const AlongResult &along, std::vector<Section::Part> &parts)
 {
+  using Part = Section::Sentences;
   if (!(along.speed > 0.))
-    return "<p class=\"soft\">No speed is known, so that there are no orders to compare with: give --speed \"30 "
-           "1/min\".</p>\n";
-  const std::string speed = short_text(along.speed * 30. / M_PI, 5) + " 1/min";
+  {
+    parts.push_back(
+        Part{"No speed is known, so that there are no orders to compare with: give --speed \"30 1/min\".", true, true});
+    return;
+  }
+  const std::string orders = "of " + short_text(along.speed * 30. / M_PI, 5) + " 1/min",
+                    within = "within " + short_text(100. * along.band, 3) + " % of a frequency";
   if (along.meetings.empty())
-    return "<p>At " + speed + " none of the orders 1 to " + std::to_string(along.orders) + " comes within " +
-           short_text(100. * along.band, 3) + " % of a frequency.</p>\n";
+  {
+    parts.push_back(
+        Part{"None of the orders 1 to " + std::to_string(along.orders) + " " + orders + " comes " + within + "."});
+    return;
+  }
   HtmlTable table({"#order", "#line", "#from", "#to", "#nearest at", "#f [Hz]", "#apart"});
   for (const coupling::OrderMeeting &meeting : along.meetings)
     table.add({std::to_string(meeting.order), std::to_string(meeting.line + 1), at_text(along.modes, meeting.begin),
                at_text(along.modes, meeting.end), at_text(along.modes, meeting.x), short_text(meeting.frequency_hz, 5),
                short_text(100. * meeting.distance, 2) + " %"});
-  return "<h3>Orders of " + speed + " within " + short_text(100. * along.band, 3) + " % of a frequency</h3>" +
-         table.scrolled_html();
+  parts.push_back(Part{"Orders " + orders + " " + within + ", as rings in the charts:"});
+  parts.push_back(table);
 }
 
 /// Shapes of the lines that change most, where their frequencies are lowest and highest.
-std::string extreme_shapes(const Result &result, Pictures &pictures)
+void add_shapes(const Result &result, const ModesAlong &modes, std::vector<Section::Part> &parts)
 {
-  const ModesAlong        &modes = result.along->modes;
   std::vector<std::size_t> lines;
   const auto               change = [&](std::size_t i)
   {
@@ -195,7 +200,8 @@ std::string extreme_shapes(const Result &result, Pictures &pictures)
   std::stable_sort(lines.begin(), lines.end(), [&](std::size_t a, std::size_t b) { return change(a) > change(b); });
   constexpr std::size_t most_shapes = 4; // a row of pictures each
   lines.resize(std::min(lines.size(), most_shapes));
-  std::string html;
+  if (!lines.empty())
+    parts.push_back(Section::Sentences{"Shapes where lines are lowest and highest:", true});
   for (const std::size_t i : lines)
     for (const bool highest : {false, true})
     {
@@ -205,13 +211,10 @@ std::string extreme_shapes(const Result &result, Pictures &pictures)
         {
           const std::string title = "Line " + std::to_string(i + 1) + " at " + at_text(modes, at.x) + ": " +
                                     short_text(at.modes[i].frequency_hz) + " Hz";
-          pictures.emplace_back("shape-along-" + std::to_string(i + 1) + (highest ? "-highest" : "-lowest"),
-                                shape_svg(result, title, at.modes[i]));
-          html += figure(pictures.back().second);
+          parts.push_back(Section::Picture{"shape-along-" + std::to_string(i + 1) + (highest ? "-highest" : "-lowest"),
+                                           shape_svg(result, title, at.modes[i])});
         }
     }
-  return html.empty() ? ""
-                      : "<h3>Shapes where lines are lowest and highest</h3><div class=\"bars\">" + html + "</div>\n";
 }
 
 std::string statement(const AlongResult &along)
@@ -220,18 +223,18 @@ std::string statement(const AlongResult &along)
   for (const ModesAt &at : along.modes.positions)
     if (at.gap.empty())
       ++(at.configuration == coupling::Configuration::equilibrium ? deflected : undeformed);
-  std::string text = "<p>The machine linearised at " + std::to_string(deflected + undeformed) + " positions of " +
-                     escape_xml(along.modes.coordinate.name) + ": ";
+  std::string text = "The machine linearised at " + std::to_string(deflected + undeformed) + " positions of " +
+                     along.modes.coordinate.name + ": ";
   if (deflected > 0)
     text += std::to_string(deflected) + " in static equilibrium" + (undeformed > 0 ? ", " : "");
   if (undeformed > 0)
     text += std::to_string(undeformed) + " undeformed";
   text += along.geometric == coupling::GeometricStiffness::included ? "; with" : "; without";
   text += " geometric stiffness. Technological forces and drives rest. ";
-  text += !along.fixed.empty()                ? "At rest: " + escape_xml(along.fixed) + "."
+  text += !along.fixed.empty()                ? "At rest: " + along.fixed + "."
           : along.modes.coordinate.joint >= 0 ? "The driven joint keeps its length in the linearised machine."
                                               : "The coordinate moves freely about each position.";
-  return text + " A line follows one shape by its modal assurance (MAC) in the metric of mass.</p>\n";
+  return text + " A line follows one shape by its modal assurance (MAC) in the metric of mass.";
 }
 
 /// Frequencies of some lines over the coordinate.
@@ -256,42 +259,22 @@ Chart along_chart(const AlongResult &along, const std::vector<std::size_t> &line
   return chart;
 }
 
-std::vector<Chart> along_charts(const AlongResult &along)
-{
-  std::vector<Chart> charts;
-  for (const std::vector<std::size_t> &lines : groups(along.modes))
-    charts.push_back(along_chart(along, lines));
-  return charts;
-}
-
 } // namespace
 
-Pictures along_pictures(const AlongResult &along)
+std::vector<Section> sections_of(const Result &result, const AlongResult &along)
 {
-  Pictures pictures;
-  for (const Chart &chart : along_charts(along))
-    pictures.emplace_back("modes-along" +
-                              (pictures.empty() ? std::string() : "-" + std::to_string(pictures.size() + 1)),
-                          chart_svg(chart));
-  return pictures;
-}
-
-std::string along_section(const Result &result, Pictures &pictures)
-{
-  if (!result.along)
-    return "";
-  const AlongResult       &along  = *result.along;
-  std::string              html   = statement(along);
-  const std::vector<Chart> charts = along_charts(along);
-  const Pictures           drawn  = along_pictures(along);
-  pictures.insert(pictures.end(), drawn.begin(), drawn.end());
-  for (std::size_t i = 0; i < charts.size(); ++i)
-    html += live_figure(charts[i], drawn[i].second);
-  if (!along.meetings.empty())
-    html += "<p class=\"soft\">Rings: an order of the excitation comes near a frequency.</p>\n";
-  html += meetings_table(along) + "<h3>Extremes of each line</h3>" + extremes_table(along) +
-          extreme_shapes(result, pictures);
-  return section("along", "Natural frequencies along " + escape_xml(along.modes.coordinate.name), html);
+  Section     section{"along", "Natural frequencies along " + along.modes.coordinate.name, "Frequencies along",
+                  Section::Place::frequencies};
+  auto       &parts = section.parts;
+  std::size_t n     = 0;
+  parts.push_back(Section::Sentences{statement(along), true});
+  for (const std::vector<std::size_t> &lines : groups(along.modes))
+    parts.push_back(
+        Section::Drawing{"modes-along" + (++n > 1 ? "-" + std::to_string(n) : ""), along_chart(along, lines)});
+  add_meetings(along, parts);
+  parts.push_back(line_table(along));
+  add_shapes(result, along.modes, parts);
+  return {section};
 }
 
 } // namespace gestell::apps

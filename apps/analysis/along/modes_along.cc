@@ -1,4 +1,4 @@
-#include "apps/session/modes_along.h"
+#include "apps/analysis/along/modes_along.h"
 
 #include "apps/session/option_value.h"
 #include "fem/values/available_memory.h"
@@ -29,7 +29,7 @@ void set_range(const coupling::SweptCoordinate &coordinate, const ModesOptions &
   const bool given = !options.from.empty() || !options.to.empty();
   if (!coordinate.full_turn && (options.from.empty() || options.to.empty()))
     throw std::invalid_argument(
-        "--along " + coordinate.name + " is no angle that turns round; give its range, such as " +
+        "--along " + coordinate.name + " does not make full turns; give its range, such as " +
         (coordinate.unit == "rad" ? "--from \"-20 deg\" --to \"20 deg\"" : "--from \"2.4 m\" --to \"3.1 m\""));
   const Kind &kind = coordinate.unit == "rad" ? kind::angle : kind::length;
   along.from       = options.from.empty() ? 0. : option_value("--from", options.from, kind);
@@ -64,12 +64,11 @@ AlongResult modes_along_result(const Scene &scene, PreparedMachine &prepared, co
                          double(options.positions) * std::min(scene.modes.number, machine.size()) *
                              (sizeof(coupling::Mode) + 8. * machine.size()),
                          "Ask for fewer positions, or for fewer modes (modes.number).");
-  along.configuration      = options.configuration == "undeformed" ? coupling::Configuration::undeformed
-                                                                   : coupling::Configuration::equilibrium;
-  along.lines              = scene.modes.number;
-  along.linearisation.open = scene.modes.open;
-  along.linearisation.geometric =
-      options.geometric == "off" ? coupling::GeometricStiffness::left_out : coupling::GeometricStiffness::included;
+  along.configuration           = options.configuration == "undeformed" ? coupling::Configuration::undeformed
+                                                                        : coupling::Configuration::equilibrium;
+  along.lines                   = scene.modes.number;
+  along.linearisation.open      = scene.modes.open;
+  along.linearisation.geometric = options.geometric;
   for (const std::string &name : options.hold)
   {
     const coupling::SweptCoordinate held = named("--hold", machine, name);

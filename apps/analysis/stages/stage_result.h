@@ -1,6 +1,8 @@
 #pragma once
 
 #include "apps/output/describe/described.h"
+#include "apps/output/report/section.h"
+#include "coupling/simulation/run_result.h"
 
 #include <optional>
 #include <string>
@@ -56,7 +58,7 @@ struct RingingMode
 
   double                                      frequency_hz  = 0.; ///< damped
   double                                      damping_ratio = 0.;
-  std::vector<std::pair<std::string, double>> amplitudes;  ///< by signal, at the begin of the window
+  std::vector<std::pair<std::string, double>> amplitudes;  ///< by signal, at the start of the window
   std::string                                 combination; ///< of stronger ones, "3 x 0.4026 Hz"; empty: it is a mode
   std::optional<Linearised>                   linearised;  ///< damped, too
 };
@@ -122,5 +124,18 @@ struct StageResult
   std::vector<LiftOff> lift_offs;
   Ringing              ringing; ///< without modes: not asked for, or not found
 };
+
+template <class Visitor>
+void describe_answer(Visitor &v, const StageResult &x)
+{
+  v.maybe(true, "stages", x.stages, "", "parts of the run between events");
+  v.maybe(true, "lift_off", x.lift_offs, "", "wheels off the ground");
+  v.maybe(true, "ringing", x.ringing, "", "oscillations in the last stage");
+}
+
+std::vector<Section> sections_of(const Result &result, const StageResult &found);
+
+/// Intervals between the events "lift_off" and "touch_down" of each wheel; one that begins in the air comes down first.
+std::vector<LiftOff> lift_off_intervals(const coupling::RunResult &run, double begin, double end);
 
 } // namespace gestell::apps

@@ -1,6 +1,6 @@
-#include "apps/session/stages/ringing.h"
+#include "apps/analysis/stages/ringing.h"
 
-#include "apps/session/stages/history_rows.h"
+#include "apps/session/history_rows.h"
 #include "coupling/equilibrium/static_equilibrium.h"
 #include "coupling/machine/configuration/assembly.h"
 #include "coupling/modes/matrix_pencil.h"
@@ -137,8 +137,8 @@ std::string leave_out_slow(std::vector<DampedOscillation> &found, const Ringing 
   if (slow == found.end())
     return "";
   found.erase(slow, found.end());
-  return "what is slower than " + rounded(periods_of_window / window) + " Hz is not told: " + rounded(window) +
-         " s behind the last contact are less than two periods of it";
+  return "what is slower than " + rounded(periods_of_window / window) + " Hz is left out: " + rounded(window) +
+         " s after the last contact are less than two periods of it";
 }
 
 /// The strongest first, so that each is compared with those that may have made it.
@@ -177,7 +177,7 @@ void find_ringing(const Scene &scene, PreparedMachine &prepared, const Eigen::Ve
   constexpr long        least_samples = 40; // twice the poles of ten modes
   if (samples.rows() < least_samples)
   {
-    result.ringing.note = "too few rows of the history lie behind the last contact, at " + rounded(ringing.begin) +
+    result.ringing.note = "too few rows of the history lie after the last contact, at " + rounded(ringing.begin) +
                           " s; modes need " + std::to_string(least_samples) + ", there are " +
                           std::to_string(samples.rows()) + ": give run.end a larger or output.step a smaller value";
     return;

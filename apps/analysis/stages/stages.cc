@@ -1,7 +1,8 @@
-#include "apps/session/stages/stage_answer.h"
+#include "apps/analysis/stages/stage_result.h"
 
-#include "apps/session/stages/history_rows.h"
-#include "apps/session/stages/ringing.h"
+#include "apps/analysis/analysis_entry.h"
+#include "apps/analysis/stages/ringing.h"
+#include "apps/session/history_rows.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -133,28 +134,55 @@ std::vector<LiftOff> lift_off_intervals(const RunResult &run, double begin, doub
   return intervals;
 }
 
-std::optional<StageResult> stage_answer(const Scene &scene, PreparedMachine &prepared, const Eigen::VectorXd &end_state,
-                                        RunResult &run)
+namespace
 {
-  const HistoryRows rows(run);
-  if (rows.size() == 0)
-    return std::nullopt;
-  StageResult result;
-  result.lift_offs = lift_off_intervals(run, rows.t(0), rows.t(rows.size() - 1));
-  if (!scene.stages.given() && result.lift_offs.empty())
-    return std::nullopt;
-  if (!scene.stages.given())
-    return result;
-  const std::string missing = add_stages(scene, run, result);
-  if (!missing.empty())
+
+/**
+ * The stages of [output.stages], what rings in the last one, and when wheels were off the ground; nothing of a run
+ * without both.  Modes are identified from the last event of a contact on, by matrix_pencil(), and compared with those
+ * of the machine linearised at rest where its driven joints stand in the end.
+ *
+ * A border that the run did not come to, or that lies at its begin, is its failure, unless it has one already: the
+ * signal of the switch, how far it came, what it needs and what may be changed.
+ */
+class StagesOfRun : public Analysis
+{
+public:
+  void after_motion(RunInProgress &run) override
   {
-    result.ringing.note = missing;
-    if (!run.interrupted)
-      run.stop("stages", "stages", missing);
+    const Scene      &scene  = run.session.scene();
+    RunResult        &motion = *run.result.run;
+    const HistoryRows rows(motion);
+    if (rows.size() == 0)
+      return;
+    StageResult result;
+    result.lift_offs = lift_off_intervals(motion, rows.t(0), rows.t(rows.size() - 1));
+    if (scene.stages.given())
+      divide(scene, run.session.machine(), motion, result);
+    if (scene.stages.given() || !result.lift_offs.empty())
+      run.result.answers.push_back(as_answer(std::move(result)));
   }
-  else if (!scene.stages.ringing.empty() && run.failure.empty() && prepared.machine.size() == end_state.size())
-    find_ringing(scene, prepared, end_state, run, result);
-  return result;
+
+private:
+  static void divide(const Scene &scene, PreparedMachine &prepared, RunResult &run, StageResult &result)
+  {
+    const std::string missing = add_stages(scene, run, result);
+    if (!missing.empty())
+    {
+      result.ringing.note = missing;
+      if (!run.interrupted)
+        run.stop("stages", "stages", missing);
+    }
+    else if (!scene.stages.ringing.empty() && run.failure.empty() && prepared.machine.size() == run.end_state.size())
+      find_ringing(scene, prepared, run.end_state, run, result);
+  }
+};
+
+} // namespace
+
+AnalysisEntry stage_analysis()
+{
+  return analysis_entry<StagesOfRun, StageResult>("stages", "", {}, {}, "run");
 }
 
 } // namespace gestell::apps

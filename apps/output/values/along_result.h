@@ -1,0 +1,68 @@
+#pragma once
+
+#include "apps/output/describe/described.h"
+#include "apps/output/values/coupling_descriptions.h"
+#include "apps/output/values/line_extremes.h"
+#include "coupling/modes/excitation_orders.h"
+#include "coupling/modes/modes.h"
+
+#include <string>
+#include <vector>
+
+namespace gestell::apps
+{
+
+/// Modes along a coordinate, and what excites them there.
+struct AlongResult
+{
+  coupling::ModesAlong                modes;
+  coupling::GeometricStiffness        geometric = coupling::GeometricStiffness::included;
+  std::string                         fixed;       ///< coordinates at rest, for people; may be empty
+  double                              speed  = 0.; ///< [rad/s] of the excitation; 0: unknown
+  int                                 orders = 10; ///< highest multiple of the speed examined
+  double                              band   = 0.05;
+  std::vector<coupling::OrderMeeting> meetings;
+};
+
+/// A mode followed over the positions.
+struct LineRow
+{
+  LineExtremes extremes{};
+  std::string  moves_most{};
+  bool         free = false;
+};
+
+template <class Visitor>
+void describe(Visitor &v, const LineRow &x)
+{
+  v("min_hz", x.extremes.min, "Hz", "lowest frequency");
+  v("at_min", x.extremes.x_min, "", "coordinate there");
+  v("max_hz", x.extremes.max, "Hz", "highest frequency");
+  v("at_max", x.extremes.x_max, "", "coordinate there");
+  v("least_mac", x.extremes.least_assurance, "1", "least assurance between neighbouring positions");
+  v("moves_most", x.moves_most, "", "dominant coordinate at the first position");
+  v("free", x.free, "", "without a frequency at every position");
+}
+
+inline std::vector<LineRow> line_rows(const coupling::ModesAlong &modes)
+{
+  std::vector<LineRow> rows;
+  for (std::size_t i = 0; i < modes.free.size(); ++i)
+    rows.push_back({line_extremes(modes, i), modes.moves_most[i], bool(modes.free[i])});
+  return rows;
+}
+
+template <class Visitor>
+void describe(Visitor &v, const AlongResult &x)
+{
+  v("coordinate", x.modes.coordinate.name, "", "that is moved");
+  v("unit", x.modes.coordinate.unit, "", "of the coordinate");
+  v("positions", x.modes.positions.size(), "", "number of positions");
+  v("linearisations", x.modes.linearisations, "", "positions, and what tracking took between them");
+  v("geometric", x.geometric == coupling::GeometricStiffness::included, "", "with geometric stiffness");
+  v("speed", x.speed, "rad/s", "of the excitation; 0: not known");
+  v("lines", line_rows(x.modes), "", "modes followed over the positions");
+  v("order_meetings", x.meetings, "", "where a frequency lies near a multiple of the speed");
+}
+
+} // namespace gestell::apps
