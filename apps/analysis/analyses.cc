@@ -34,7 +34,12 @@ Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session
   const auto add = [&](Result &result) { outcome = analysis.compute(session, result); };
   if (entry.of != "run")
     return session.answered(entry.name, add);
-  Result result  = session.run({&analysis});
+  const Analyses parts = analyses_of("run"); // those that tables of the scene request
+  RunParts       all;
+  for (const auto &part : requested_of(parts, session.scene()))
+    all.push_back(part.get());
+  all.push_back(&analysis);
+  Result result  = session.run(all);
   result.command = entry.name;
   add(result);
   if (!result.run->failure.empty())
@@ -102,6 +107,13 @@ std::string needs_trajectory(const Analyses &analyses, const Scene &scene)
   for (const auto &analysis : requested_of(analyses, scene))
     option += option.empty() ? analysis->needs_trajectory() : "";
   return option;
+}
+
+std::string failure_of(const Result &result)
+{
+  if (result.run && !result.run->failure.empty())
+    return result.run->failure;
+  return result.warnings.empty() ? "without a reason" : result.warnings.back();
 }
 
 Result run_with(const Analyses &analyses, Session &session)

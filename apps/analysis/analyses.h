@@ -32,6 +32,8 @@ std::string needs_trajectory(const Analyses &analyses, const Scene &scene);
 
 /// A run, and what those requested find while it is made, such as its stages, which may fail it.  Checks them before.
 Result run_with(const Analyses &analyses, Session &session);
+/// Why a computation failed: the reason of its run, else its last warning.
+std::string failure_of(const Result &result);
 /// Of those requested; @return the worst
 AnalysisOutcome add_answers(const Analyses &analyses, Session &session, Result &result);
 /// Both: a run with the answers that every run has, such as its spectra.

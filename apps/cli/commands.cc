@@ -68,6 +68,12 @@ int compute_analysis(const AnalysisEntry &entry, Analysis &analysis, const Commo
   for (const std::string &warning : all_warnings(result))
     std::cerr << "gestell: warning: " << warning << '\n';
   std::cout << (more.empty() ? "" : more + '\n') << where << '\n';
+  if (outcome == AnalysisOutcome::failed)
+  {
+    const std::string message = "the computation failed: " + failure_of(result);
+    std::cerr << "gestell: " << message << '\n';
+    error_in_json(message);
+  }
   return exit_code_of(outcome);
 }
 

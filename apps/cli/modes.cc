@@ -159,7 +159,9 @@ int find_modes(const CommonOptions &options, bool geometric, const ConvergeOptio
               << " holds a run, which is kept: only tables of modes, their charts and frame_modes.pvd were written\n";
   else
     std::cout << "report: " << (folder / "report.html").string() << '\n';
-  return outcome == AnalysisOutcome::failed || (convergence && !convergence->converged) ? exit_failed : exit_done;
+  return outcome == AnalysisOutcome::interrupted                                          ? exit_interrupted
+         : outcome == AnalysisOutcome::failed || (convergence && !convergence->converged) ? exit_failed
+                                                                                          : exit_done;
 }
 
 } // namespace

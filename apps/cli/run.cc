@@ -162,7 +162,11 @@ int run_scene(const CommonOptions &options, const CheckpointRequest &requested, 
     return exit_failed;
   }
   if (outcome == AnalysisOutcome::failed)
+  {
+    std::cerr << "gestell: an analysis of the run failed, as a warning says; the run itself is in " << folder.string()
+              << '\n';
     return exit_failed;
+  }
   if (result.run->interrupted && trajectory_for.empty() && std::filesystem::exists(folder / checkpoint_name))
     std::cerr << "gestell: interrupted; " << resuming(options, folder) << " goes on from there\n";
   return result.run->interrupted || outcome == AnalysisOutcome::interrupted ? exit_interrupted : exit_done;

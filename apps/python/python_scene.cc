@@ -362,7 +362,7 @@ std::shared_ptr<PythonResult> PythonScene::analyse(const std::string &name, cons
       },
       std::move(progress));
   if (outcome == apps::AnalysisOutcome::failed)
-    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(result->result().warnings.back()), result);
+    raise_with(py::module_::import("_gestell").attr("ComputationFailed")(apps::failure_of(result->result())), result);
   return result;
 }
 

@@ -20,7 +20,7 @@ struct RunInProgress
   coupling::Trajectory                 trajectory{}; ///< the motion, where a part needs it
 };
 
-/// What is found of a run besides its signals; runs have them in the order of a list.
+/// An answer of a run besides its signals; a run calls its parts in the order of the list.
 class RunPart
 {
 public:

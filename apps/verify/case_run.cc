@@ -206,8 +206,8 @@ Result analysed(const AnalysisEntry &entry, Session &session, CaseRequest &reque
   requested.finish();
   AnalysisOutcome outcome = AnalysisOutcome::done;
   Result          result  = computed(entry, *analysis, session, outcome);
-  if (outcome == AnalysisOutcome::failed)
-    throw std::runtime_error(result.run && !result.run->failure.empty() ? result.run->failure : result.warnings.back());
+  if (outcome != AnalysisOutcome::done)
+    throw std::runtime_error(failure_of(result));
   return result;
 }
 

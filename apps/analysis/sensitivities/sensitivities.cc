@@ -116,6 +116,7 @@ public:
   }
   void before_motion(RunInProgress &run) override
   {
+    outcome_                 = AnalysisOutcome::done;
     const std::clock_t begin = std::clock();
     twins_                   = perturbed_scenes(run.session.file(), run.session.scene(), run.session.machine(), keys_,
                               list_ == "all" ? &left_out_ : nullptr, run.session.progress());
@@ -126,11 +127,12 @@ public:
   }
   void after_motion(RunInProgress &run) override
   {
+    PerturbedScenes twins = std::move(twins_); // two machines for each key, which only this needs
     if (!run.result.run->failure.empty() || run.result.run->interrupted)
       return;
     const std::clock_t begin = std::clock();
     run.session.progress()("sensitivities", -1.);
-    SensitivityResult found = differentiated(run, twins_, keys_);
+    SensitivityResult found = differentiated(run, twins, keys_);
     found.run_cpu_s         = double(begin - at_run_) / CLOCKS_PER_SEC;
     found.cpu_s             = double(before_ + std::clock() - begin) / CLOCKS_PER_SEC;
     if (!found.failure.empty())

@@ -114,7 +114,7 @@ std::vector<Section> sections_of(const Result &, const SensitivityResult &found)
   if (!found.failure.empty())
     section.parts.push_back(Part{"There are none: " + found.failure, true});
   std::vector<Section::Part> charts;
-  const std::string          change = "1 % more of ... changes it by";
+  const std::string          change = "1 % more of ... changes it by (+: away from zero)";
   HtmlTable                  peaks({"output", "#value", "unit", change}), others({"output", "#value", "unit", change});
   for (const SensitivityOutput &output : found.outputs)
   {
@@ -135,7 +135,7 @@ std::vector<Section> sections_of(const Result &, const SensitivityResult &found)
                                  "place with another, they end.",
                                  true});
   section.parts.insert(section.parts.end(), charts.begin(), charts.end());
-  if (peaks.is_empty() && others.is_empty() && found.failure.empty())
+  if (peaks.is_empty() && others.is_empty() && found.failure.empty() && !found.interrupted)
     section.parts.push_back(Part{"None of these entries changes an output of this run."});
   section.parts.push_back(peaks);
   section.parts.push_back(Section::PageTable{others});

@@ -61,7 +61,8 @@ void add_ringing(const Ringing &ringing, std::vector<Section::Part> &parts)
     parts.push_back(table_of(ringing.modes).shown());
   }
   if (!ringing.note.empty())
-    parts.push_back(Section::Sentences{ringing.note, ringing.signals.empty()}); // else the failure of the run
+    parts.push_back(
+        Section::Sentences{ringing.note, ringing.signals.empty()}); // without signals it is the failure of the run
 }
 
 } // namespace
@@ -73,6 +74,8 @@ std::vector<Section> sections_of(const Result &, const StageResult &found)
     section.parts.push_back(Section::Sentences{stage.name + " " + interval_text(stage.begin, stage.end)});
   if (!found.stages.empty())
     section.parts.push_back(Section::PageTable{stage_table(found.stages)});
+  if (!found.lift_offs.empty() && !found.stages.empty())
+    section.parts.push_back(Section::Sentences{"Wheels off the ground:"});
   if (!found.lift_offs.empty())
     section.parts.push_back(table_of(found.lift_offs).shown());
   add_ringing(found.ringing, section.parts);
