@@ -37,11 +37,11 @@ std::string kind_text(const coupling::Recurrence &motion)
   if (motion.kind == "sub-harmonic")
     return "sub-harmonic: it repeats after " + std::to_string(motion.repeats) + " periods of the excitation";
   if (motion.kind == "quasi-periodic")
-    return "quasi-periodic: it beats and never repeats, neighbouring motions keep their distance";
+    return "quasi-periodic: it beats and does not repeat; neighbouring trajectories stay bounded";
   if (motion.kind == "drifting")
-    return "drifting: it lies ever farther away over these periods, as a motion that nothing holds";
+    return "drifting: it moves away over these periods, as an unconstrained motion does";
   if (motion.kind == "chaotic")
-    return "chaotic: it never repeats, neighbouring motions part";
+    return "chaotic: it does not repeat; neighbouring trajectories diverge";
   return "still settling: it comes ever nearer to a motion that repeats" +
          (motion.repeats > 0 ? " after " + std::to_string(motion.repeats) + " period" + (motion.repeats > 1 ? "s" : "")
                              : std::string());
@@ -172,7 +172,7 @@ CsvTable basins_csv(const PeriodicResult &result)
 std::string long_run_text(const LongRun &run)
 {
   const coupling::Recurrence &motion = run.motion;
-  return "in the long run (" + std::to_string(motion.periods) + " periods, behind as many) the motion is " +
+  return "in the long run (" + std::to_string(motion.periods) + " periods, after as many) the motion is " +
          kind_text(motion) + "; largest Lyapunov exponent " + short_text(motion.exponent, 3) + " 1/s, standard error " +
          short_text(motion.error, 2) + " 1/s";
 }

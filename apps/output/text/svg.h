@@ -35,6 +35,6 @@ std::string svg_box(double x, double y, double width, double height);
 /// A shape with a text that browsers show under the pointer.
 std::string svg_hint(const std::string &text, const std::string &shape);
 
-constexpr int n_series_colours = 7; ///< that are told apart on light and on dark paper
+constexpr int n_series_colours = 7; ///< distinguishable on light and on dark paper
 
 } // namespace gestell::apps

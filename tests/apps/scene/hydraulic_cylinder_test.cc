@@ -197,7 +197,7 @@ TEST(HydraulicCylinder, TheEndOfItsStrokeIsWarnedOfWithItsTime)
 
 // At 1 m/s half of the clearance volume, 1e-5 m^3 on 1e-3 m^2, is left 5 mm behind the dead centre; the open valve
 // would let the piston through the head.
-TEST(GasForce, TheEndOfItsStrokeIsWarnedOfWithItsTime)
+TEST(GasForce, AWarningNamesTheEndOfItsStroke)
 {
   const auto motion = run(slider(1e6, "107 ms") + "[element.gas]\ntype = \"gas force\"\nfrom = \"slide\"\n"
                                                   "area = 1e-3\nclearance_volume = 1e-5\nsuction_pressure = \"1 bar\"\n"
