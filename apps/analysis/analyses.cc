@@ -28,27 +28,6 @@ const AnalysisEntry &analysis_named(const std::string &name)
   throw std::invalid_argument("there is no analysis '" + name + "'" + suggestion(name, names));
 }
 
-Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session, AnalysisOutcome &outcome)
-{
-  analysis.check(session);
-  const auto add = [&](Result &result) { outcome = analysis.compute(session, result); };
-  if (entry.of != "run")
-    return session.answered(entry.name, add);
-  const Analyses parts = analyses_of("run"); // those that tables of the scene request
-  RunParts       all;
-  for (const auto &part : requested_of(parts, session.scene()))
-    all.push_back(part.get());
-  all.push_back(&analysis);
-  Result result  = session.run(all);
-  result.command = entry.name;
-  add(result);
-  if (!result.run->failure.empty())
-    outcome = AnalysisOutcome::failed;
-  else if (result.run->interrupted)
-    outcome = std::max(outcome, AnalysisOutcome::interrupted);
-  return result;
-}
-
 void set_options(Analysis &analysis, const OptionTexts &options)
 {
   for (const CommandOption &option : analysis.options())
@@ -107,6 +86,27 @@ std::string needs_trajectory(const Analyses &analyses, const Scene &scene)
   for (const auto &analysis : requested_of(analyses, scene))
     option += option.empty() ? analysis->needs_trajectory() : "";
   return option;
+}
+
+Result computed(const AnalysisEntry &entry, Analysis &analysis, Session &session, AnalysisOutcome &outcome)
+{
+  analysis.check(session);
+  const auto add = [&](Result &result) { outcome = analysis.compute(session, result); };
+  if (entry.of != "run")
+    return session.answered(entry.name, add);
+  const Analyses parts = analyses_of("run"); // those that tables of the scene request
+  RunParts       all;
+  for (const auto &part : requested_of(parts, session.scene()))
+    all.push_back(part.get());
+  all.push_back(&analysis);
+  Result result  = session.run(all);
+  result.command = entry.name;
+  add(result);
+  if (!result.run->failure.empty())
+    outcome = AnalysisOutcome::failed;
+  else if (result.run->interrupted)
+    outcome = std::max(outcome, AnalysisOutcome::interrupted);
+  return result;
 }
 
 std::string failure_of(const Result &result)
