@@ -10,11 +10,11 @@ namespace gestell::coupling
 
 namespace
 {
-[[noreturn]] void fail_divided(const std::string &reason, int halvings, double step)
+[[noreturn]] void fail_divided(const ConvergenceFailure &reason, int halvings, double step)
 {
   std::ostringstream message;
-  message << reason << "; the step was halved " << halvings << " times, to " << step << " s";
-  throw ConvergenceFailure(message.str());
+  message << reason.what() << "; the step was halved " << halvings << " times, to " << step << " s";
+  throw ConvergenceFailure(message.str(), reason.id(), reason.place());
 }
 } // namespace
 
@@ -363,7 +363,7 @@ void Bdf::divided_step(const Point &from, double length, int halvings, Point &to
     catch (const ConvergenceFailure &failure)
     {
       if (halvings == options_.max_halvings)
-        fail_divided(failure.what(), halvings, half);
+        fail_divided(failure, halvings, half);
       ++work_.rejected;
       divided_step(base, half, halvings + 1, end);
     }

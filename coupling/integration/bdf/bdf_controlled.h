@@ -163,7 +163,7 @@ private:
   Eigen::MatrixXd                  dp_du_, dp_dv_, pivots_;
   Eigen::VectorXd                  stiffness_; ///< -dp/du by measure, before an event; then its change there [n_u]
   Eigen::VectorXd                  moved_;     ///< max_k S_jk p_k of the last step tried [n_u]
-  std::string                      reason_;    ///< of Newton's last failure
+  std::string                      reason_, reason_id_, reason_place_; ///< of Newton's last failure
   LocalState                       local_, base_;
   mutable Instant                  now_;
   mutable bool                     now_known_  = false;

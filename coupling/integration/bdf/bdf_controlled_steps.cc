@@ -44,7 +44,9 @@ void BdfControlled::advance()
 /// Iterates that ran away have enlarged the excursions by which Newton's tolerance is measured: they are counted anew.
 void BdfControlled::newton_failed(const ConvergenceFailure &failure)
 {
-  reason_ = failure.what();
+  reason_       = failure.what();
+  reason_id_    = failure.id();
+  reason_place_ = failure.place();
   implicit_.begin(z_begin_.segment(2 * n_, n_u_));
 }
 
@@ -382,7 +384,7 @@ void BdfControlled::fail(double h, const Trial &trial) const
     message << reason_ << ".  Look at the force there, or allow a smaller step";
   else
     message << "the motion is no longer finite";
-  throw ConvergenceFailure(message.str());
+  throw trial.solved ? ConvergenceFailure(message.str()) : ConvergenceFailure(message.str(), reason_id_, reason_place_);
 }
 
 } // namespace gestell::coupling

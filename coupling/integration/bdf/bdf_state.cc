@@ -31,7 +31,8 @@ void BdfControlled::exchange(StateArchive &archive)
   archive(scale_, implicit_, differences_, order_, rung_, wanted_order_, wanted_rung_, since_change_, barred_, fresh_,
           started_, solves_inside_, lambda_size_, cut_, anchor_, steps_, t_begin_, t_end_);
   archive(z_begin_, z_cut_, z_, predicted_, difference_, history_, chain_, middle_, end_);
-  archive(dp_du_, dp_dv_, stiffness_, moved_, reason_, local_, base_, f_t_, load_known_, work_);
+  archive(dp_du_, dp_dv_, stiffness_, moved_, reason_, reason_id_, reason_place_, local_, base_, f_t_, load_known_,
+          work_);
   now_known_ = false;
 }
 

@@ -1,12 +1,11 @@
 #include "coupling/integration/events/event_driver.h"
 #include "coupling/integration/events/finite_state.h"
 #include "coupling/integration/events/guard_rounding.h"
-#include "coupling/integration/system/resumable.h"
-#include "coupling/integration/system/state_archive.h"
-
 #include "coupling/integration/step/load_breakpoints.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "coupling/integration/system/error_control.h"
+#include "coupling/integration/system/resumable.h"
+#include "coupling/integration/system/state_archive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -189,9 +188,8 @@ double EventDriver::value_at(int guard, double t)
 void EventDriver::locate(int guard, double low, double g_low, double high, double g_high, Crossing &crossing)
 {
   const double finest = resolution(high, high - low);
-  const double width  = high - low;
   int          side   = 0;
-  double       f_low = g_low, f_high = g_high;
+  double       f_low = g_low, f_high = g_high, width = high - low;
   for (int k = 0; k < 60 && high - low > finest && f_high > 0.; ++k)
   {
     double t = f_high - f_low > 0. ? (low * f_high - high * f_low) / (f_high - f_low) : 0.5 * (low + high);
@@ -340,9 +338,8 @@ bool EventDriver::looks_at_held_force(int guard)
   return probe_[guard] != g_[0][guard];
 }
 
-/// Whether a guard that is negative at three instants turns above zero, by more than rounding, between them: `top`
-/// there, `low` before it.
-/// Parabolas close in on the turn until their vertex is far below against what they err.
+/// Whether a guard that is negative at three instants turns above zero by more than rounding: `top` there, `low` before
+/// it.  Parabolas close in on the turn until their vertex is far below zero against their error.
 bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low, Look &top)
 {
   constexpr double err = 0.1; // of the rise within a parabola: a sine bends its peak by 3 % at 0.8 rad between looks
@@ -385,11 +382,10 @@ bool EventDriver::turns_above_zero(int guard, Look a, Look b, Look c, Look &low,
 
 void EventDriver::take(const Crossing &crossing)
 {
-  const int    guard = crossing.guard;
-  const double begin = integrator_.step_begin(), end = integrator_.time();
-  const double finest = resolution(end, end - begin);
-  // share of a step by which the force that holds a measure errs in the time of an event
-  constexpr double a_little = 0.1;
+  const int        guard = crossing.guard;
+  const double     begin = integrator_.step_begin(), end = integrator_.time();
+  const double     finest   = resolution(end, end - begin);
+  constexpr double a_little = 0.1; // share of a step by which the force that holds a measure errs in time
   const double     most     = looks_at_held_force(guard) ? a_little * (end - begin) : end - begin;
   double           t        = crossing.t;
   integrator_.cut(t);
@@ -407,6 +403,9 @@ void EventDriver::take(const Crossing &crossing)
     t_last = t, g_last = g, t = next;
     integrator_.cut(t);
   }
+  system_.events().guard_values(integrator_.local(), probe_);
+  if (t > begin && meets_another(system_.events(), guard, g_[0], probe_))
+    integrator_.cut(t = std::min(t + finest, end));
   if (integrator_.time() < t)
   {
     integrator_.restart(); // the integrator gave the step up: it goes on from its begin with a smaller one

@@ -38,9 +38,10 @@ void make_step(TimeIntegrator &integrator, const SecondOrderSystem &system)
   integrator.advance();
   if (is_finite(integrator.local()))
     return;
-  const std::string words = non_finite_state_message(system, integrator.local());
+  const LawWithoutValue law   = law_at_fault(system, integrator.local());
+  const std::string     words = non_finite_state_message(system, integrator.local());
   integrator.cut(integrator.step_begin());
-  throw ConvergenceFailure(words);
+  throw ConvergenceFailure(words, law.words.empty() ? "" : without_value, law.element);
 }
 
 } // namespace gestell::coupling

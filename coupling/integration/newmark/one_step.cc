@@ -141,7 +141,7 @@ void OneStep::step_or_divide(const Point &from, double length, int halvings, Poi
     {
       std::ostringstream message;
       message << failure.what() << "; the step was halved " << halvings << " times, to " << length << " s";
-      throw ConvergenceFailure(message.str());
+      throw ConvergenceFailure(message.str(), failure.id(), failure.place());
     }
     ++work_.rejected;
     Point &middle = middle_[halvings];

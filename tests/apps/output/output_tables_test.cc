@@ -143,6 +143,7 @@ TEST(Tables, FindingsHaveTheirKindAndPlace)
   result.warnings = {
       "press.toml:12: element.stop: never acts in this run; expected: a force at some time; check its gap",
       "press.toml:3: frame.mesh: is coarse", "of no place"};
+  result.run->findings.clear();
   result.run->stop(coupling::ended_by_switch, "far",
                    "at t = 0.2 s, enough: x lies above 1, where switch \"far\" ends the run");
   const auto findings = all_findings(result);
