@@ -298,14 +298,15 @@ void BdfControlled::interpolate_part(double t, Eigen::Index value, Eigen::Index 
   const double           times[]  = {t_begin_, t_end_, 0.5 * (t_begin_ + t_end_)};
   const Eigen::VectorXd *points[] = {&z_begin_, &z_, &middle_[2]};
   const int              n        = started_ ? 3 : 2;
-
-  std::array<const double *, 3> x_i{}, rate_i{};
+  const auto             weights  = hermite_weights(times, n, t);
+  x.setZero();
+  rate.setZero();
   for (int i = 0; i < n; ++i)
   {
-    x_i[i]    = points[i]->data() + value;
-    rate_i[i] = points[i]->data() + slope;
+    x += weights.value[i] * points[i]->segment(value, size) + weights.slope[i] * points[i]->segment(slope, size);
+    rate += weights.rate_value[i] * points[i]->segment(value, size) +
+            weights.rate_slope[i] * points[i]->segment(slope, size);
   }
-  interpolate_motion(hermite_weights(times, n, t), x_i, rate_i, x, rate);
 }
 
 void BdfControlled::interpolate(double t, LocalState &state) const

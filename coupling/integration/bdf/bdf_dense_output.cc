@@ -35,16 +35,16 @@ void Bdf::interpolate(double t, LocalState &state) const
 {
   double       times[3] = {};
   const Point *points[3];
-  const int    n = interpolation_points(times, points);
-
-  std::array<const double *, 3> u{}, u_rate{};
+  const int    n       = interpolation_points(times, points);
+  const auto   weights = hermite_weights(times, n, t);
+  state.t              = t;
+  state.u.setZero();
+  state.v.setZero();
   for (int i = 0; i < n; ++i)
   {
-    u[i]      = points[i]->u.data();
-    u_rate[i] = points[i]->u_rate.data();
+    state.u += weights.value[i] * points[i]->u + weights.slope[i] * points[i]->u_rate;
+    state.v += weights.rate_value[i] * points[i]->u + weights.rate_slope[i] * points[i]->u_rate;
   }
-  state.t = t;
-  interpolate_motion(hermite_weights(times, n, t), u, u_rate, state.u, state.v);
   double    L[capacity];
   const int n_L = value_weights(t, L);
   state.a.setZero();
@@ -73,15 +73,15 @@ void Bdf::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) const
 {
   double       times[3] = {};
   const Point *points[3];
-  const int    n = interpolation_points(times, points);
-
-  std::array<const double *, 3> q_i{}, v_i{};
+  const int    n       = interpolation_points(times, points);
+  const auto   weights = hermite_weights(times, n, t);
+  q.setZero();
+  v.setZero();
   for (int i = 0; i < n; ++i)
   {
-    q_i[i] = points[i]->q.data();
-    v_i[i] = points[i]->v.data();
+    q += weights.value[i] * points[i]->q + weights.slope[i] * points[i]->v;
+    v += weights.rate_value[i] * points[i]->q + weights.rate_slope[i] * points[i]->v;
   }
-  interpolate_motion(hermite_weights(times, n, t), q_i, v_i, q, v);
 }
 
 } // namespace gestell::coupling

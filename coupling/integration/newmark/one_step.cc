@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 namespace gestell::coupling
@@ -162,14 +163,14 @@ void OneStep::interpolate(double t, LocalState &state) const
   const LocalState &a = begin_.motion.local, &b = end_.motion.local;
   const double      times[] = {a.t, b.t};
   const auto        weights = hermite_weights(times, 2, t);
-  const auto       &L       = weights.lagrange;
+  const auto &[L, H, D]     = std::tie(weights.lagrange, weights.value, weights.slope);
+  const auto &[dH, dD]      = std::tie(weights.rate_value, weights.rate_slope);
   state.t                   = t;
-  state.u.resize(a.u.size());
-  state.v.resize(a.v.size());
-  interpolate_motion(weights, {a.u.data(), b.u.data()}, {a.v.data(), b.v.data()}, state.u, state.v);
-  state.a      = L[0] * a.a + L[1] * b.a;
-  state.p      = L[0] * a.p + L[1] * b.p;
-  state.lambda = L[0] * a.lambda + L[1] * b.lambda;
+  state.u                   = H[0] * a.u + H[1] * b.u + D[0] * a.v + D[1] * b.v;
+  state.v                   = dH[0] * a.u + dH[1] * b.u + dD[0] * a.v + dD[1] * b.v;
+  state.a                   = L[0] * a.a + L[1] * b.a;
+  state.p                   = L[0] * a.p + L[1] * b.p;
+  state.lambda              = L[0] * a.lambda + L[1] * b.lambda;
   if (system_.forces().held().empty())
     return;
   // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
@@ -188,9 +189,11 @@ void OneStep::interpolate(double t, Eigen::VectorXd &q, Eigen::VectorXd &v) cons
     return;
   }
   const double times[] = {a.t, b.t};
-  q.resize(a.q.size());
-  v.resize(a.v.size());
-  interpolate_motion(hermite_weights(times, 2, t), {a.q.data(), b.q.data()}, {a.v.data(), b.v.data()}, q, v);
+  const auto   weights = hermite_weights(times, 2, t);
+  const auto &[H, D]   = std::tie(weights.value, weights.slope);
+  const auto &[dH, dD] = std::tie(weights.rate_value, weights.rate_slope);
+  q                    = H[0] * a.q + H[1] * b.q + D[0] * a.v + D[1] * b.v;
+  v                    = dH[0] * a.q + dH[1] * b.q + dD[0] * a.v + dD[1] * b.v;
 }
 
 void OneStep::motion_at(double t, const std::vector<int> &coordinates, Eigen::VectorXd &q, Eigen::VectorXd &v) const
@@ -203,8 +206,13 @@ void OneStep::motion_at(double t, const std::vector<int> &coordinates, Eigen::Ve
   const Instant &a = begin_.motion, &b = end_.motion;
   const double   times[] = {a.t, b.t};
   const auto     weights = hermite_weights(times, 2, t);
+  const auto &[H, D]     = std::tie(weights.value, weights.slope);
+  const auto &[dH, dD]   = std::tie(weights.rate_value, weights.rate_slope);
   for (const int i : coordinates)
-    interpolate_motion(weights, {&a.q[i], &b.q[i]}, {&a.v[i], &b.v[i]}, q.segment(i, 1), v.segment(i, 1));
+  {
+    q[i] = H[0] * a.q[i] + H[1] * b.q[i] + D[0] * a.v[i] + D[1] * b.v[i];
+    v[i] = dH[0] * a.q[i] + dH[1] * b.q[i] + dD[0] * a.v[i] + dD[1] * b.v[i];
+  }
 }
 
 void OneStep::cut(double t)

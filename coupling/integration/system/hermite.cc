@@ -1,8 +1,5 @@
 #include "coupling/integration/system/hermite.h"
 
-#include <cmath>
-#include <limits>
-
 namespace gestell::coupling
 {
 
@@ -34,27 +31,6 @@ InterpolationWeights hermite_weights(const double *t_i, int n, double t)
     weights.rate_slope[i] = L * L + d * 2. * L * slope_here;
   }
   return weights;
-}
-
-void interpolate_motion(const InterpolationWeights &weights, const std::array<const double *, 3> &x_i,
-                        const std::array<const double *, 3> &rate_i, Eigen::Ref<Eigen::VectorXd> x,
-                        Eigen::Ref<Eigen::VectorXd> rate)
-{
-  constexpr double rounding = 4. * std::numeric_limits<double>::epsilon(); // of a value and of the sum of six terms
-  for (Eigen::Index j = 0; j < x.size(); ++j)
-  {
-    double value = 0., slope = 0., by_rates = 0., size = 0.;
-    for (int i = 0; i < weights.n; ++i)
-    {
-      const double f = x_i[i][j], df = rate_i[i][j], steep = weights.rate_value[i] * f;
-      value += weights.value[i] * f + weights.slope[i] * df;
-      slope += steep + weights.rate_slope[i] * df;
-      by_rates += weights.lagrange[i] * df;
-      size += std::abs(steep);
-    }
-    x[j]    = value;
-    rate[j] = std::abs(slope - by_rates) <= rounding * size ? by_rates : slope;
-  }
 }
 
 } // namespace gestell::coupling
