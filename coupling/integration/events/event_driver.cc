@@ -403,9 +403,6 @@ void EventDriver::take(const Crossing &crossing)
     t_last = t, g_last = g, t = next;
     integrator_.cut(t);
   }
-  system_.events().guard_values(integrator_.local(), probe_);
-  if (t > begin && meets_another(system_.events(), guard, g_[0], probe_))
-    integrator_.cut(t = std::min(t + finest, end));
   if (integrator_.time() < t)
   {
     integrator_.restart(); // the integrator gave the step up: it goes on from its begin with a smaller one

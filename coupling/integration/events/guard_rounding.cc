@@ -52,18 +52,6 @@ double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &int
   return roundings * eps / share * sum;
 }
 
-bool meets_another(const EventSystem &events, int guard, const Eigen::VectorXd &begin, const Eigen::VectorXd &here)
-{
-  constexpr double way_left = 1e-9; // events are located to 1e-11 of a step
-  for (int i = 0; i < events.n_guards(); ++i)
-  {
-    const double sign = events.crossing(i) == GuardCrossing::rising ? 1. : -1.;
-    if (i != guard && sign * here[i] < 0. && sign * here[i] > way_left * sign * begin[i])
-      return true;
-  }
-  return false;
-}
-
 std::vector<std::string> guard_owners(const EventSystem &events)
 {
   std::vector<std::string> names;

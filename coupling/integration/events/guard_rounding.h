@@ -39,10 +39,6 @@ bool is_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrat
   return most <= rounding && std::isfinite(rounding);
 }
 
-/// Whether another guard comes to its zero at the same instant as this one, which is there: less than a billionth of
-/// its way in the step is left.  Both are events then, whatever the first one does to the motion.
-bool meets_another(const EventSystem &events, int guard, const Eigen::VectorXd &begin, const Eigen::VectorXd &here);
-
 /// Whose guards are active, in their order.
 std::vector<std::string> guard_owners(const EventSystem &events);
 

@@ -90,19 +90,6 @@ TEST_P(Switches, StopAMachine)
   expect_closed_balance(motion, 1e-5);
 }
 
-// The first one ends the motion towards the value of both: the second must not hang on the rounding of that instant.
-TEST_P(Switches, OfOneConditionAreAllThrown)
-{
-  for (int k = 0; k < 20; ++k)
-  {
-    const std::string when = "shaft.speed above " + std::to_string(5. + 0.137 * k) + " rad/s";
-    const auto        motion =
-        run(rotor(2., "2 s") + motor + switched("stop", when, "motor off") + switched("again", when, "motor off"),
-            GetParam());
-    EXPECT_EQ(count(motion, "switch"), 2) << when;
-  }
-}
-
 // Two orders of one switch at the same instant.
 TEST(Switches, GiveSeveralOrdersAtOnce)
 {
