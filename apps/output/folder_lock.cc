@@ -103,6 +103,9 @@ Holder holder_in(int file)
 
 constexpr const char *computes = "is computing results for this folder";
 
+/// Milliseconds that a process which has taken the lock has to write its name; on a full disk it never does.
+constexpr int most_waits = 200;
+
 } // namespace
 
 FolderLock::FolderLock(const fs::path &folder)
@@ -192,6 +195,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
 {
   const short   type       = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
   constexpr int most_tries = 1000; // while others make and remove the same folder
+  int           waits      = 0;
   for (int tries = 0; tries < most_tries; ++tries)
   {
     if (!open_file())
@@ -213,10 +217,12 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
         {
           const Holder      holder  = holder_in(file_); // of several the last one
           const std::string process = lock.l_pid > 0 ? std::to_string(lock.l_pid) : holder.process;
-          refuse_held(reported_, process, process == holder.process ? holder.host : "",
-                      holder.doing.empty() ? computes : holder.doing, way_out);
+          if (process == holder.process || waits++ == most_waits)
+            refuse_held(reported_, process, process == holder.process ? holder.host : "",
+                        holder.doing.empty() ? computes : holder.doing, way_out);
+          usleep(1000); // its name is not written yet
         }
-        close(file_); // it has just been let go
+        close(file_);
         file_ = -1;
         continue;
       }
