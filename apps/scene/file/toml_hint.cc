@@ -95,10 +95,11 @@ std::string toml_hint(const std::string &line)
 
 std::string hint_of_reason(const std::string &reason)
 {
-  static const std::regex twice(R"x((value|table) \("([^"]+)"\) already exists)x");
+  if (reason.find("could not be interpreted as a value") != std::string::npos)
+    return "a number is beyond 1.8e308, the largest that a computer takes; write a smaller one";
+  static const std::regex twice(R"(^cannot redefine existing ([a-z-]+) '([^']+)')");
   std::smatch             parts;
-  const std::string       begin = reason.substr(0, 2 * longest_judged);
-  if (!std::regex_search(begin, parts, twice))
+  if (reason.size() > 2 * longest_judged || !std::regex_search(reason, parts, twice))
     return "";
   const std::string name = parts[2];
   return parts[1] == "table" ? "[" + name + "] stands in the file twice; put all its keys under one head"
@@ -107,7 +108,7 @@ std::string hint_of_reason(const std::string &reason)
 
 std::string hint_of_place(const std::string &reason)
 {
-  return reason.find("array separator") != std::string::npos
+  return reason.find("expected comma or closing ']'") != std::string::npos
              ? "an array above is not closed; it begins with [, has commas between its values and ends with ]"
              : "";
 }

@@ -4,17 +4,15 @@
 #include "fem/values/named_file.h"
 #include "fem/values/number_text.h"
 
-#include <toml.hpp>
+#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -23,26 +21,19 @@ namespace
 
 using Type = SceneNode::Type;
 
-/// toml11 draws its message over several lines with a picture of the text; one line is enough with file and line.
-std::string first_line(const std::string &message)
+/// What the parser expected: its text without "Error while parsing ...: ".
+std::string reason_of(const toml::parse_error &error)
 {
-  std::string line = message.substr(0, message.find('\n'));
-  for (const std::string prefix : {"[error] ", "toml::"})
-    if (line.compare(0, prefix.size(), prefix) == 0)
-      line.erase(0, prefix.size());
-  if (const auto colon = line.find(": "); colon != std::string::npos && line.find(' ') > colon)
-    line.erase(0, colon + 2); // the name of the parser's function
-  const auto note = message.rfind("^--- ");
-  if (note != std::string::npos)
-    line += ": " + message.substr(note + 5, message.find('\n', note) - note - 5);
-  return line;
+  const std::string text(error.description());
+  const auto        colon = text.find(": ");
+  return text.substr(colon == std::string::npos ? 0 : colon + 2);
 }
 
-std::string line_of(const std::string &text, std::size_t number)
+std::string line_of(const std::string &text, int number)
 {
   std::istringstream in(text);
   std::string        line;
-  for (std::size_t i = 0; i < number && std::getline(in, line); ++i)
+  for (int i = 0; i < number && std::getline(in, line); ++i)
     ;
   return line;
 }
@@ -90,98 +81,101 @@ int too_deep(const std::string &text)
   return 0;
 }
 
-/**
- * Where values stand in the text.  A location() of toml11 counts the lines before its value anew, and asked for each
- * value makes reading quadratic in the length of the file; here the ends of lines are found once, and a line by
- * bisection.
- */
-class Places
+/// A text by its lines: the parser gives places as line and character.
+class Lines
 {
 public:
-  explicit Places(const std::string &text) : text_(text)
+  explicit Lines(const std::string &text) : text_(text)
   {
     for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 1))
-      ends_.push_back(i);
+      begins_.push_back(i + 1);
   }
 
-  /// Byte of the text at which the value begins; 0 of one that is not written there.
-  std::size_t begin(const toml::value &value) const
+  /// The characters of a real number as they are written, so that no digit is lost; where they are no number to a
+  /// formula ("1_000.5"), all digits of its value.
+  std::string written_number(const toml::value<double> &value) const
   {
-    const auto *written = dynamic_cast<const toml::detail::region *>(toml::detail::get_region(value));
-    return written ? std::size_t(written->first() - written->begin()) : 0;
-  }
-
-  int line(const toml::value &value) const
-  {
-    return 1 + int(std::lower_bound(ends_.begin(), ends_.end(), begin(value)) - ends_.begin());
-  }
-
-  /// The very characters of a real number, so that who passes them on loses no digit; without "_", which formulas lack.
-  std::string written_number(const toml::value &value) const
-  {
-    const auto       *written = toml::detail::get_region(value);
-    const std::string text    = written ? text_.substr(std::min(begin(value), text_.size()), written->size()) : "";
-    char             *end     = nullptr;
-    const bool        is_it   = !text.empty() && std::strtod(text.c_str(), &end) == value.as_floating() && *end == '\0';
-    return is_it ? text : exact_text(value.as_floating());
+    const std::string text = at(value.source());
+    char             *end  = nullptr;
+    const bool        same = !text.empty() && std::strtod(text.c_str(), &end) == value.get() && *end == '\0';
+    return same ? text : exact_text(value.get());
   }
 
 private:
+  /// A region of one line; columns count characters of UTF-8.
+  std::string at(const toml::source_region &region) const
+  {
+    if (region.begin.line < 1 || region.begin.line > begins_.size())
+      return "";
+    const auto  first = text_.begin() + std::ptrdiff_t(begins_[region.begin.line - 1]);
+    std::string result;
+    toml::source_index column = 0;
+    for (auto c = first; c != text_.end() && *c != '\n'; ++c)
+    {
+      column += (static_cast<unsigned char>(*c) & 0xC0) != 0x80;
+      if (column >= region.end.column)
+        break;
+      if (column >= region.begin.column)
+        result += *c;
+    }
+    return result;
+  }
+
   const std::string       &text_;
-  std::vector<std::size_t> ends_; ///< of lines
+  std::vector<std::size_t> begins_{0};
 };
 
-/// Entries in the order of the file; toml11 keeps none.
-std::vector<const toml::table::value_type *> in_order(const toml::table &table, const Places &places)
+/// Entries in the order of the file; the parser sorts them by key.
+auto in_order(const toml::table &table)
 {
-  std::vector<std::tuple<std::size_t, std::string, const toml::table::value_type *>> placed;
-  for (const auto &entry : table)
-    placed.emplace_back(places.begin(entry.second), entry.first, &entry);
-  std::sort(placed.begin(), placed.end());
-  std::vector<const toml::table::value_type *> entries;
-  for (const auto &[begin, key, entry] : placed)
-    entries.push_back(entry);
+  std::vector<std::pair<const toml::key *, const toml::node *>> entries;
+  for (const auto &[key, value] : table)
+    entries.emplace_back(&key, &value);
+  const auto place = [](const auto &entry)
+  {
+    const toml::source_position &begin = entry.first->source().begin;
+    return std::pair(begin.line, begin.column);
+  };
+  std::sort(entries.begin(), entries.end(), [&](const auto &a, const auto &b) { return place(a) < place(b); });
   return entries;
 }
 
-SceneNode converted(const toml::value &value, const Places &places, const Place &place, const std::string &folder)
+SceneNode converted(const toml::node &value, const Lines &lines, const Place &place, const std::string &folder)
 {
   SceneNode node;
   node.place  = place;
   node.folder = folder;
   if (place.line > 0)
-    node.place.line = places.line(value);
+    node.place.line = std::max(1, int(value.source().begin.line));
 
   switch (value.type())
   {
-  case toml::value_t::table:
-    for (const auto *entry : in_order(value.as_table(), places))
-      node.entries.emplace_back(entry->first, converted(entry->second, places, place, folder));
+  case toml::node_type::table:
+    for (const auto &[key, entry] : in_order(*value.as_table()))
+      node.entries.emplace_back(key->str(), converted(*entry, lines, place, folder));
     break;
-  case toml::value_t::array:
+  case toml::node_type::array:
     node.type = Type::array;
-    for (const auto &element : value.as_array())
-      node.elements.push_back(converted(element, places, place, folder));
+    for (const toml::node &element : *value.as_array())
+      node.elements.push_back(converted(element, lines, place, folder));
     break;
-  case toml::value_t::string:
+  case toml::node_type::string:
     node.type = Type::text;
-    node.text = value.as_string().str;
+    node.text = value.as_string()->get();
     break;
-  case toml::value_t::integer:
+  case toml::node_type::integer:
     node.type   = Type::integer;
-    node.number = static_cast<double>(value.as_integer());
-    node.text   = std::to_string(value.as_integer());
+    node.number = static_cast<double>(value.as_integer()->get());
+    node.text   = std::to_string(value.as_integer()->get());
     break;
-  case toml::value_t::floating:
+  case toml::node_type::floating_point:
     node.type   = Type::real;
-    node.number = value.as_floating();
-    node.text   = places.written_number(value);
-    if (std::abs(node.number) == std::numeric_limits<double>::max()) // what toml11 reads of 1e400
-      node.place.fail("a number is beyond 1.8e308, the largest that a computer takes; write a smaller one");
+    node.number = value.as_floating_point()->get();
+    node.text   = lines.written_number(*value.as_floating_point());
     break;
-  case toml::value_t::boolean:
+  case toml::node_type::boolean:
     node.type    = Type::boolean;
-    node.boolean = value.as_boolean();
+    node.boolean = value.as_boolean()->get();
     node.text    = node.boolean ? "true" : "false";
     break;
   default:
@@ -191,47 +185,37 @@ SceneNode converted(const toml::value &value, const Places &places, const Place 
   return node;
 }
 
-toml::value parsed(const std::string &text, const std::string &file)
-{
-  std::istringstream in(text);
-  return toml::parse(in, file);
-}
-
-/// A text as nodes; toml::exception where it is not TOML.
+/// A text as nodes.
+/// @throws toml::parse_error where it is not TOML
 SceneNode node_of(const std::string &text, const Place &place, const std::string &folder)
 {
-  return converted(parsed(text, place.file), Places(text), place, folder);
+  return converted(toml::parse(text), Lines(text), place, folder);
 }
 
 } // namespace
 
 SceneNode parse_toml_text(const std::string &text, const std::string &name, const std::string &folder)
 {
-  const auto fail = [&](int line, const std::string &what) {
-    throw std::invalid_argument(Place{name, line}.text() + ": " + what);
-  };
+  const auto complaint = [&](int line, const std::string &what)
+  { return std::invalid_argument(Place{name, line}.text() + ": " + what); };
   if (const int line = too_deep(text); line > 0)
-    fail(line, "tables and arrays stand in each other more than " + std::to_string(deepest) +
-                   " deep here; a scene needs six at most");
-  toml::value root;
+    throw complaint(line, "tables and arrays are nested more than " + std::to_string(deepest) +
+                              " deep here; a scene needs six at most");
   try
   {
-    root = parsed(text, name);
+    return node_of(text, Place{name, 1}, folder);
   }
-  catch (const toml::exception &e)
+  catch (const toml::parse_error &error)
   {
-    auto hint = hint_of_reason(e.what());
+    const std::string reason = reason_of(error);
+    const int         line   = int(error.source().begin.line);
+    auto              hint   = hint_of_reason(reason);
     if (hint.empty())
-      hint = toml_hint(line_of(text, e.location().line()));
+      hint = toml_hint(line_of(text, line));
     if (hint.empty())
-      hint = hint_of_place(e.what());
-    fail(e.location().line(), "is not TOML here: " + (hint.empty() ? first_line(e.what()) : hint));
+      hint = hint_of_place(reason);
+    throw complaint(line, "is not TOML here: " + (hint.empty() ? reason : hint));
   }
-  catch (const std::exception &e)
-  {
-    fail(0, std::string("is not a TOML file: ") + first_line(e.what()));
-  }
-  return converted(root, Places(text), Place{name, 1}, folder);
 }
 
 SceneNode parse_toml_file(const std::string &path)
