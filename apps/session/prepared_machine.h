@@ -36,7 +36,6 @@ struct PreparedMachine
   /// With an unreduced frame or in modes: the same machine on the reduced frame or in its own coordinates, which serves
   /// start, modes and pictures.
   std::optional<coupling::Machine> companion;
-  bool                             from_cache = false;
   std::vector<std::string>         warnings;
 
   const coupling::Machine &small() const { return companion ? *companion : machine; }

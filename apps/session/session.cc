@@ -198,8 +198,7 @@ void Session::use_frame(const coupling::ReducedFrame &frame)
 FrameAnswer Session::reduced_frame()
 {
   check();
-  auto [frame, from_cache] = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption));
-  FrameAnswer answer{std::move(frame), from_cache, {}};
+  FrameAnswer answer{apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption)), {}};
   answer.facts.frame        = answer.frame.facts;
   answer.facts.frame_mass   = answer.frame.mass;
   answer.facts.free_motions = static_cast<int>((answer.frame.frequencies_hz.array() == 0.).count());

@@ -28,11 +28,9 @@ struct Watch
 };
 
 /// The reduced frame of a scene.
-struct FrameAnswer
+struct FrameAnswer : coupling::CachedFrame
 {
-  coupling::ReducedFrame frame;
-  bool                   from_cache = false;
-  ModelFacts             facts;
+  ModelFacts facts;
 };
 
 /**

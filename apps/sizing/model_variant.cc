@@ -9,14 +9,11 @@
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/reduction/reductions.h"
 #include "coupling/simulation/simulation.h"
+#include "fem/process/cpu_time.h"
 #include "fem/values/number_text.h"
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <stdexcept>
 #include <variant>
 
@@ -75,19 +72,6 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
 }
 
 } // namespace
-
-double cpu_now()
-{
-  double seconds = 0.;
-  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN})
-  {
-    rusage used{};
-    getrusage(who, &used);
-    for (const timeval &time : {used.ru_utime, used.ru_stime})
-      seconds += double(time.tv_sec) + 1e-6 * double(time.tv_usec);
-  }
-  return seconds;
-}
 
 int modes_asked(const Scene &scene, const ModelAnswer &answer)
 {
@@ -214,38 +198,28 @@ coupling::CachedFrame raised_frame(Scene &scene)
       origin, [&] { return coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {}); });
 }
 
-/// [s] A frame that was made before in this process has cost what it did, though it now comes from the cache.
-double preparation(const Scene &making, bool raised, bool from_cache, double taken)
-{
-  static std::map<std::string, double> made;
-  static std::mutex                    one;
-  if (frame_path(making) != FramePath::reduce)
-    return taken;
-  const std::lock_guard<std::mutex> alone(one);
-  double &cpu = made[coupling::content_key(frame_origin(making).recipe) + (raised ? "raised" : "")];
-  return cpu  = from_cache ? std::max(cpu, taken) : taken;
-}
-
-/// The scene on its frame.  @param cpu  [s] that it took
+/// The scene on its frame.  @param cpu  [s] that it took, with the making of a frame that is in the cache
 PreparedMachine prepare(Scene &scene, const ModelVariant &variant, double &cpu)
 {
-  const double begin  = cpu_now();
-  const bool   nested = variant.modes >= 0 && variant.made > variant.modes && is_nested(scene);
-  Scene        making = scene;
+  const bool nested = variant.modes >= 0 && variant.made > variant.modes && is_nested(scene);
+  Scene      making = scene;
   if (nested)
     making.reduction.options.n_modes = variant.made;
-  const auto made_apart = [&]
+  double     begin            = fem::cpu_time();
+  double     frame_cpu        = 0.;
+  const auto on_reduced_frame = [&]
   {
     coupling::CachedFrame made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
+    frame_cpu                  = made.cpu;
+    begin                      = fem::cpu_time();
     if (nested)
       made.frame = with_first_modes(std::move(made.frame), variant.modes);
-    PreparedMachine prepared = prepare_machine_on(scene, made.frame);
-    prepared.from_cache      = made.from_cache;
-    return prepared;
+    return prepare_machine_on(scene, made.frame);
   };
-  PreparedMachine prepared = nested || variant.raised ? made_apart() : prepare_machine(scene);
+  const bool      reduced  = variant.raised || frame_path(scene) == FramePath::reduce;
+  PreparedMachine prepared = reduced ? on_reduced_frame() : prepare_machine(scene);
   keep_stable_step(prepared, scene.run);
-  cpu = preparation(making, variant.raised, prepared.from_cache, cpu_now() - begin);
+  cpu = frame_cpu + fem::cpu_time() - begin;
   return prepared;
 }
 
@@ -274,7 +248,6 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
   answer.units.resize(outputs.size());
   answer.decided_s.assign(outputs.size(), other.run.options.begin);
   PreparedMachine prepared = prepare(other, variant, answer.prepare_cpu);
-  answer.from_cache        = prepared.from_cache;
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     answer.n_frame    = frame->n_full;
@@ -293,7 +266,7 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
       answer.cutoff_hz = frame->omega0.maxCoeff() / (2. * M_PI);
   }
   take_modes(other, prepared.small(), outputs, answer);
-  const double ready = cpu_now();
+  const double ready = fem::cpu_time();
   if (std::any_of(outputs.begin(), outputs.end(), [](const OutputName &output) { return output.of_signal(); }))
   {
     const coupling::InitialState initial = prepare_start(other, prepared);
@@ -306,7 +279,7 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
       throw coupling::ConvergenceFailure(run.interrupted ? "interrupted" : run.failure);
     take_run(run, outputs, other.run.options.end, answer);
   }
-  answer.run_cpu = cpu_now() - ready;
+  answer.run_cpu = fem::cpu_time() - ready;
   return answer;
 }
 

@@ -53,14 +53,10 @@ struct ModelAnswer
   int                          most_modes  = 0;     ///< that it could keep
   double                       cutoff_hz   = 0.;    ///< of the highest mode that the frame keeps; 0: none
   bool                         whole       = false; ///< the frame is not reduced
-  bool                         from_cache  = false;
   double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
 
   double cpu() const { return prepare_cpu + run_cpu; }
 };
-
-/// [s] of the processor that this process and the helpers that it waited for took so far.
-double cpu_now();
 
 /// As reduction.modes has it: of a frame of parts each part's, below zero where they are chosen by themselves.
 int modes_asked(const Scene &scene, const ModelAnswer &answer);

@@ -14,6 +14,7 @@ struct FrameOrigin
   Recipe      recipe; ///< its inputs, which determine its key
   std::string scene;  ///< file of the scene that requested it first
   std::string source; ///< CAD file or matrix; for people
+  double      cpu = 0.; ///< [s] processor time of its making; 0: not known. Frames of the cache tell it only
 };
 
 /**

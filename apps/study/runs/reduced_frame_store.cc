@@ -103,9 +103,9 @@ std::shared_ptr<const coupling::ReducedFrame> ReducedFrameStore::frame(const Sce
   else
   {
     const FileLock alone(lock_file(key));
-    auto [frame, from_cache] = reduced_frame(scene, progress);
-    kept_.emplace_front(key, shared(std::move(frame), drawn));
-    n_reduced_ += !from_cache;
+    coupling::CachedFrame frame = reduced_frame(scene, progress);
+    kept_.emplace_front(key, shared(std::move(frame.frame), drawn));
+    n_reduced_ += !frame.from_cache;
   }
   constexpr std::size_t most_kept = 3; // frames: studies vary few, and each keeps its memory
   if (kept_.size() > most_kept)
