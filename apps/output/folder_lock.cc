@@ -103,9 +103,6 @@ Holder holder_in(int file)
 
 constexpr const char *computes = "is computing results for this folder";
 
-/// Milliseconds that a process which has taken the lock has to write its name; on a full disk it never does.
-constexpr int most_waits = 200;
-
 } // namespace
 
 FolderLock::FolderLock(const fs::path &folder)
@@ -195,6 +192,7 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
 {
   const short   type       = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
   constexpr int most_tries = 1000; // while others make and remove the same folder
+  constexpr int most_waits = 200;  // [ms] for the name of one that has just taken it; on a full disk it never comes
   int           waits      = 0;
   for (int tries = 0; tries < most_tries; ++tries)
   {

@@ -179,8 +179,9 @@ void set_smallest_as_background(const std::vector<double> &fields)
 void set_refined_sizes(const SizeField &field, double unit)
 {
   gmsh::model::mesh::setSizeCallback( // later versions pass the size so far as well
-      [field, unit](int, int, double x, double y, double z, auto...)
-      { return field({unit * x, unit * y, unit * z}) / unit; });
+      [field, unit](int, int, double x, double y, double z, auto...) {
+        return field({unit * x, unit * y, unit * z}) / unit;
+      });
 }
 
 } // namespace gestell::fem

@@ -107,8 +107,8 @@ private:
   {
     if (region.begin.line < 1 || region.begin.line > begins_.size())
       return "";
-    const auto  first = text_.begin() + std::ptrdiff_t(begins_[region.begin.line - 1]);
-    std::string result;
+    const auto         first = text_.begin() + std::ptrdiff_t(begins_[region.begin.line - 1]);
+    std::string        result;
     toml::source_index column = 0;
     for (auto c = first; c != text_.end() && *c != '\n'; ++c)
     {
@@ -196,8 +196,9 @@ SceneNode node_of(const std::string &text, const Place &place, const std::string
 
 SceneNode parse_toml_text(const std::string &text, const std::string &name, const std::string &folder)
 {
-  const auto complaint = [&](int line, const std::string &what)
-  { return std::invalid_argument(Place{name, line}.text() + ": " + what); };
+  const auto complaint = [&](int line, const std::string &what) {
+    return std::invalid_argument(Place{name, line}.text() + ": " + what);
+  };
   if (const int line = too_deep(text); line > 0)
     throw complaint(line, "tables and arrays are nested more than " + std::to_string(deepest) +
                               " deep here; a scene needs six at most");

@@ -106,7 +106,7 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
   expect("x = .5", "a number has digits on both sides of its point");
   expect("method = bdf", "text stands in quotes: \"bdf\"");
   expect("on = True", "write true or false");
-  expect("name = “abc”", "quotes are \" or ', not “");
+  expect("method = “abc”", "quotes are \" or ', not “");
   expect("k : 3", "a key and its value have = between them");
   expect("k = ", "a value is missing");
   expect("[element.crank pin]",
