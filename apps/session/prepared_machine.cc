@@ -192,7 +192,7 @@ void keep_stable_step(PreparedMachine &prepared, RunRequest &run)
 namespace
 {
 
-/// On its frame: in modes if the scene asks for them, with its warnings.
+/// Adds superposition, if the scene requests it, and the warnings.
 PreparedMachine finished(const Scene &scene, PreparedMachine prepared, const coupling::Progress &progress)
 {
   if (scene.reduction.superposition)

@@ -51,7 +51,7 @@ struct PreparedMachine
 /// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
 PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {});
 
-/// The same on a reduced frame that was made before.
+/// The same on a given reduced frame.
 PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
 
 /// Of a machine in modes a step of central differences that is stable, see the other keep_stable_step().

@@ -198,7 +198,7 @@ coupling::CachedFrame raised_frame(Scene &scene)
       origin, [&] { return coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {}); });
 }
 
-/// The scene on its frame.  @param cpu  [s] that it took, with the making of a frame that is in the cache
+/// The scene on its frame.  @param cpu  [s] that it took; a cached frame counts with the CPU time of its reduction
 PreparedMachine prepare(Scene &scene, const ModelVariant &variant, double &cpu)
 {
   const bool nested = variant.modes >= 0 && variant.made > variant.modes && is_nested(scene);

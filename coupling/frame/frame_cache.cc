@@ -140,27 +140,27 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
 namespace
 {
 
-/// What frames would have cost that this process found.
+/// CPU time of the reductions of frames found in the cache [s].
 class SavedTime
 {
 public:
-  /// Each counts once, also one that this process made.
   void add(const std::string &key, double seconds)
   {
     const std::lock_guard<std::mutex> while_changed(mutex_);
-    if (keys_.insert(key).second)
-      seconds_ += seconds;
+    each_time_ += seconds;
+    once_ += keys_.insert(key).second ? seconds : 0.;
   }
-  double seconds()
+  /// @param each_time  a frame found twice counts twice, not once
+  double seconds(bool each_time)
   {
     const std::lock_guard<std::mutex> while_changed(mutex_);
-    return seconds_;
+    return each_time ? each_time_ : once_;
   }
 
 private:
   std::mutex            mutex_;
   std::set<std::string> keys_;
-  double                seconds_ = 0.;
+  double                once_ = 0., each_time_ = 0.;
 };
 
 SavedTime &saved_time()
@@ -173,7 +173,7 @@ SavedTime &saved_time()
 
 double cpu_time_without_cache()
 {
-  return fem::cpu_time() + saved_time().seconds();
+  return fem::cpu_time() + saved_time().seconds(false);
 }
 
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make)
@@ -185,11 +185,12 @@ CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<Reduce
     saved_time().add(key, known->origin.cpu);
     return {std::move(known->frame), true, known->origin.cpu};
   }
-  const double begin = cpu_time_without_cache();
+  const auto   now   = [] { return fem::cpu_time() + saved_time().seconds(true); }; // its parts may have been found
+  const double begin = now();
   ReducedFrame frame = make();
   FrameOrigin  made  = origin;
-  made.cpu           = cpu_time_without_cache() - begin;
-  saved_time().add(key, 0.);
+  made.cpu           = now() - begin;
+  saved_time().add(key, 0.); // when found later, it has been counted
   for (const std::string &text : {note, keep_in_cache(frame, made)})
     if (!text.empty())
       frame.cache_notes.push_back(text);

@@ -26,7 +26,7 @@ struct CachedFrame
 {
   ReducedFrame frame;
   bool         from_cache = false; ///< found, not made now
-  double       cpu        = 0.;    ///< [s] processor time of its making, now or when it was stored
+  double       cpu        = 0.;    ///< [s] CPU time of its reduction, now or as its process stored it; 0: not known
 };
 
 /// The frame of a recipe from the cache, otherwise from `make`, which is then stored.
@@ -35,8 +35,8 @@ struct CachedFrame
 /// @throws what `make` throws; nothing is kept then
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
 
-/// [s] Processor time that this process would have taken so far with an empty cache: fem::cpu_time(), and for each frame
-/// that it found, once, that of its making.
+/// [s] CPU time of this process as if the cache had been empty: fem::cpu_time() and, once per frame found, the CPU time
+/// of its reduction.
 double cpu_time_without_cache();
 
 /// Path of the frame of this key in cache_folder(); "": none.

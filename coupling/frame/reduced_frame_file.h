@@ -11,10 +11,10 @@ namespace gestell::coupling
 /// Origin of a reduced frame, stored with it; every part may be empty.
 struct FrameOrigin
 {
-  Recipe      recipe; ///< its inputs, which determine its key
-  std::string scene;  ///< file of the scene that requested it first
-  std::string source; ///< CAD file or matrix; for people
-  double      cpu = 0.; ///< [s] processor time of its making; 0: not known. Frames of the cache tell it only
+  Recipe      recipe;   ///< its inputs, which determine its key
+  std::string scene;    ///< file of the scene that requested it first
+  std::string source;   ///< CAD file or matrix; for people
+  double      cpu = 0.; ///< [s] CPU time of its reduction, written for the cache only; 0: not known
 };
 
 /**

@@ -95,8 +95,8 @@ TriangleSurface surface_of(const std::vector<int> &tags, double unit)
       {
         const auto [entry, is_new] = index.try_emplace(nodes[i + k], static_cast<int>(surface.points.size()));
         triangle[k]                = entry->second;
-        if (const double *at = &x[3 * (i + k)]; is_new)
-          surface.points.push_back(unit * Vector3{at[0], at[1], at[2]});
+        if (is_new)
+          surface.points.push_back(unit * Vector3{x[3 * (i + k)], x[3 * (i + k) + 1], x[3 * (i + k) + 2]});
       }
       surface.triangles.push_back(triangle);
     }

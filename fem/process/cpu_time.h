@@ -3,8 +3,7 @@
 namespace gestell::fem
 {
 
-/// [s] Time of processors, of programs and of the system for them, that this process and the children that it waited
-/// for took so far.
+/// [s] CPU time, user and system, of this process and of its ended children.
 double cpu_time();
 
 } // namespace gestell::fem

@@ -24,8 +24,8 @@ namespace
 void print_point(const ReductionPoint &point)
 {
   std::cout << "  " << std::left << std::setw(16) << point.method << std::right << std::setw(7) << point.modes
-            << std::setw(13) << point.coordinates << std::setw(14) << short_text(point.prepare_cpu, 3)
-            << std::setw(12) << short_text(point.run_cpu, 3) << "  ";
+            << std::setw(13) << point.coordinates << std::setw(17) << short_text(point.prepare_cpu, 3) << std::setw(13)
+            << short_text(point.run_cpu, 3) << "  ";
   if (!point.failure.empty())
     std::cout << point.failure;
   else if (point.worst.empty())

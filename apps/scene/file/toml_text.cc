@@ -3,6 +3,7 @@
 #include "apps/scene/file/toml_hint.h"
 #include "fem/values/named_file.h"
 #include "fem/values/number_text.h"
+#include "fem/values/trimmed.h"
 
 #include <toml++/toml.h>
 
@@ -20,14 +21,6 @@ namespace
 {
 
 using Type = SceneNode::Type;
-
-/// What the parser expected: its text without "Error while parsing ...: ".
-std::string reason_of(const toml::parse_error &error)
-{
-  const std::string text(error.description());
-  const auto        colon = text.find(": ");
-  return text.substr(colon == std::string::npos ? 0 : colon + 2);
-}
 
 std::string line_of(const std::string &text, int number)
 {
@@ -81,48 +74,49 @@ int too_deep(const std::string &text)
   return 0;
 }
 
-/// A text by its lines: the parser gives places as line and character.
-class Lines
+/// Finds places of a text, which the parser gives as line and character of UTF-8; fast for places in their order.
+class PlacesInText
 {
 public:
-  explicit Lines(const std::string &text) : text_(text)
+  explicit PlacesInText(const std::string &text) : text_(text)
   {
     for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 1))
-      begins_.push_back(i + 1);
+      lines_.push_back(i + 1);
   }
 
   /// The characters of a real number as they are written, so that no digit is lost; where they are no number to a
   /// formula ("1_000.5"), all digits of its value.
-  std::string written_number(const toml::value<double> &value) const
+  std::string written_number(const toml::value<double> &value)
   {
-    const std::string text = at(value.source());
-    char             *end  = nullptr;
-    const bool        same = !text.empty() && std::strtod(text.c_str(), &end) == value.get() && *end == '\0';
+    const std::size_t begin = byte(value.source().begin), end = byte(value.source().end);
+    const std::string text = text_.substr(begin, end - begin);
+    char             *last = nullptr;
+    const bool        same = !text.empty() && std::strtod(text.c_str(), &last) == value.get() && *last == '\0';
     return same ? text : exact_text(value.get());
   }
 
 private:
-  /// A region of one line; columns count characters of UTF-8.
-  std::string at(const toml::source_region &region) const
+  std::size_t byte(const toml::source_position &place)
   {
-    if (region.begin.line < 1 || region.begin.line > begins_.size())
-      return "";
-    const auto         first = text_.begin() + std::ptrdiff_t(begins_[region.begin.line - 1]);
-    std::string        result;
-    toml::source_index column = 0;
-    for (auto c = first; c != text_.end() && *c != '\n'; ++c)
+    if (place.line < 1 || place.line > lines_.size())
+      return text_.size();
+    if (place.line != line_ || place.column < column_)
     {
-      column += (static_cast<unsigned char>(*c) & 0xC0) != 0x80;
-      if (column >= region.end.column)
-        break;
-      if (column >= region.begin.column)
-        result += *c;
+      line_   = place.line;
+      column_ = 1;
+      byte_   = lines_[line_ - 1];
     }
-    return result;
+    for (; column_ < place.column && byte_ < text_.size(); ++column_)
+      do
+        ++byte_;
+      while (byte_ < text_.size() && (static_cast<unsigned char>(text_[byte_]) & 0xC0) == 0x80);
+    return byte_;
   }
 
   const std::string       &text_;
-  std::vector<std::size_t> begins_{0};
+  std::vector<std::size_t> lines_{0}; ///< bytes at which they begin
+  toml::source_index       line_ = 0, column_ = 0;
+  std::size_t              byte_ = 0; ///< of the last place
 };
 
 /// Entries in the order of the file; the parser sorts them by key.
@@ -140,7 +134,7 @@ auto in_order(const toml::table &table)
   return entries;
 }
 
-SceneNode converted(const toml::node &value, const Lines &lines, const Place &place, const std::string &folder)
+SceneNode converted(const toml::node &value, PlacesInText &places, const Place &place, const std::string &folder)
 {
   SceneNode node;
   node.place  = place;
@@ -152,12 +146,12 @@ SceneNode converted(const toml::node &value, const Lines &lines, const Place &pl
   {
   case toml::node_type::table:
     for (const auto &[key, entry] : in_order(*value.as_table()))
-      node.entries.emplace_back(key->str(), converted(*entry, lines, place, folder));
+      node.entries.emplace_back(key->str(), converted(*entry, places, place, folder));
     break;
   case toml::node_type::array:
     node.type = Type::array;
     for (const toml::node &element : *value.as_array())
-      node.elements.push_back(converted(element, lines, place, folder));
+      node.elements.push_back(converted(element, places, place, folder));
     break;
   case toml::node_type::string:
     node.type = Type::text;
@@ -171,7 +165,7 @@ SceneNode converted(const toml::node &value, const Lines &lines, const Place &pl
   case toml::node_type::floating_point:
     node.type   = Type::real;
     node.number = value.as_floating_point()->get();
-    node.text   = lines.written_number(*value.as_floating_point());
+    node.text   = places.written_number(*value.as_floating_point());
     break;
   case toml::node_type::boolean:
     node.type    = Type::boolean;
@@ -189,7 +183,8 @@ SceneNode converted(const toml::node &value, const Lines &lines, const Place &pl
 /// @throws toml::parse_error where it is not TOML
 SceneNode node_of(const std::string &text, const Place &place, const std::string &folder)
 {
-  return converted(toml::parse(text), Lines(text), place, folder);
+  PlacesInText places(text);
+  return converted(toml::parse(text), places, place, folder);
 }
 
 } // namespace
@@ -208,14 +203,14 @@ SceneNode parse_toml_text(const std::string &text, const std::string &name, cons
   }
   catch (const toml::parse_error &error)
   {
-    const std::string reason = reason_of(error);
-    const int         line   = int(error.source().begin.line);
-    auto              hint   = hint_of_reason(reason);
-    if (hint.empty())
-      hint = toml_hint(line_of(text, line));
-    if (hint.empty())
-      hint = hint_of_place(reason);
-    throw complaint(line, "is not TOML here: " + (hint.empty() ? reason : hint));
+    const std::string reason(error.description());
+    int               line = int(error.source().begin.line);
+    if (const std::string hint = hint_of_large_number(reason); !hint.empty())
+      throw complaint(line, hint);
+    const auto begins_head = [&](int i) { return trimmed(line_of(text, i)).compare(0, 1, "[") == 0; };
+    if (reason.find("parsing table header") != std::string::npos && !begins_head(line) && begins_head(line - 1))
+      --line; // its end has been read
+    throw complaint(line, "is not TOML here: " + toml_hint(line_of(text, line), reason));
   }
 }
 
@@ -237,6 +232,8 @@ SceneNode parse_toml_file(const std::string &path)
     fail("cannot be read");
   if (text.size() > largest_text)
     fail("has more than " + std::to_string(largest_text / 1000000) + " MB; is it a scene?");
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) // a byte order mark
+    text.erase(0, 3);
   if (const auto [line, hint] = hint_of_bytes(text); !hint.empty())
     throw std::invalid_argument(Place{path, line}.text() + ": " + hint);
   return parse_toml_text(text, path, std::filesystem::absolute(path).parent_path().lexically_normal().string());

@@ -102,7 +102,7 @@ std::shared_ptr<const coupling::ReducedFrame> ReducedFrameStore::frame(const Sce
     kept_.emplace_front(key, shared(coupling::read_reduced_frame(scene.frame.reduced_file), drawn));
   else
   {
-    const FileLock alone(lock_file(key));
+    const FileLock        alone(lock_file(key));
     coupling::CachedFrame frame = reduced_frame(scene, progress);
     kept_.emplace_front(key, shared(std::move(frame.frame), drawn));
     n_reduced_ += !frame.from_cache;
