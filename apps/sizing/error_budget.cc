@@ -1,6 +1,7 @@
 #include "apps/sizing/error_budget.h"
 
 #include "apps/scene/build/build_machine.h"
+#include "apps/sizing/size_laws.h"
 #include "coupling/frame/frame_cache.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "fem/values/number_text.h"
@@ -15,8 +16,6 @@ namespace gestell::apps
 namespace
 {
 
-/// size of the cells of the second mesh: a third of the coordinates in solids, so it costs little
-constexpr double coarser    = 1.5;
 constexpr double mesh_order = 1.5; ///< in the size of the cells: between 1 of edges and 2 and more of smooth fields
 
 using Differs = std::optional<std::string>; ///< the event in which two models differ; none: in none
@@ -188,7 +187,7 @@ Comparison BudgetMaker::raised()
   ModelVariant variant          = finest_;
   variant.modes                 = run_.modes;
   constexpr int coarsest_raised = 3; // powers of the ratio of sizes: 1.5^3 = 3.4 times as coarse
-  for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= coarser)
+  for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= ratio_of_meshes)
   {
     if (k > 0 && !mesh_can_change(scene_))
       break;
@@ -203,9 +202,9 @@ Comparison BudgetMaker::raised()
     variant.raised = true;
     if (modes_are_chosen(scene_)) // of which there may be a frame already
       variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
-    Comparison comparison =
-        against(variant, "elements of degree three" +
-                             (k > 0 ? " in cells of " + short_text(std::pow(coarser, k), 3) + " times the size" : ""));
+    Comparison comparison = against(
+        variant, "elements of degree three" +
+                     (k > 0 ? " in cells of " + short_text(std::pow(ratio_of_meshes, k), 3) + " times the size" : ""));
     constexpr double left_over = 1.25; // of what degree three corrects, docs/theory/mesh_error.md (4b)
     comparison.factor          = left_over / std::pow(ratio, mesh_order);
     return comparison;
@@ -219,7 +218,7 @@ Comparison BudgetMaker::coarser_cells()
   if (!mesh_can_change(scene_))
     return not_known("the mesh comes from a file and cannot be made coarser");
   ModelVariant variant = finest_;
-  variant.mesh *= coarser;
+  variant.mesh *= ratio_of_meshes;
   if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;

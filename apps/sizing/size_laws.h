@@ -6,6 +6,9 @@
 namespace gestell::apps
 {
 
+/// Of cell sizes that are compared: the coarser mesh has a third of the coordinates in solids, so it costs little.
+constexpr double ratio_of_meshes = 1.5;
+
 /// Errors of an output by their cause, of what is allowed; infinite: not known.
 struct Shares
 {

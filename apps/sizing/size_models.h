@@ -7,9 +7,7 @@
 namespace gestell::apps
 {
 
-constexpr double coarsest_mesh = 2.25; ///< of the scene's size: the search begins there
-
-constexpr double ratio_of_meshes = 1.5; ///< of sizes of cells that are compared
+constexpr double coarsest_mesh = ratio_of_meshes * ratio_of_meshes; ///< of the scene's size: the search begins there
 
 /// [byte] that the program has taken at most so far; 0: the system does not say.
 double memory_taken();
