@@ -206,15 +206,13 @@ PreparedMachine finished(const Scene &scene, PreparedMachine prepared, const cou
 
 } // namespace
 
-PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress)
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress,
+                                const coupling::ReducedFrame *on)
 {
+  if (on)
+    return finished(scene, {build_machine(scene, *on), {}, {}}, progress);
   tell(progress, "frame");
   return finished(scene, without_warnings(scene, progress), progress);
-}
-
-PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame)
-{
-  return finished(scene, {build_machine(scene, frame), {}, {}}, {});
 }
 
 Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const

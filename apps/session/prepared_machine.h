@@ -49,10 +49,9 @@ struct PreparedMachine
 };
 
 /// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
-PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {});
-
-/// The same on a given reduced frame.
-PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
+/// @param on  a given reduced frame; null: none
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {},
+                                const coupling::ReducedFrame *on = nullptr);
 
 /// Of a machine in modes a step of central differences that is stable, see the other keep_stable_step().
 void keep_stable_step(PreparedMachine &prepared, RunRequest &run);

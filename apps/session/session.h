@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/file/scene_node.h"
+#include "apps/scene/variant.h"
 #include "apps/session/checkpoint/run_checkpoints.h"
 #include "apps/session/partition.h"
 #include "apps/session/periodic_request.h"
@@ -17,8 +17,6 @@
 
 namespace gestell::apps
 {
-
-struct SceneFileAt;
 
 /// Receives the progress of a session, and may interrupt it.
 struct Watch
@@ -48,15 +46,12 @@ public:
   /// @param overrides  "key.path=value"
   explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
-  /// A scene that was read before, from the file with these overrides.
-  Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch);
-
-  /// All its entries, with overrides, of a scene that stands in no file; otherwise the file is read again where they
-  /// are varied.
-  void take_entries(SceneNode entries) { entries_ = std::move(entries); }
+  explicit Session(Variant variant, const Watch &watch = {});
+  /// @param scene  that of the variant, which may compute less
+  Session(Variant variant, Scene scene, const Watch &watch);
 
   const Scene             &scene() const { return scene_; }
-  SceneFileAt              file() const; ///< as it is now, to vary its entries
+  const Variant           &variant() const { return variant_; } ///< to vary its entries further
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
   /// Another scene, as in its file, with the progress and the interruption of this one, which must outlive it.
   std::unique_ptr<Session> beside(const std::string &file) const;
@@ -98,18 +93,14 @@ public:
   coupling::Progress progress();
 
 private:
-  SceneNode           entries() const;
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
                                 coupling::Trajectory *trajectory, std::vector<std::string> &warnings);
   Result              periodic_here(const PeriodicRequest &request);
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
-  std::string                      path_;
-  std::vector<std::string>         overrides_;
-  fem::Scripts                     scripts_;
+  Variant                          variant_;
   Scene                            scene_;
-  std::optional<SceneNode>         entries_;
   Watch                            watch_;
   PhaseTimes                       times_;
   std::shared_ptr<PreparedMachine> machine_; ///< shared with results, which tell its forces when they are written

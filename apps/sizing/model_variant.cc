@@ -1,6 +1,7 @@
 #include "apps/sizing/model_variant.h"
 
 #include "apps/scene/build/result_window.h"
+#include "apps/scene/variant.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/sizing/first_modes.h"
 #include "coupling/frame/frame_cache.h"
@@ -23,14 +24,18 @@ namespace gestell::apps
 namespace
 {
 
-/// [Hz] of a mode that is asked for; a machine may have fewer than modes.number.
-template <typename Modes>
-double frequency_of(const OutputName &output, const Modes &modes)
+void take_frequencies(const std::vector<coupling::Mode> &modes, const std::vector<OutputName> &outputs,
+                      ModelAnswer &answer)
 {
-  if (output.mode > int(modes.size()))
-    throw std::invalid_argument("--outputs: '" + output.text + "': this model has " + std::to_string(modes.size()) +
-                                " modes");
-  return modes[std::size_t(output.mode) - 1].frequency_hz;
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!outputs[i].of_signal())
+    {
+      if (outputs[i].mode > int(modes.size())) // a machine may have fewer than modes.number
+        throw std::invalid_argument("--outputs: '" + outputs[i].text + "': this model has " +
+                                    std::to_string(modes.size()) + " modes");
+      answer.sizes[i] = answer.values[i] = modes[std::size_t(outputs[i].mode) - 1].frequency_hz;
+      answer.units[i]                    = "Hz";
+    }
 }
 
 const coupling::SignalSummary &signal_of(const coupling::RunResult &run, const std::string &name)
@@ -63,12 +68,7 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
     return;
   const auto modes = coupling::linearised_modes(small, modes_configuration(scene, small),
                                                 coupling::Linearisation{scene.modes.open}, scene.modes.number);
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (!outputs[i].of_signal())
-    {
-      answer.sizes[i] = answer.values[i] = frequency_of(outputs[i], modes);
-      answer.units[i]                    = "Hz";
-    }
+  take_frequencies(modes, outputs, answer);
 }
 
 } // namespace
@@ -90,13 +90,11 @@ int more_modes(const Scene &scene, const ModelAnswer &answer)
   return std::min(answer.most_modes, more_than(modes));
 }
 
+ModelAnswer::ModelAnswer(std::size_t n, double begin) : values(n), sizes(n), units(n), decided_s(n, begin) {}
+
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
 {
-  ModelAnswer answer;
-  answer.values.resize(outputs.size());
-  answer.sizes.resize(outputs.size());
-  answer.units.resize(outputs.size());
-  answer.decided_s.resize(outputs.size());
+  ModelAnswer answer(outputs.size(), 0.);
   answer.n_frame   = std::max(0, result.model.frame_dofs);
   answer.interface = std::max(0, result.model.interface);
   answer.modes     = result.model.modes;
@@ -104,12 +102,7 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
       result.model.superposed > 0 ? result.model.superposed : std::max(0, answer.n_frame - answer.interface);
   answer.run_cpu = result.run->wall_s;
   take_run(*result.run, outputs, result.requested.run->end, answer);
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (!outputs[i].of_signal())
-    {
-      answer.sizes[i] = answer.values[i] = frequency_of(outputs[i], result.coupled_modes);
-      answer.units[i]                    = "Hz";
-    }
+  take_frequencies(result.coupled_modes, outputs, answer);
   return answer;
 }
 
@@ -205,33 +198,17 @@ PreparedMachine prepare(Scene &scene, const ModelVariant &variant, double &cpu)
   Scene      making = scene;
   if (nested)
     making.reduction.options.n_modes = variant.made;
-  double     begin            = fem::cpu_time();
-  double     frame_cpu        = 0.;
-  const auto on_reduced_frame = [&]
-  {
-    coupling::CachedFrame made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
-    frame_cpu                  = made.cpu;
-    begin                      = fem::cpu_time();
-    if (nested)
-      made.frame = with_first_modes(std::move(made.frame), variant.modes);
-    return prepare_machine_on(scene, made.frame);
-  };
-  const bool      reduced  = variant.raised || frame_path(scene) == FramePath::reduce;
-  PreparedMachine prepared = reduced ? on_reduced_frame() : prepare_machine(scene);
+  const bool            reduced = variant.raised || frame_path(scene) == FramePath::reduce;
+  coupling::CachedFrame made;
+  if (reduced)
+    made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
+  const double begin = fem::cpu_time();
+  if (nested)
+    made.frame = with_first_modes(std::move(made.frame), variant.modes);
+  PreparedMachine prepared = prepare_machine(scene, {}, reduced ? &made.frame : nullptr);
   keep_stable_step(prepared, scene.run);
-  cpu = frame_cpu + fem::cpu_time() - begin;
+  cpu = made.cpu + fem::cpu_time() - begin;
   return prepared;
-}
-
-/// No others, which may read what a model does not tell.
-void keep_signals_of(const std::vector<OutputName> &outputs, Scene &scene)
-{
-  const auto unread = [&](const SignalRequest &signal)
-  {
-    return std::none_of(outputs.begin(), outputs.end(),
-                        [&](const OutputName &output) { return output.signal == signal.name; });
-  };
-  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(), unread), scene.signals.end());
 }
 
 } // namespace
@@ -241,12 +218,8 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
 {
   Scene other = varied(scene, variant);
   if (variant.raised)
-    keep_signals_of(outputs, other);
-  ModelAnswer answer;
-  answer.values.resize(outputs.size());
-  answer.sizes.resize(outputs.size());
-  answer.units.resize(outputs.size());
-  answer.decided_s.assign(outputs.size(), other.run.options.begin);
+    keep_signals(other, signals_of(outputs));
+  ModelAnswer     answer(outputs.size(), other.run.options.begin);
   PreparedMachine prepared = prepare(other, variant, answer.prepare_cpu);
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {

@@ -41,6 +41,8 @@ struct ModelVariant
 /// What a model answers, and what it costs.
 struct ModelAnswer
 {
+  explicit ModelAnswer(std::size_t n_outputs = 0, double begin = 0.);
+
   std::vector<double>          values; ///< of the outputs asked for
   std::vector<double>          sizes;  ///< largest of the signal without its sign, of a mode its frequency
   std::vector<std::string>     units;

@@ -28,6 +28,9 @@ OutputName output_named(const std::string &given, const std::vector<std::string>
 /// All of the comma separated list; where it is empty the largest and smallest value of every signal.
 std::vector<OutputName> outputs_named(const std::string &list, const std::vector<std::string> &signals, int modes);
 
+/// Names of the signals that they are of.
+std::vector<std::string> signals_of(const std::vector<OutputName> &outputs);
+
 /// Of a signal over a run.
 double      value_of(const OutputName &output, const coupling::SignalSummary &signal);
 std::string unit_of(const OutputName &output, const coupling::SignalSummary &signal);

@@ -22,9 +22,8 @@ struct FmuAnswer
  * The scene with its frame, reduced if it has one that is reduced, as the resources of an FMU.  The machine is started
  * once from them, to see whether it does.
  *
- * @param root  of the scene file, as `session` read it
  * @throws std::invalid_argument for what an FMU cannot carry, with the way out; ConvergenceFailure if it does not start
  */
-FmuAnswer fmu_of(const SceneNode &root, Session &session);
+FmuAnswer fmu_of(Session &session);
 
 } // namespace gestell::apps
