@@ -115,10 +115,7 @@ public:
 
   PeriodicSolution solution() override
   {
-    HarmonicNewton newton;
-    newton.converged          = true;
-    newton.residual           = closing_;
-    PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, newton, options_);
+    PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, closing_, options_);
     const auto       left     = left_out();
     solution.notes.push_back(
         left ? note_of_harmonics(*balance_, *left, left_out_of_branch, harmonics_of(options_) > 0)
