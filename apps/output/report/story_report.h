@@ -7,7 +7,8 @@
 namespace gestell::apps
 {
 
-/// Event log, modes in the extremes of forces, loads against the periods, play by its describing function.
+/// Event log, modes in the extremes of forces, load durations relative to mode periods, clearances by their describing
+/// function.
 std::string story_section(const Result &result);
 
 } // namespace gestell::apps
