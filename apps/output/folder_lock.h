@@ -24,8 +24,8 @@ public:
   };
 
   /// Makes the folder if it is missing; it must be writable (require_writable()).
-  /// @param doing activity, for the error message of other processes: "is computing results for it"
-  /// @param way_out for the error message of this process: the alternative to waiting
+  /// @param doing    activity, for the error message of other processes: "is computing results for it"
+  /// @param way_out  for the error message of this process: the alternative to waiting
   /// @throws std::invalid_argument with the process that has locked the folder
   FolderLock(const std::filesystem::path &folder, Kind kind, const std::string &doing, const std::string &way_out);
   /// Locks exclusively, for a process that writes results.

@@ -36,8 +36,8 @@ struct MeshPoint
  * one point q = 3 and r = 2, and the mesh is refined at most by a factor of two, so that q and r can then be
  * determined.
  *
- * @param points  of meshes of one kind
- * @param others  errors of modes and time of the next model, by output
+ * @param points    of meshes of one kind
+ * @param others    errors of modes and time of the next model, by output
  * @param coarsest  upper limit of the size
  * @return none if the error of the sides alone exceeds the aim, or is unknown
  */

@@ -37,7 +37,7 @@ public:
   /**
    * Checks before the computation that files of these names can be written.
    *
-   * @param patterns names, with '*' for any letters, or folders that end in "/"
+   * @param patterns  names, with '*' for any letters, or folders that end in "/"
    * @param inputs    files that the command reads: none of them may be replaced
    * @throws std::invalid_argument with the obstructing file and the remedy
    */

@@ -24,7 +24,7 @@ struct ShortMotion
 };
 
 /// @param motion     [numbers x instants]
-/// @param tolerance in the unit of the motion: limit of the error of every column, as root of the sum of squares
+/// @param tolerance  in the unit of the motion: limit of the error of every column, as root of the sum of squares
 ShortMotion short_motion(const Eigen::MatrixXd &motion, double tolerance);
 
 /**

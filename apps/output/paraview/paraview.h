@@ -13,7 +13,7 @@ namespace gestell::apps
  * Writes a series of data sets for ParaView, a .pvd file and the folder of its .vtp files, if the result contains the
  * data.
  *
- * @param names receives the names of the files relative to the folder, each before it is written
+ * @param names  receives the names of the files relative to the folder, each before it is written
  * @throws coupling::WriteFailure, std::invalid_argument as OwnFolder::claim() does
  */
 using WriteSeries = void(OwnFolder &folder, const Result &result, std::vector<std::string> &names);

@@ -17,7 +17,7 @@ namespace gestell::apps
  *     drive.speed, push.profile   a speed drive or a force profile follows the input instead of the scene's profile
  *     NAME=slide                  the same input with the name NAME
  *
- * @param root  of the scene's file; the inputs are added to it
+ * @param root   of the scene's file; the inputs are added to it
  * @param scene  the scene read from `root`
  * @throws std::invalid_argument for any other name, with the most similar valid one
  */
