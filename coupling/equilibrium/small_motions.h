@@ -10,7 +10,7 @@ namespace gestell::coupling
 /// Small motions q = Z y about a position at rest, Z^T M Z y'' + K y = 0.
 struct SmallMotions
 {
-  Eigen::MatrixXd Z;                   ///< [n x m] motions that joints allow; lag coordinates are fixed
+  Eigen::MatrixXd Z;                   ///< [n x m] motions that joints allow; virtual coordinates are fixed
   Eigen::MatrixXd K;                   ///< [m x m]
   bool            circulatory = false; ///< with follower forces: K is not symmetric
 };

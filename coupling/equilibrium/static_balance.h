@@ -19,7 +19,7 @@ namespace gestell::coupling
  * constant. Laws that depend on u' act as at rest; sticking elements carry no force.
  *
  * For a machine in motion r also contains M (a + S alpha) + B v, with alpha in place of the multipliers of the fixed
- * coordinates; laws are evaluated at v and a + S alpha, and lag coordinates have their stationary values.
+ * coordinates; laws are evaluated at v and a + S alpha, and virtual coordinates have their stationary values.
  */
 class StaticBalance
 {

@@ -15,7 +15,7 @@ namespace gestell::coupling
  * with the accuracy of positions, velocities and multipliers of joints, for every method, at ends of steps and on the
  * dense output, before and after an event.  At ends of steps of BDF they are those of its formula.
  *
- * For lag coordinates they are 0.
+ * For virtual coordinates they are 0.
  */
 class Accelerations
 {

@@ -83,7 +83,7 @@ public:
                 const std::vector<Oscillation> &oscillations, const std::string &force_unit);
 
   /**
-   * Adds a lag coordinate x: a state that follows its input p with the time constant T > 0 [s],
+   * Adds a virtual coordinate x: a state that follows its input p with the time constant T > 0 [s],
    *
    *     T x' + x = p.
    *
@@ -94,7 +94,7 @@ public:
    */
   int add_lag(const std::string &name, double time_constant);
 
-  /// Attaches a nonlinear element to its measures; those of lag coordinates are last.
+  /// Attaches a nonlinear element to its measures; those of virtual coordinates are last.
   void attach(const std::string &name, std::shared_ptr<mechanism::Element> element,
               const std::vector<Measure> &measures, MeasureKind kind = MeasureKind::displacement);
   /// Adds friction to the ideal joint attached last; the element receives the joint's multipliers and has its name.

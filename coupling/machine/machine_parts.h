@@ -168,7 +168,7 @@ struct MachineParts
 
   int  size() const { return n_frame + static_cast<int>(coordinate_names.size()); }
   int  add_coordinates(const std::string &body, const std::vector<std::string> &names);
-  bool is_lag(const Measure &u) const; ///< whether the measure is a lag coordinate
+  bool is_lag(const Measure &u) const; ///< whether the measure is a virtual coordinate
   void add_body(const Body &body);
   void add_interfaces(const std::vector<fem::Interface> &interfaces);
   void add_dyad(Triplets &matrix, double factor, const Measure &w); ///< matrix += factor w w^T

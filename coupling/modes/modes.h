@@ -78,10 +78,10 @@ std::vector<Mode> linearised_modes(const Machine &machine, const Eigen::VectorXd
  *
  *     y'' + V^T B_o V y' + V^T K_o V y = ...,     T x' + x = p(y, y', x),
  *
- * in its undamped modes V and the lag coordinates x of drives and controllers.  Structural elements are engaged as in
- * K; drives (elements whose work is input, and that are not structure) enter with dp/du and dp/dv at that motion; tools
- * and friction, and their lag coordinates, are switched off.  Joints are in their present state.  Poles s = 0 are
- * omitted; the slowest is first.  Empty if the machine has no drives: its modes are complete.
+ * in its undamped modes V and the virtual coordinates x of drives and controllers.  Structural elements are engaged as
+ * in K; drives (elements whose work is input, and that are not structure) enter with dp/du and dp/dv at that motion;
+ * tools and friction, and their virtual coordinates, are switched off.  Joints are in their present state.  Poles s = 0
+ * are omitted; the slowest is first.  Empty if the machine has no drives: its modes are complete.
  *
  * Source: docs/theory/modes_along.md (6).
  */

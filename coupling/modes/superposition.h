@@ -28,7 +28,7 @@ struct Superposition
   std::vector<std::string> statements{}, notes{};
 };
 
-/// Checks that need no modes: joints, lag coordinates, driven rotors.
+/// Checks that need no modes: joints, virtual coordinates, driven rotors.
 /// @throws std::invalid_argument with the name of the object
 void check_superposition(const Machine &machine, const std::string &place);
 
@@ -47,7 +47,7 @@ void check_superposition(const Machine &machine, const std::string &place);
  * Source: (5.5.3/8 to 13); docs/theory/reduction.md, "Modal superposition".
  *
  * @param machine  dense or on an unreduced frame
- * @throws std::invalid_argument if the eigenproblem is singular or coordinates do not vibrate: ideal joints, lag
+ * @throws std::invalid_argument if the eigenproblem is singular or coordinates do not vibrate: ideal joints, virtual
  *         coordinates, coordinates without mass, rigid-body modes such as an unloaded drive, with their names; also for
  *         more modes than coordinates, or none.
  */

@@ -22,7 +22,7 @@ void add_measures(coupling::MachineModel &machine, const Scene &scene);
 /// Adds a joint with one equation on a measure of its own.
 void add_measure_joint(coupling::MachineModel &machine, const JointRequest &joint);
 
-/// Attaches a law of one measure, with its lag coordinates, to a measure of the scene.
+/// Attaches a law of one measure, with its virtual coordinates, to a measure of the scene.
 void attach_on_measure(coupling::MachineModel &machine, const ElementRequest &element);
 
 } // namespace gestell::apps

@@ -60,7 +60,7 @@ RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
  */
 RelativeMotion read_shaft(const SceneTable &table, const Names &names);
 
-/// Adds an element of one measure to the scene, with the lag coordinates that belong to it.
+/// Adds an element of one measure to the scene, with the virtual coordinates that belong to it.
 void add_element_on(Scene &scene, const SceneTable &table, std::shared_ptr<mechanism::ForceLaw> element,
                     const RelativeMotion &motion, const std::vector<LagRequest> &lags = {});
 /// Makes the law and adds it in the same way; errors about parameters contain the location of the table.

@@ -17,8 +17,8 @@ constexpr double finest_tolerance = 1e-13;
 /// @param left  rounding, relative to the motion by one force, in units of the tolerance
 void allow_for_rounding(const Eigen::MatrixXd &S, const Eigen::VectorXd &p, double left, Eigen::VectorXd &scale);
 
-/// Joints are satisfied up to a rounding error of their size, and a lag coordinate amplifies it by its law: bristles of
-/// 3e4 N m/rad turn an angle error of 1e-16 into 3e-12 N m.
+/// Joints are satisfied up to a rounding error of their size, and a virtual coordinate amplifies it by its law:
+/// bristles of 3e4 N m/rad turn an angle error of 1e-16 into 3e-12 N m.
 /// @param blocks,  tangent  of the forces: p' as local_tangent_blocks() gives it
 /// @param left     rounding, relative to the size of a joint, in units of the tolerance
 void allow_for_closing(const SecondOrderSystem &system, const Eigen::MatrixXd &S, const std::vector<ForceBlock> &blocks,

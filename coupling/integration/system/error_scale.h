@@ -36,14 +36,14 @@ class StateArchive;
  * large for any step.  Therefore the scale of a group or a measure is at least 1e-6 of that of the group with the
  * largest motion or, also in the energy norm, of the motion predicted from future loads (expect()).
  *
- * A lag coordinate z has no mass.  It follows its law, T z' + z = p, and inherits the errors allowed for the measures
- * of the law: the scale of z is at least 1e-3 (sum_k |dp/du_k| U_k + |dp/du'_k| U'_k), that of z' this value divided by
- * T.
+ * A virtual coordinate z has no mass.  It follows its law, T z' + z = p, and inherits the errors allowed for the
+ * measures of the law: the scale of z is at least 1e-3 (sum_k |dp/du_k| U_k + |dp/du'_k| U'_k), that of z' this value
+ * divided by T.
  *
  * Rounding errors are ignored: scales are at least rounding / tolerance times |q|, |v|, the separate effects of forces
  * that balance each other, and the numbers whose difference a joint or a force depends on: l - l cos(phi) does not
  * resolve angles below 1e-8.  Joints are satisfied in positions, so that their rounding r becomes r/h in rates, and a
- * law with dp/du' moves its lag coordinate by  h/(T + h) |dp/du'| r/h  in a step.  In accelerations it is r/h^2: a
+ * law with dp/du' moves its virtual coordinate by  h/(T + h) |dp/du'| r/h  in a step.  In accelerations it is r/h^2: a
  * force with dp/du'' transmits r of one of its measures to the others as 1/m |dp/du''| r, for any step.
  */
 class ErrorScale
@@ -103,8 +103,8 @@ private:
   };
   using Inverse = std::pair<double, double>; ///< 1 / scale of displacements and of velocities; 0: no error
 
-  /// Measure of a lag coordinate, its time constant [s], and the dependence of its law on other measures, per u and u'
-  /// [n_u].
+  /// Measure of a virtual coordinate, its time constant [s], and the dependence of its law on other measures, per u and
+  /// u' [n_u].
   struct Virtual
   {
     int             measure;
