@@ -24,7 +24,7 @@ namespace gestell::apps
 namespace
 {
 
-/// As std::printf prints it.
+/// Formats as std::printf does.
 template <typename... Parts>
 std::string formatted(const char *format, const Parts &...parts)
 {
@@ -93,7 +93,8 @@ bool begins(const std::string &text, const std::string &part)
   return text.compare(0, part.size(), part) == 0;
 }
 
-/// "interface.2.coupling": a choice that a recipe holds as a number is shown by its name in scenes; others as they are.
+/// "interface.2.coupling": a choice stored as a number in a recipe is shown by its name in scenes; others are
+/// unchanged.
 std::string choice_text(const std::string &name, const std::string &value)
 {
   struct Choice
@@ -173,7 +174,7 @@ std::vector<std::string> distinguishing(const std::vector<const CacheEntry *> &e
   return names;
 }
 
-/// "mesh.size 0.015, reduction.modes 13": what tells a frame from the others that are made from the same.
+/// "mesh.size 0.015, reduction.modes 13": the differences between frames with the same source.
 std::string particulars(const CacheEntry &entry, const std::vector<CacheEntry> &entries)
 {
   std::vector<const CacheEntry *> alike;

@@ -54,7 +54,7 @@ void print_answer(const coupling::RunResult &run)
 
 const char *const checkpoint_name = "checkpoint.bin";
 
-/// A checkpoint that the run goes on from is ours wherever it came from: it was read as that of this run.
+/// A checkpoint from which the run resumes is ours, whatever its origin: it was read as that of this run.
 void claim_checkpoint(const std::filesystem::path &folder, bool resumed)
 {
   OwnFolder own(folder);
@@ -85,7 +85,7 @@ void keep_checkpoints(const CheckpointRequest &requested, const std::filesystem:
                                 "two");
 }
 
-/// The command that goes on, as it is typed.
+/// The command that resumes, as typed.
 std::string resuming(const CommonOptions &options, const std::filesystem::path &folder)
 {
   std::string command = "gestell run " + fem::typed_word(options.input);
@@ -96,8 +96,8 @@ std::string resuming(const CommonOptions &options, const std::filesystem::path &
   return command + " --resume -o " + fem::typed_word(folder.string());
 }
 
-/// Of an interrupted run a failure tells, too, whether it can go on.
-/// @param resuming  the command; "" for a run that keeps no checkpoints
+/// For an interrupted run the failure also shows whether it can be resumed.
+/// @param resuming  the command; "" for a run without checkpoints
 void write_answer(const std::filesystem::path &folder, const Result &result, const std::string &resuming)
 {
   try

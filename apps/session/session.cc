@@ -56,7 +56,7 @@ void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomi
   state.still   = coupling::still_speed(prepared.machine, state.q, state.v, solution->period);
 }
 
-/// The state at the begin of the run, or why there is none.
+/// The state at the start of the run, or the reason why there is none.
 coupling::InitialState found_start(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                                    std::string &failure)
 {
@@ -108,7 +108,7 @@ void check_periodic(coupling::Machine &machine, const RepeatingMachine &repeatin
     }
 }
 
-/// By the method; none where it fails, which `found` then tells.
+/// Solutions of the method; none if it fails, with the reason in `found`.
 std::vector<coupling::PeriodicSolution> searched(const ChosenMethod &chosen, const coupling::PeriodicProblem &problem,
                                                  const coupling::PeriodicGuess   &guess,
                                                  const coupling::PeriodicOptions &options, PeriodicResult &found)
@@ -292,7 +292,7 @@ Result Session::periodic(const PeriodicRequest &request)
         "; take reduction.method = \"craig-bampton\"");
   SceneNode root = entries();
   require_parameter(root, path_, request.along);
-  // Branches begin where the parameter does.
+  // Branches start at the first value of the parameter.
   const std::string        at_begin  = request.along + '=' + request.from;
   std::vector<std::string> overrides = overrides_;
   overrides.push_back(at_begin);

@@ -27,7 +27,7 @@ bool is_plane(const fem::FrameSpecification &frame, KnownPlanes &known)
   {
     plane = !coupling::mesh_service().inspect(frame).curved;
   }
-  catch (const std::exception &) // of which the mesh will tell more
+  catch (const std::exception &) // meshing will report the error
   {
   }
   return known[frame.cad] = plane;

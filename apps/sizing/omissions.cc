@@ -12,7 +12,7 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double half     = 0.5; ///< of the tolerance, for each omission alone
+constexpr double half     = 0.5; ///< of the tolerance, for each single omission
 constexpr double as_rigid = 1e4; ///< times as stiff: what yields 1e-4 of before yields nothing that counts
 
 /// The largest change of an output, of its scale.
@@ -45,7 +45,7 @@ public:
 private:
   /// No others, which may read what is left out.
   Scene with_signals_of_outputs(Scene scene) const;
-  /// Of another scene; null where it cannot be run: others rest on what it lacks.
+  /// Change with another scene; null if it cannot be run: other parts depend on the omitted one.
   std::optional<Change> change(const Scene &other, const ModelAnswer &than) const;
   void                  may_be_left_out(const std::string &what, const Scene &without);
   bool                  may_ask(const std::string &what, double cpu);

@@ -19,7 +19,8 @@ std::string number(double value)
   return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
 }
 
-/// A value of the command line as TOML has it: what is no number, list, table, truth or text in quotes already is text.
+/// A value of the command line in TOML syntax: text that is not a number, list, table, boolean or quoted string becomes
+/// a string.
 std::string toml_value(const std::string &value)
 {
   const bool literal = value == "true" || value == "false" ||

@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr std::size_t head_size = 512; // where HDF5 looks for its own beginning, beside the first byte
+constexpr std::size_t head_size = 512; // at which HDF5 searches its own header, in addition to the first byte
 
 std::string head_of(const std::string &title, const std::string &hash)
 {
@@ -26,7 +26,7 @@ std::string family(const std::string &title)
   return title.substr(0, title.rfind(' ') + 1);
 }
 
-/// "" if there is no file; shorter than a head if the file is.
+/// "" if there is no file; shorter than a header if the file is.
 std::string read_head(std::ifstream &in)
 {
   std::string head(head_size, '\0');

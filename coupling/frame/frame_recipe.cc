@@ -79,7 +79,7 @@ public:
     add(name + ".E", E);
     add(name + ".nu", nu);
     add(name + ".rho", rho);
-    add(name + ".name", called); // the frame tells it
+    add(name + ".name", called); // the frame contains it
   }
   void add(const std::string &name, const fem::SurfaceSelector::Cylinder &value)
   {
@@ -270,7 +270,7 @@ public:
       add("reduction.modes", n_modes);
     else
       add("reduction.tolerance", tolerance);
-    add("reduction.frequency", frequency); // of what the frame says of its limits, too
+    add("reduction.frequency", frequency); // also the limits stated by the frame
     add("reduction.eigensolver", eigensolver);
     add("reduction.inertia relief", inertia_relief);
   }
@@ -346,7 +346,7 @@ Recipe recipe_of(const fem::FrameMatrices &frame, const ReductionOptions &option
   return collector.finished();
 }
 
-// Lengths stand before the words, so that no word can pass for two.
+// Lengths precede the words, so that the text is unambiguous.
 std::string text_of(const Recipe &recipe)
 {
   std::string text;
@@ -375,7 +375,7 @@ std::string content_key(const Recipe &recipe)
 std::string beyond_the_files(const Recipe &recipe)
 {
   const auto found = std::find_if(recipe.begin(), recipe.end(),
-                                  [](const Ingredient &own) // of a part its name stands before
+                                  [](const Ingredient &own) // of a part, with its name as prefix
                                   {
                                     return own.name.size() >= beyond_files.size() &&
                                            own.name.compare(own.name.size() - beyond_files.size(), std::string::npos,

@@ -34,7 +34,7 @@ std::string lower_case(std::string text)
   return text;
 }
 
-/// The file, line by line, with messages that say where.
+/// The file, line by line, with messages that contain the location.
 class MatrixMarketReader
 {
 public:
@@ -47,7 +47,7 @@ public:
     file_.seekg(0);
   }
 
-  /// Refuses more numbers than a file of this length holds, each with a blank or an end of its line.
+  /// Rejects more numbers than a file of this length can contain, each with a blank or a line end.
   void require_room(double numbers, const std::string &what) const
   {
     if (2. * numbers > double(size_) + 1.)

@@ -21,8 +21,8 @@ double quotient(const MeshValue &a, const MeshValue &b, const MeshValue &c, doub
   return (n1 - n2) / (n2 - n3);
 }
 
-/// The order that three meshes, of which the last is number `last`, show; NaN if none, infinite if the values settle
-/// faster than any order would.
+/// The order from the three meshes that end with number `last`; NaN if there is none, infinite if the values converge
+/// faster than any order.
 double observed_order(const std::vector<MeshValue> &meshes, std::size_t last)
 {
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -81,7 +81,7 @@ double overtaken(const std::vector<MeshValue> &meshes, double side)
   return most;
 }
 
-/// |v_last - v| by the estimate of the last mesh alone.
+/// |v_last - v| from the estimate of the last mesh only.
 double estimated_rest(const MeshValue &last)
 {
   const double estimate = std::min(last.estimate, 1.); // it may be infinite
@@ -95,7 +95,7 @@ struct Rest
   double order      = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of at least two meshes whose values move to one side.
+/// For at least two meshes whose values move in one direction.
 Rest regular_rest(const std::vector<MeshValue> &meshes)
 {
   const MeshValue &last = meshes.back(), &before = meshes[meshes.size() - 2];

@@ -73,7 +73,7 @@ void SignalExtremes::restart(const SignalSample &at)
   see(at);
 }
 
-/// At t in the last step extremes begin to count.
+/// Starts the evaluation of extremes at t in the last step.
 void SignalExtremes::open(double t)
 {
   run_.evaluate(t, probe_);
@@ -154,7 +154,7 @@ void SignalExtremes::refine(double shortest)
   }
 }
 
-/// Of the window that begins there.
+/// Halves the pieces of the window that begins there.
 void SignalExtremes::halve(int first)
 {
   constexpr int added = window - 1;
@@ -179,7 +179,7 @@ void SignalExtremes::keep_the_last()
   begin_ = kept - 1;
 }
 
-/// What a signal ranges over, so far: not below rounding, and a share of what others of its unit do.
+/// Range of a signal so far: at least rounding, and a share of the range of others with its unit.
 double SignalExtremes::range(std::size_t signal) const
 {
   const auto   own    = [&](std::size_t i) { return summaries_[i].max - summaries_[i].min; };
@@ -293,8 +293,8 @@ void SignalExtremes::search(const Sought &sought, int middle)
   for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], top); ++k)
   {
     if (top.t < samples_[begin_].t)
-      return; // in the step before, where it was looked for
-    // A peak that seems to lie outside is looked for at the end, from inside.
+      return; // in the previous step, where it was searched
+    // A peak that seems to be outside is searched at the end, from inside.
     if (top.t >= p[2].t)
       top.t = 0.25 * p[1].t + 0.75 * p[2].t;
     else if (top.t <= p[0].t)

@@ -42,8 +42,8 @@ std::vector<double> frequencies(const ModesAlong &modes, std::size_t line)
   return f;
 }
 
-/// Lines that have a frequency somewhere, by their largest one, in the groups that share a chart; those that lose it
-/// somewhere, a drive that weights hold here and drive away there, come last.
+/// Lines with a frequency somewhere, sorted by their largest one, in groups that share a chart; lines that lose their
+/// frequency somewhere, such as a drive that weights stabilise here and drive away there, come last.
 std::vector<std::vector<std::size_t>> groups(const ModesAlong &modes)
 {
   std::vector<std::size_t> lines;
@@ -111,7 +111,7 @@ std::vector<double> degree_ticks(double low, double high)
   return ticks;
 }
 
-/// Room for the curves, for orders that lie just beside them, and so much that what does not change looks flat.
+/// Sets the height for the curves and for orders close to them, with a margin so that constant values look flat.
 void set_height(const AlongResult &along, const std::vector<std::size_t> &lines, Chart &chart)
 {
   double low = std::numeric_limits<double>::infinity(), high = 0.;

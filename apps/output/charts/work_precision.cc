@@ -142,7 +142,7 @@ std::optional<WorkAtError> work_at_error(const WorkPrecision &chart, const WorkS
 {
   if (error < 10. * chart.models[series.model].reference_error)
     return std::nullopt;
-  // From the finest run that has an error back to the last one that is too coarse.
+  // Backwards from the finest run with an error to the last one that is too coarse.
   std::optional<WorkAtError> found;
   for (auto i = series.points.rbegin(); i != series.points.rend(); ++i)
   {

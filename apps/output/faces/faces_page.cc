@@ -89,7 +89,7 @@ Json facts_of(const SurfaceReport &face, const coupling::LengthUnit &unit)
   return facts;
 }
 
-/// What a reader must know where a face cannot be had alone.
+/// A note if no selector distinguishes a face from others.
 std::string others_of(const SurfaceReport &face)
 {
   if (face.found_with.empty())

@@ -22,7 +22,7 @@ std::string triple(const Eigen::Vector3d &x, double scale)
 std::string mass_line(const fem::FrameFacts &frame)
 {
   std::string           line         = "mass " + short_text(frame.whole.mass, 6) + " kg";
-  constexpr std::size_t parts_listed = 20; // what fits on a screen beside the rest
+  constexpr std::size_t parts_listed = 20; // to fit on a screen with the other lines
   for (std::size_t i = 0; i < std::min(frame.parts.size(), parts_listed); ++i)
   {
     const auto &[name, material, mass] = frame.parts[i];

@@ -74,7 +74,7 @@ double apart(const std::vector<double> &a, const std::vector<double> &b)
   return sum;
 }
 
-/// Begins with the richest spectrum, goes on with those that are farthest from all that were taken.
+/// Starts with the signal of the richest spectrum, then adds those most different from all selected ones.
 std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
 {
   std::vector<std::vector<double>> shares;
@@ -85,7 +85,7 @@ std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
     if (!shares.back().empty())
       left.push_back(shares.size() - 1);
   }
-  constexpr std::size_t most_barred = 4; // signals whose bars of one harmonic are told apart
+  constexpr std::size_t most_barred = 4; // signals whose bars of one harmonic can be distinguished
   const auto            distance    = [&](std::size_t i)
   {
     if (taken.empty())
@@ -106,7 +106,7 @@ std::vector<std::size_t> most_different(const std::vector<SignalOrbit> &signals)
   return taken;
 }
 
-/// A value of the solutions over the parameter, stable ones alone or the others; branches are not joined.
+/// A value of the solutions over the parameter, for stable or unstable ones; branches are not connected.
 Curve branch_curve(const PeriodicResult &result, bool stable, const std::function<double(const PeriodicEntry &)> &value)
 {
   Curve curve;

@@ -166,7 +166,7 @@ void require_portable(const Scene &scene)
                                                     "a reduced frame, such as \"craig-bampton\"");
 }
 
-/// The frame as a file that is at hand.
+/// Replaces the frame by a file that is available.
 void take_frame(SceneNode &root, Session &session, FmuResources &resources, std::map<std::string, std::string> &files,
                 std::vector<std::string> &notes)
 {
@@ -206,7 +206,7 @@ void keep_signals_alone(SceneNode &root)
   *output = kept;
 }
 
-/// Equal for equal files alone.
+/// Equal only for equal files.
 std::string guid_of(const std::map<std::string, std::string> &files)
 {
   coupling::Recipe recipe{{"version", version}};

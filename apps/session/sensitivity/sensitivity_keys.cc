@@ -23,7 +23,7 @@ constexpr double share = 1e-6; ///< of a value, by which it is varied: rounding 
   throw std::invalid_argument("--sensitivities " + key + ": " + what);
 }
 
-/// Parts of a text between separators that stand outside quotes; the quotes of a whole part are taken off.
+/// Splits a string at separators outside quotes; the quotes of a whole part are removed.
 std::vector<std::string> split_outside_quotes(const std::string &text, char separator)
 {
   std::vector<std::string> parts(1);
@@ -181,7 +181,7 @@ std::string VariedKey::overridden(double by) const
     append_exact(number, reported.value * (1. + (by * reported.value > 0. ? 1. : -1.) * share * std::abs(by)));
     return reported.key + '=' + number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
   }
-  // A whole number of a file that stands for a real one is written as a text.
+  // An integer in the file that stands for a real number is written as a string.
   std::string text_of_share;
   append_exact(text_of_share, share * std::abs(by));
   return reported.key + "=\"(" + text + ")*(1 " + (by * reported.value > 0. ? "+ " : "- ") + text_of_share + ")\"";

@@ -34,7 +34,7 @@ JointForceGuard::JointForceGuard(const Machine &machine, const TimeIntegrator &i
   find_inertias();
 }
 
-/// Of each coordinate the measure of a joint that is this coordinate alone.
+/// For each coordinate the measure of a joint that is this coordinate alone.
 void JointForceGuard::find_inertias()
 {
   const auto &W = machine_.forces().directions();
