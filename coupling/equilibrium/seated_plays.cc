@@ -71,7 +71,7 @@ private:
     for (const PlacedPlay &own : placed())
       balance_.leave_out(own.first_measure, own.n_measures);
     double        before           = std::numeric_limits<double>::infinity();
-    constexpr int most_corrections = 30; // Newton's: a few, unless plays open and close in turn
+    constexpr int most_corrections = 30; // of Newton's method: a few, unless clearances open and close alternately
     for (int k = 0; k < most_corrections; ++k)
     {
       const double size = correct(placed()), scale = std::max(q_.cwiseQuotient(sizes_).cwiseAbs().maxCoeff(), 1e-3);

@@ -20,7 +20,7 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double torn = 0.01; ///< opening of a closed chain beside the motions that make it; deflections make 1e-3
+constexpr double torn = 0.01; ///< opening of a closed chain relative to the motions that cause it; deflections: 1e-3
 
 /// Linear demands A x = b on a motion, for several right-hand sides at once.
 struct Demands
@@ -29,7 +29,7 @@ struct Demands
   MatrixXd b; ///< [k x number of motions]
 };
 
-/// Satisfies demands one after the other: what comes later has only the freedom that is left.
+/// Satisfies demands one after the other: later ones can use only the remaining DOFs.
 class Freedom
 {
 public:
@@ -39,7 +39,7 @@ public:
   {
   }
 
-  /// By least squares, with the smallest motion.  @return the rank of the demands in what was free
+  /// By least squares, with the smallest motion.  @return the rank of the demands in the remaining DOFs
   Eigen::Index satisfy(const Demands &demands)
   {
     if (demands.A.rows() == 0 || Z_.cols() == 0)
@@ -51,7 +51,7 @@ public:
     return solver.rank();
   }
 
-  /// Of rows of the size `whole`: nothing, if they have no part in what is free.
+  /// For rows of the size `whole`: no effect if they have no part in the remaining DOFs.
   bool satisfy(const Demands &demands, double whole)
   {
     const MatrixXd P         = demands.A * Z_;
@@ -71,7 +71,7 @@ private:
   MatrixXd Z_, X_;
 };
 
-/// 1/sqrt(m) of bodies; what rests or is no motion has none.
+/// 1/sqrt(m) of bodies; 0 for coordinates at rest or without mass.
 VectorXd motion_scale(const Machine &machine)
 {
   const MatrixXd M     = dense_mass(machine);
@@ -203,8 +203,8 @@ Demands elastic_demands(const Machine &machine, const VectorXd &q, const MatrixX
       "give the speeds of the drives only, the joints determine the others");
 }
 
-/// Least squares may leave elastic closures open: not by more than their deflections explain, beside what a motion x of
-/// the same kinetic energy can open at all, |A_i x| <= |A_i scale| |x / scale|.
+/// Least squares may leave elastic closures open, but not by more than their deflections explain, relative to the
+/// largest opening by a motion x of the same kinetic energy, |A_i x| <= |A_i scale| |x / scale|.
 void require_closed(const Demands &demands, const MatrixXd &X, const VectorXd &scale)
 {
   const MatrixXd open  = (demands.A * X - demands.b).cwiseAbs();
@@ -214,8 +214,8 @@ void require_closed(const Demands &demands, const MatrixXd &X, const VectorXd &s
     refuse_speeds();
 }
 
-/// A play of which both sides follow from given speeds and prescribed motions closes at once if these contradict each
-/// other.  Where one of them determines both sides, the play is a stop that the machine drives past.
+/// A clearance with both sides determined by given speeds and prescribed motions closes at once if these contradict
+/// each other.  If one of them determines both sides, the clearance is a stop that the machine passes.
 void require_agreement(const Machine &machine, const SatisfiedPlays &plays, const KnownStart &known, const VectorXd &q,
                        const MatrixXd &X)
 {

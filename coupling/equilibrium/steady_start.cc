@@ -22,7 +22,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Positions given by angles, and the state kinematics makes of them.
+/// Positions given by angles, and the state that follows by kinematics.
 struct Kinematics
 {
   std::vector<bool> given; ///< coordinates whose value is not unknown
@@ -45,7 +45,7 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   const int  n = machine.size();
   Kinematics result{std::vector<bool>(n, false), -1, {start.t, Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)}, {}};
   auto      &q = result.state.q, &v = result.state.v;
-  for (const Body &body : machine.model().bodies()) // other rotors stand in line with the first one given
+  for (const Body &body : machine.model().bodies()) // other rotors are aligned with the first one given
     if (body.kind == BodyKind::rotor && !start.angles.empty())
       q[body.coordinate] = start.angles.front().second;
   for (const auto &[name, angle] : start.angles)
@@ -101,7 +101,7 @@ public:
     return (constant_ + local - elastic)(equations_);
   }
 
-  /// Largest force in the balance residual() was last asked for.
+  /// Largest force in the last evaluation of residual().
   double size_of_forces() const { return size_of_forces_; }
 
   /// One Newton step for the residual at q; the step of a singular matrix is the shortest that helps most.
@@ -129,8 +129,8 @@ public:
   /// Whether the last step balances its forces to first order: not if one acts along a free motion.
   bool held() const { return held_; }
 
-  /// The first coordinate, those of the frame before the bodies it carries, that moves at least half as much as the one
-  /// that moves most in the motion the last matrix leaves free; -1 if there is none.
+  /// The first coordinate, with those of the frame before the bodies it carries, that moves at least half as much as
+  /// the largest in the unconstrained motion of the last matrix; -1 if there is none.
   int free_coordinate() const
   {
     const Eigen::MatrixXd free = solver_.null_space();
@@ -158,7 +158,8 @@ private:
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
     matrix_                    = row_scale_.asDiagonal() * part * scale_.asDiagonal();
-    // Stiffness of a motion beside that of its coordinates below which it counts as free: reduction leaves up to 1e-10.
+    // Stiffness of a motion relative to that of its coordinates, below which it is unconstrained: reduction leaves up
+    // to 1e-10.
     constexpr double least_singular = 1e-9;
     solver_                         = LeastSquaresSolver(matrix_, least_singular);
   }
@@ -208,8 +209,8 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     const Eigen::VectorXd change = equilibrium.step(state.q, balance);
     if (!equilibrium.held())
       break;
-    // Through open play the residual stays what it is until contact: go on in doubled steps as long as it does not
-    // grow.
+    // While clearances are open the residual is constant until contact: continue in doubled steps as long as it does
+    // not grow.
     double          stretch = 1.;
     Eigen::VectorXd next    = equilibrium.residual(state.q + change);
     while (stretch < 1e12 && next.norm() > 0.5 * balance.norm() && change.norm() > 0.)
@@ -236,7 +237,7 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
 namespace
 {
 
-/// The same known start with what has a given speed held in position `at`, and nothing else.
+/// The same known start with the coordinates of given speed fixed in position `at`, and no other condition.
 KnownStart held_at(const Machine &machine, const KnownStart &known, const InitialState &at)
 {
   KnownStart held = known;

@@ -248,7 +248,7 @@ Signal MachineParts::signal(const std::string &path) const
 {
   const bool        minus    = !path.empty() && path[0] == '-';
   const auto        begin    = minus ? path.find_first_not_of("- ") : 0;
-  const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" alone names nothing
+  const std::string positive = begin == std::string::npos ? path : path.substr(begin); // "-" without a name is invalid
   const auto        made     = known_signals.empty() ? signals() : std::map<std::string, Signal>();
   const auto       &known    = known_signals.empty() ? made : known_signals;
   const auto        found    = known.find(positive);

@@ -22,8 +22,8 @@ Measure combine(const Measure &a, const Measure &b, double sign)
     double      &own   = sum[coordinate];
     const double terms = std::max(std::abs(own), std::abs(weight));
     own += sign * weight;
-    // Of the larger of two terms: what rounding leaves of them where they cancel. Each is a product of components of
-    // unit vectors, 2 epsilon wrong each, or a sum of three such.
+    // Relative to the larger of two terms: their rounding error if they cancel. Each is a product of components of unit
+    // vectors with an error of 2 epsilon each, or a sum of three such products.
     constexpr double rounding = 16. * std::numeric_limits<double>::epsilon();
     if (std::abs(own) <= rounding * terms)
       own = 0.;

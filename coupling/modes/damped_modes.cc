@@ -51,7 +51,7 @@ private:
   std::vector<Eigen::Index> root_;
 };
 
-/// What the coupling with another mode does to s, in units of what may be left out.
+/// Effect of the coupling with another mode on s, relative to the tolerance.
 struct Share
 {
   double       amount;
@@ -92,7 +92,7 @@ void join_coupled(Eigen::Index j, const Eigen::MatrixXd &B, const Eigen::VectorX
       groups.join(j, share.other);
 }
 
-/// s of one mode alone.
+/// Adds s of a single mode.
 void add_single(const DenseModes &modes, const Eigen::MatrixXd &B, Eigen::Index j, std::vector<DampedMode> &result)
 {
   const double omega = modes.omega[j], zeta = 0.5 * B(j, j) / omega;
@@ -134,7 +134,7 @@ void require_finite_damping(const DenseModes &modes, const Eigen::MatrixXd &B)
         "damped_modes: the damping of a mode is not finite; a damper is far too large for a mass: check their units");
 }
 
-/// By |s|.
+/// Sorts by |s|.
 void sort_by_size(std::vector<DampedMode> &modes)
 {
   std::sort(modes.begin(), modes.end(),

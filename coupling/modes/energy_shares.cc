@@ -54,7 +54,7 @@ bool is_open(const std::vector<std::string> &open, const std::string &name)
   return std::find(open.begin(), open.end(), name) != open.end();
 }
 
-/// Of every element, W K W^T as it is engaged, or open, at q.
+/// W K W^T of every element, engaged or open at q.
 void add_elements(const Machine &machine, const Eigen::VectorXd &q, const std::vector<std::string> &open,
                   const Eigen::MatrixXd &V, NamedRows &strain)
 {
@@ -97,7 +97,7 @@ NamedRows strain_of(const Machine &machine, const Eigen::VectorXd &q, const std:
   return strain;
 }
 
-/// Of the frame's coordinates and, with lags, of those of each body.
+/// Kinetic energies of the frame's coordinates and of those of each body, with lags.
 NamedRows kinetic_of(const Machine &machine, const Eigen::MatrixXd &V)
 {
   const MachineModel   &model = machine.model();

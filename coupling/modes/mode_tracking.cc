@@ -28,8 +28,8 @@ bool same(const Mode &a, const Mode &b)
   return std::abs(a.frequency_hz - b.frequency_hz) <= same_frequency * std::max(a.frequency_hz, b.frequency_hz);
 }
 
-/// Turns the shapes of modes [begin, end) of one frequency towards those before: V Q with the orthogonal Q that makes
-/// |V Q - V_before| least, where V_before are as many shapes as hold most of them.
+/// Rotates the shapes of modes [begin, end) of one frequency towards the previous ones: V Q with the orthogonal Q that
+/// minimises |V Q - V_before|, where V_before are as many shapes as contain most of them.
 void turn_towards(const Eigen::MatrixXd &before, const Eigen::MatrixXd &M, std::vector<Mode> &modes, std::size_t begin,
                   std::size_t end)
 {

@@ -40,7 +40,7 @@ std::vector<SweptCoordinate> of_bodies(const Machine &machine)
       break;
     case BodyKind::point:
     case BodyKind::planar:
-    case BodyKind::rigid: // of its centre of mass; its rotation is no single coordinate
+    case BodyKind::rigid: // of its centre of mass; its rotation is not a single coordinate
       for (int i = 0; i < 3; ++i)
         add(machine.coordinate_name(body.coordinate + i), body.kind == BodyKind::planar && i == 2 ? "rad" : "m",
             body.coordinate + i);

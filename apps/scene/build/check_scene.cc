@@ -55,7 +55,7 @@ std::vector<std::string> check_scene(const Scene &scene)
     check_start_names(scene, machine);
   else
   {
-    if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // a static start needs the frame itself
+    if (!coupling::has_joints(machine) || scene.start.rule == StartRule::given) // static states need the frame itself
       modes_configuration(scene, machine);
     if (scene.start.rule == StartRule::given)
       initial_state(scene, machine);
@@ -175,7 +175,7 @@ std::string floating_frame(const Scene &scene)
   }
   catch (const coupling::ConvergenceFailure &)
   {
-    return ""; // check_start() tells of machines that do not move on
+    return ""; // check_start() reports machines that cannot move
   }
 }
 

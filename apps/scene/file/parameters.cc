@@ -151,7 +151,7 @@ Expression Parameters::expression(const SceneNode &value, const std::vector<Vari
 
 void Parameters::use(const std::string &name) const
 {
-  std::vector<std::string> waiting = {name}; // no recursion: where each stands behind what it needs, chains may be long
+  std::vector<std::string> waiting = {name}; // no recursion, as chains may be long: names before their dependencies
   while (!waiting.empty())
   {
     const std::string next = std::move(waiting.back());

@@ -91,9 +91,8 @@ int too_deep(const std::string &text)
 }
 
 /**
- * Where values stand in the text.  A location() of toml11 counts the lines before its value anew, and asked for each
- * value makes reading quadratic in the length of the file; here the ends of lines are found once, and a line by
- * bisection.
+ * Locations of values in the text.  A location() of toml11 counts the lines before its value each time, which would
+ * make reading quadratic in the length of the file; here the ends of lines are found once, and a line by bisection.
  */
 class Places
 {

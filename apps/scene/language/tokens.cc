@@ -19,7 +19,7 @@ bool is_digit(unsigned char c)
   return std::isdigit(c);
 }
 
-/// Characters beyond ASCII that engineers type, and what they stand for.
+/// Common non-ASCII characters, and their meaning.
 std::string in_ascii(const std::string &character)
 {
   static const std::map<std::string, std::string> meanings = {

@@ -49,7 +49,7 @@ void combine(const Eigen::MatrixXd &D, double *__restrict predicted, double *__r
   }
 }
 
-/// `lanes` components at once: that columns do not overlap is known to us alone.
+/// Processes `lanes` components at once: the compiler cannot know that columns do not overlap.
 template <int order, int lanes>
 void append_lanes(double *d, Eigen::Index n, const double *difference)
 {

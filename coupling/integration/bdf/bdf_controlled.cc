@@ -34,14 +34,14 @@ BdfControlled::Options checked(BdfControlled::Options           o, const SecondO
   if (const double omega = slowest_elastic(spectrum); o.largest_step == 0. && std::isfinite(omega))
     o.largest_step = 1. / omega;
   require(o.largest_step > 0. && std::isfinite(o.largest_step), "largest_step [s]", o.largest_step, "positive");
-  constexpr int rungs_below = 40; // of the ladder, if no smallest step is given: 1e-12 of the largest
+  constexpr int rungs_below = 40; // levels below the largest step, if no smallest step is given: 1e-12 of the largest
   if (o.smallest_step == 0.)
     o.smallest_step = std::ldexp(o.largest_step, -rungs_below);
   constexpr int most_rungs_below = 60; // 2^-60 is below the rounding of a time
   require(o.smallest_step <= o.largest_step && o.smallest_step >= std::ldexp(o.largest_step, -most_rungs_below),
           "smallest_step [s]", o.smallest_step, "between 2^-60 and 1 of the largest one");
-  o.newton.joints                = JointSolver::condensed; // its S is looked at
-  constexpr double newton_part   = 1e-2;  // of the tolerance: errors of Newton count little beside those of steps
+  o.newton.joints                = JointSolver::condensed; // its S is used
+  constexpr double newton_part   = 1e-2;  // of the tolerance: errors of Newton are small compared with those of steps
   constexpr double finest_newton = 1e-12; // rounding of residuals
   o.newton.tolerance             = std::max(newton_part * o.tolerance, finest_newton);
   if (o.fixed_order)
@@ -144,7 +144,7 @@ void BdfControlled::begin(double t, const Eigen::VectorXd &q, const Eigen::Vecto
   load_known_              = false;
   cut_                     = false;
   barred_                  = 0;
-  constexpr int first_rung = 5; // tried at the begin of a run: 1/32 of the largest step
+  constexpr int first_rung = 5; // first level at the start of a run: 1/32 of the largest step
   rung_                    = first_rung;
   while (rung_ > 1 && step_of(rung_) < options_.smallest_step)
     --rung_;
@@ -187,7 +187,7 @@ bool BdfControlled::is_implied() const
   return n_c_ > 0 || !system_.forces().held().empty();
 }
 
-/// Where M is singular there is no acceleration, and the first step finds the forces.
+/// With a singular M there is no acceleration, and the first step determines the forces.
 bool BdfControlled::has_consistent()
 {
   if (!consistent_ && !massless_)
@@ -202,13 +202,14 @@ bool BdfControlled::has_consistent()
   return consistent_ != nullptr;
 }
 
-/// Something is held, and the equation of motion tells by which force.
+/// Whether a measure sticks, and the equation of motion gives its force.
 bool BdfControlled::finds_held() const
 {
   return consistent_ && !system_.forces().held().empty();
 }
 
-/// What holds a measure or closes a joint at an instant is no law's value, but follows from the equation of motion.
+/// Forces of sticking measures and joints at an instant are not values of a law, but follow from the equation of
+/// motion.
 void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
 {
   if (!has_consistent())
@@ -327,14 +328,14 @@ void BdfControlled::interpolate(double t, LocalState &state) const
     return solve_inside(t, state);
   if (!finds_held())
     return;
-  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  // Only from values: q'' of modes that the step does not resolve would be that of the cubic.
   differences_.at(s, degree, 0, q_inside_);
   differences_.at(s, degree, n_, v_inside_);
   consistent_->hold(q_inside_, v_inside_, state, work_);
 }
 
-/// Three instants of a start give the forces of joints a parabola, its motion a quintic; afterwards loads may change
-/// faster than the motion, which alone controls the step.  So the forces are computed from the motion.
+/// Three instants of a start give a parabola for the forces of joints, a quintic for the motion; afterwards loads may
+/// change faster than the motion, which alone controls the step.  Therefore the forces are computed from the motion.
 void BdfControlled::solve_inside(double t, LocalState &state) const
 {
   IntegrationWork work; // of looking, not of the step

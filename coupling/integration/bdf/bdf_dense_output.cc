@@ -58,7 +58,7 @@ void Bdf::interpolate(double t, LocalState &state) const
   }
   if (!finds_held())
     return;
-  // By their values alone: q'' of modes that the step does not resolve would be that of the cubic.
+  // Only from values: q'' of modes that the step does not resolve would be that of the cubic.
   q_inside_.setZero();
   v_inside_.setZero();
   for (int i = 0; i < n_L; ++i)

@@ -10,7 +10,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Linear acceleration from t to t + theta h, where the balance holds.
+/// Linear acceleration from t to t + theta h, where the balance is satisfied.
 Eigen::Matrix3d wilson_matrix(double theta, const TestOscillator &o)
 {
   const double Omega = o.omega_h, c = 2. * o.zeta * Omega, k = Omega * Omega, t2 = theta * theta;

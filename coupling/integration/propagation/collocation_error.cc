@@ -88,7 +88,7 @@ double CollocationStep::of_all(const StepTable &table, int row) const
 
 bool CollocationStep::is_sound(const StepTable &table)
 {
-  constexpr double least_pivot = 0.25; // of I - S dp: its solution goes at most some four times as far as the motion
+  constexpr double least_pivot = 0.25; // of I - S dp: its solution is at most about four times as large as the motion
   if (context_.system->forces().held().empty())
     return lu_.least_pivot() > least_pivot;
   dp_du_.setZero(); // what sticks writes nothing
@@ -135,16 +135,16 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   reach(end);
   grow_scale(end.u, end.v, table.h);
   estimate(table);
-  constexpr int steps_of_way = 16; // between two looks at the way of the motion, which cost a few products each
-  // The way of the motion costs a pass over the modes: it is looked at where it may save the step, else now and then.
+  constexpr int steps_of_way = 16; // between two evaluations of way(), each of which costs a few products
+  // way() costs a pass over the modes: it is evaluated if it may save the step, else from time to time.
   if (context_.error_tolerance == 0. || (error_ <= context_.error_tolerance && age_of_way_++ % steps_of_way != 0))
     return;
   reached_.way = context_.way(x_end_);
   estimate(table);
 }
 
-/// Of the law, at both ends of the step: alike in smooth motion, as the Gauss points lie symmetrically.  Where a step
-/// is too long for its motion either of them may be small by chance.
+/// Defect of the law at both ends of the step: equal in smooth motion, because the Gauss points are symmetric.  If a
+/// step is too long for its motion either of them may be small by coincidence.
 void CollocationStep::find_defect(const LocalState &end)
 {
   defect_begin_ = begin_at_.p;

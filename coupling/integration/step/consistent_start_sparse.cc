@@ -35,7 +35,7 @@ void ConsistentStart::move_sparse(Eigen::VectorXd &x, Eigen::VectorXd &xi, doubl
   xi.noalias() += system_.forces().directions().transpose() * y_.head(x.size());
 }
 
-/// The terms of which u'' is the sum: |u''_free| and W^T M^-1 W |p|, the largest of all measures.
+/// The terms of the sum u'': |u''_free| and W^T M^-1 W |p|, the largest of all measures.
 double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
 {
   const auto &W = system_.forces().directions();
@@ -49,7 +49,7 @@ double ConsistentStart::largest_acceleration(const Eigen::VectorXd &p)
   return std::max(a_free_.cwiseAbs().maxCoeff(), correction_.cwiseAbs().maxCoeff());
 }
 
-/// From a = M^-1 (f_t - B q' - C q), with that right hand side in f_.
+/// Starts with a = M^-1 (f_t - B q' - C q), with that right-hand side in f_.
 void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, IntegrationWork &work)
 {
   const auto &W    = system_.forces().directions();

@@ -107,7 +107,7 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
   // share of the energy exchanged, for one step: 1e5 of them add up to 1 % at worst
   constexpr double closed      = 1e-7;
   const double     small       = closed * std::max(exchanged, std::abs(stored_ - stored_begin_));
-  constexpr int    most_panels = 4096; // 2^12: a load that still changes the work is no function that can be integrated
+  constexpr int    most_panels = 4096; // 2^12: a load that still changes the work is not an integrable function
   for (int panels = 2; (t_ - t_begin_) * 2. > panels * rule.shortest && panels <= most_panels; panels *= 2)
   {
     if (open() <= small)
