@@ -296,7 +296,7 @@ void check_gravity(const SceneTable &table, const Scene &scene)
 {
   const auto      &g              = scene.gravity;
   const double     amount         = std::hypot(g[0], g[1], g[2]);
-  constexpr double strong_gravity = 100.; // m/s^2, ten times that of the earth
+  constexpr double strong_gravity = 100.; // [m/s^2] ten times the gravity of the earth
   if (amount > strong_gravity)
   {
     std::ostringstream text;

@@ -243,8 +243,8 @@ private:
         column[local_[row]] += factor * x.value();
   }
 
-  /// Of what a front passes on, the columns first .. last - 1 of the front that takes it, to a matrix whose first row
-  /// is `first`, too.
+  /// Adds the columns of a child's contribution that are columns first .. last - 1 of its parent to a matrix whose
+  /// first row is `first`.
   void add_columns(const Waiting &child, int first, int last, double *matrix, ptrdiff_t height)
   {
     const int  r    = below(child.front);
@@ -289,8 +289,8 @@ private:
     pass_on(s);
   }
 
-  /// What the front itself contributes is joined by what it was passed and keeps on passing; the lower triangle of all
-  /// that moves down to where this lay.
+  /// Joins the contribution of front s with the remaining contributions of its children and moves the lower triangle to
+  /// the place of the first child.
   void pass_on(int s)
   {
     const int       w  = width(s);

@@ -125,7 +125,7 @@ struct Entry
   double value;
 };
 
-/// Whether the entries of `other` are those of `row`, `shift` columns further on.
+/// Whether `other` has the entries of `row`, moved by `shift` columns.
 bool alike(const std::vector<Entry> &row, const std::vector<Entry> &other, int shift)
 {
   return std::equal(row.begin(), row.end(), other.begin(), other.end(),

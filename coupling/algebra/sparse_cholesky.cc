@@ -73,7 +73,7 @@ struct SparseCholesky::Factor
 namespace
 {
 
-/// What CHOLMOD knows of L from the pattern alone: the order of the coordinates and the fronts.
+/// Symbolic analysis by CHOLMOD from the pattern of A: order of the coordinates and fronts.
 cholmod_factor *analysed(const Eigen::SparseMatrix<double> &A, const std::vector<char> &held, cholmod_common &common)
 {
   SparsePattern    lower = lower_triangle(A, held);

@@ -290,7 +290,7 @@ private:
       throw refused(elsewhere(*node));
   }
 
-  /// Lines behind *SYSTEM and *INSTANCE move and turn nodes, unless they are zero.
+  /// Refuses lines after *SYSTEM and *INSTANCE that move or rotate nodes; zeros pass.
   template <typename Refused>
   static void require_not_moved(const std::string &keyword, const fem::InpLines &lines, const Refused &refused)
   {

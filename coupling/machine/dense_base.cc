@@ -53,7 +53,7 @@ void require(bool condition, const std::string &message)
 /**
  * A^-1 of a symmetric matrix: scaled to unit diagonal, inverted by Cholesky (or by LU if A is indefinite), and improved
  * by one step of Newton's iteration X <- X (2 E - A X), which squares the rounding error.
- * @param names of the coordinates of the rows of A, for messages.
+ * @param names  of the coordinates of the rows of A, for messages.
  */
 MatrixXd inverse(const MatrixXd &A, const std::vector<int> &names)
 {

@@ -67,7 +67,7 @@ std::vector<Guard> FormulaKinks::guards(const double *sides) const
 
 void FormulaKinks::guard_values(const double *x, const double *sides, double *g) const
 {
-  std::copy_n(sides, size(), g); // the side itself: kinks at rest are open
+  std::copy_n(sides, size(), g); // the guard is the side itself: kinks at rest are open
   formula_.kink_arguments(x, sides, g);
 }
 

@@ -34,7 +34,7 @@ void PositionFunction::check_closure() const
   const double inside = 1e-12 * period_->length, first = period_->begin, last = first + period_->length;
   const auto   a = at(first + inside), b = at(last - inside);
   double       scale = std::abs(period_->rise);
-  for (int i = 0; i <= 32; ++i) // where the ends are flat and zero, rounding is that of what lies between
+  for (int i = 0; i <= 32; ++i) // scale of rounding: the ends may be flat and zero
   {
     const auto between = at(first + inside + i / 32. * (period_->length - 2. * inside));
     scale              = std::max({scale, std::abs(between.value), std::abs(between.first) * period_->length});

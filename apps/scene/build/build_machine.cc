@@ -158,7 +158,7 @@ void refuse_carried_round(const coupling::MachineModel &machine, const BodyReque
 
 /// Attaches the unbalance of a rotor as an element "NAME unbalance": along e_1, the first global axis across the
 /// rotor's axis a, and e_2 = a x e_1.
-/// @throws std::invalid_argument for an unbalance beside a carrier that turns by any angle
+/// @throws std::invalid_argument for an unbalance off the axis of a carrier that turns through any angle
 void attach_unbalance(coupling::MachineModel &machine, const BodyRequest &rotor, const Vector3 &gravity)
 {
   const coupling::Marker &carrier = machine.marker(rotor.carrier);

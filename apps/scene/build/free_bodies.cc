@@ -32,7 +32,8 @@ std::set<int> coordinates_in_use(const Scene &scene, const coupling::MachineMode
   return used;
 }
 
-/// Whether it is a coordinate of the body itself; its marker also moves with those of a carrier.
+/// Whether the coordinate belongs to the body itself; the marker of the body also moves with the coordinates of its
+/// carrier.
 bool is_own(int coordinate, const coupling::Body &body)
 {
   using coupling::BodyKind;

@@ -77,7 +77,7 @@ void require_repeating(const Scene &scene, const coupling::Machine &machine, con
 double result_window(const Scene &scene, const coupling::Machine &machine, const coupling::InitialState &initial)
 {
   const coupling::RunOptions &run = scene.run.options;
-  if (!scene.run.last_period || initial.v.size() == 0) // there is no initial state and therefore no run
+  if (!scene.run.last_period || initial.v.size() == 0) // without an initial state there is no run
     return run.from;
   const double length = run.end - run.begin, of_loads = period_of_loads(machine);
   if (of_loads == 0. && !machine.linear().excitation().harmonics().empty())

@@ -186,8 +186,8 @@ const KlossMotor *motor_of(const ElementRequest &element)
   return dynamic ? &dynamic->stationary() : law_of<KlossMotor>(element);
 }
 
-/// Start-up time from rest to the synchronous speed with the breakdown torque: J Omega / (i^2 M_K).  Joints may drive
-/// more inertia than the shaft itself, so that no time is too short then.
+/// Start-up time from rest to the synchronous speed with the breakdown torque: J Omega / (i^2 M_K).  With joints the
+/// motor may drive more inertia than its shaft; then no time counts as too short.
 void judge_motors(const Scene &scene, const coupling::Machine &machine, Warnings &warnings)
 {
   for (const coupling::ElementPlacement &placement : machine.model().elements())

@@ -130,7 +130,7 @@ std::string joint_text(const JointRequest &joint)
   return "'" + joint.name + "' (" + kind + (joint.compliance ? ", yields" : "") + ")";
 }
 
-/// Names of elements without those of their parts, "guide.rear".
+/// Names of elements without the names of their parts, such as "guide.rear".
 std::string element_names(Words names)
 {
   for (std::string &name : names)
@@ -180,7 +180,7 @@ long freedoms(coupling::Machine &machine)
   return coupling::free_motions(machine, local, frame).cols();
 }
 
-/// A frame that must be computed first has internal DOFs in addition to those of the placeholder.
+/// A frame that is not yet computed has internal DOFs in addition to those of its placeholder.
 std::string coordinates_text(const Scene &scene, coupling::Machine &machine)
 {
   const int         n_frame = machine.model().n_frame(), n_rows = int(machine.joints().n_rows());

@@ -92,7 +92,7 @@ int too_deep(const std::string &text)
 
 /**
  * Locations of values in the text.  A location() of toml11 counts the lines before its value each time, which would
- * make reading quadratic in the length of the file; here the ends of lines are found once, and a line by bisection.
+ * make reading quadratic in the length of the file; this class finds all ends of lines once and each line by bisection.
  */
 class Places
 {

@@ -24,7 +24,7 @@ void refuse_unknown(const SceneNode &table, const std::string &path)
   {
     if (!value.used)
       throw unknown({key, value}, path, {table.requested.begin(), table.requested.end()});
-    // The keys of a table that no reader opened are unknown, in contrast to those of a missing table.
+    // Only tables whose keys a reader requested are searched for unknown keys.
     const std::string own = (path.empty() ? "" : path + ".") + written_key(key);
     if (value.type == SceneNode::Type::table && (!value.requested.empty() || value.entries.empty()))
       refuse_unknown(value, own);

@@ -117,7 +117,7 @@ std::vector<Vector3d> JointEquations::directions() const
   return basis;
 }
 
-/// For a planar body its axis, and that of another body with a different axis of rotation.
+/// For a planar body: its axis and, if the other body rotates about a different axis, that axis (made orthogonal).
 std::vector<Vector3d> JointEquations::axes_of_rotation() const
 {
   if (!pair_.planar() || pair_.in_space())
@@ -217,7 +217,7 @@ IdealJoint::Equation JointEquations::distance_along(const Vector3d &a, Carrier c
   return equation;
 }
 
-/// The points keep their distance along a: that of the reference configuration, or `value`.
+/// Keeps the distance of the points along a constant: at its value in the reference configuration, or at `value`.
 void JointEquations::along(const Vector3d &a, Carrier carrier, const std::string &name, std::optional<double> value)
 {
   const IdealJoint::Equation equation = distance_along(a, carrier, name);
@@ -248,7 +248,7 @@ void JointEquations::add(IdealJoint::Equation equation, std::optional<double> va
     list.push_back(std::move(equation));
 }
 
-/// Rotation of body 2 about a equals factor times that of body 1.
+/// The rotation of body 2 about a equals factor times the rotation of body 1.
 void JointEquations::ratio(IdealJoint::Equation equation, const Vector3d &a, double factor)
 {
   equation.measure = rotation_about(pair_, a, factor);

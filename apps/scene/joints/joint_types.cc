@@ -80,8 +80,8 @@ private:
 };
 
 /**
- * The order in which tables [measure.NAME] can be read: a sum or a position function after the measures that it names;
- * otherwise that of the file.
+ * The order in which tables [measure.NAME] can be read: a sum or a position function follows the measures that it
+ * names; the other measures keep the order of the file.
  * @return indices of `measures`
  * @throws std::invalid_argument for a circular definition, with the names of the cycle
  */

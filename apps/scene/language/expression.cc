@@ -73,7 +73,7 @@ Expression alike(const Expression &a, const Expression &b, const std::string &ve
   if (a.checked && b.checked && !a_nothing && !b_nothing && !equal(a.dimension, b.dimension))
     fail(verb + " " + describe(b.dimension) + " " + preposition + " " + describe(a.dimension) +
          "; both must be of one kind");
-  // The one with a known dimension determines that of both.
+  // The operand with a known dimension determines the dimension of the result.
   Expression c = a_nothing || (!a.checked && b.checked && !b_nothing) ? b : a;
   c.counts     = joined(a.counts, b.counts);
   if (counts_shaft_turns(a) == counts_shaft_turns(b) || a.is_zero() || b.is_zero())

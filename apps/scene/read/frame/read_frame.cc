@@ -13,7 +13,8 @@ namespace gestell::apps
 namespace
 {
 
-/// The mechanism acts on nodes with six motions, of which fields over a face know nothing.
+/// Refuses flexible interfaces: the mechanism acts on nodes with six DOFs, and an interface with fields over its face
+/// has none.
 void refuse_flexible(const fem::FrameSpecification &frame)
 {
   for (const fem::InterfaceSpecification &interface : frame.interfaces)

@@ -28,7 +28,8 @@ std::vector<Key> without_reduced(std::vector<Key> keys)
 
 } // namespace
 
-/// Keys of [frame] of several parts; of [frame.part.NAME], with those of a frame from geometry; of [frame.joint.NAME].
+/// Keys of [frame] of several parts. Those of [frame.part.NAME], with the keys of a frame from geometry, and of
+/// [frame.joint.NAME] follow.
 const std::vector<Key> &parts_frame_keys()
 {
   static const std::vector<Key> keys = {
