@@ -25,7 +25,7 @@ std::string head_of(const FrameSpecification &specification)
   return specification.place + ": " + specification.cad;
 }
 
-using Parents = std::map<int, std::vector<int>>; // tag of a piece to the solids it lies in, in the order of the file
+using Parents = std::map<int, std::vector<int>>; // tag of a piece to the solids that contain it, in file order
 
 /// Physical surface of a script, whose faces get other tags where solids are joined.
 struct SurfaceGroup
@@ -155,7 +155,7 @@ int number_of_common_faces(const std::vector<Solid> &solids)
 /// are nearer than the sum of their tolerances and the gap, and a vertex it has joined may have a tolerance of a gap.
 constexpr double share_of_thickness = 1. / 3.;
 
-/// Mean thickness 2 V / A [m]: that of a thin wall, never more than the thinnest side of the box around the solid.
+/// Mean thickness 2 V / A [m]: exact for thin walls, and never more than the smallest side of the bounding box.
 double thickness(const Solid &solid, double unit)
 {
   double area = 0.;

@@ -54,7 +54,7 @@ const std::vector<std::array<int, 4>> &exponents()
   return all;
 }
 
-/// From values at the points of the lattice to coefficients: the inverse of B_c(point) = 3!/(i! j! k! l!) l^exponents.
+/// Matrix from values at the lattice points to coefficients: the inverse of B_c(point) = 3!/(i! j! k! l!) l^exponents.
 const Eigen::Matrix<double, n_coefficients, n_coefficients> &to_coefficients()
 {
   static const Eigen::Matrix<double, n_coefficients, n_coefficients> inverse = []

@@ -103,7 +103,7 @@ int add_field(const std::vector<int> &tags, double s, double h)
   field::setNumber(threshold, "InField", distance);
   field::setNumber(threshold, "SizeMin", s);
   field::setNumber(threshold, "SizeMax", h);
-  field::setNumber(threshold, "DistMin", 0.5 * s); // the points that stand for the face are that far apart
+  field::setNumber(threshold, "DistMin", 0.5 * s); // distance of the points that represent the face
   field::setNumber(threshold, "DistMax", 0.5 * s + std::max(h - s, 1e-9 * h) / size_growth);
   return threshold;
 }

@@ -238,7 +238,7 @@ void require_near(const VolumeIntegrals &sum, const CadModel &model, const CadSo
                                 "the origin in the CAD program.");
 }
 
-/// That the second moments of the volume about its centre, tr(J)/2 I - J, are of a body: positive semidefinite.
+/// Requires second moments of the volume about its centre, tr(J)/2 I - J, that are positive semidefinite.
 void require_inertia_of_a_body(const Eigen::Matrix3d &J, const CadSource &source)
 {
   const Eigen::Vector3d principal =

@@ -62,7 +62,7 @@ Eigen::Vector3d point(const QuadraticMesh &mesh, int node)
   return Eigen::Map<const Eigen::Vector3d>(mesh.points[node].data());
 }
 
-/// Places and stresses of all samples; those of cell i of a list stand from begin[i] on.
+/// Positions and stresses of all samples; those of cell i of a list start at begin[i].
 struct Samples
 {
   std::vector<Eigen::Index> begin{0};

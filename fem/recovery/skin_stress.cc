@@ -31,7 +31,8 @@ Triple sorted(Triple corners)
   return corners;
 }
 
-/// Corners of the triangles that may stand for a face of a cell: local nodes, of a quadrilateral along both diagonals.
+/// Corners of the triangles that may represent a face of a cell, as local nodes; for a quadrilateral along both
+/// diagonals.
 std::vector<Triple> face_triangles(CellKind kind)
 {
   std::vector<Triple> triangles;
@@ -73,7 +74,7 @@ std::map<Triple, int> owners(const QuadraticMesh &mesh)
   return in_order;
 }
 
-/// dN_a/dx at the corners of a cell, as far as stresses are to be trusted there.
+/// dN_a/dx at the corners of a cell where stresses are reliable.
 struct CornerGradients
 {
   using Weights = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 27, 3>;

@@ -165,7 +165,7 @@ public:
   }
 
 private:
-  /// -1: it stands at right angles to none.
+  /// The axis that is normal to the face; -1 if there is none.
   int direction_of(const Face &face) const
   {
     for (int d = 0; d < 3; ++d)
@@ -244,7 +244,7 @@ private:
   {
     int           face;
     std::set<int> edges;
-    std::set<int> walls; // tags of the faces that stand on it
+    std::set<int> walls; // tags of the adjacent faces
   };
 
   /// Openings of holes, two to each: they share their walls.
@@ -349,10 +349,10 @@ private:
       }
       curves.erase(next);
     }
-    hole.sides.back()[1] = hole.sides.front()[0]; // but for rounding
+    hole.sides.back()[1] = hole.sides.front()[0]; // equal up to rounding
   }
 
-  /// As many as turn by the angle between sides of a regular polygon; an even number.
+  /// Number of sides for the rotation of the tangent along an edge, as of a regular polygon; even.
   int sides_along(int edge) const
   {
     if (is_line(edge))
