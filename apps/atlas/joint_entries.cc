@@ -1,4 +1,5 @@
-// Ideal joints: held by their accelerations they drift open, and of index 3 the first multiplier is half of itself.
+// Ideal joints: with constraints on accelerations they drift apart; with index 3 the first multiplier has half of its
+// value.
 
 #include "apps/atlas/atlas.h"
 #include "coupling/integration/integration_methods.h"
@@ -38,7 +39,7 @@ coupling::Machine revolving_mass()
   return machine;
 }
 
-/// The motion as the distance from the origin tells it.
+/// The distance from the origin, the variable of the motion.
 double distance(const VectorXd &q)
 {
   return std::hypot(length + q[0], q[1], q[2]);

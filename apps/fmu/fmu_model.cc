@@ -19,7 +19,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Of the archive; a host may have threads that a child would not get.
+/// The frame in the archive. It is not reduced here: the host may have threads that a child process would lose.
 coupling::ReducedFrame frame_at_hand(const Scene &scene)
 {
   try

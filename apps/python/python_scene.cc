@@ -33,7 +33,7 @@ using apps::Place;
 using apps::Scene;
 using apps::SceneNode;
 
-/// Where a scene without a file stands.
+/// Path of a scene without a file.
 std::string path_in(const std::string &folder)
 {
   return (fs::absolute(folder) / "scene").lexically_normal().string();
@@ -61,7 +61,7 @@ void require_known_parameter(const SceneNode &root, const std::vector<std::strin
                suggestion(key[1], parameters ? names_of(*parameters) : std::vector<std::string>()));
 }
 
-/// Leaves out the other signals, and what the choice does without.
+/// Removes unselected signals, and output that the choice does not need.
 void keep(Scene &scene, const RunChoice &choice)
 {
   coupling::RunOptions &run = scene.run.options;
@@ -83,7 +83,7 @@ void keep(Scene &scene, const RunChoice &choice)
     run.output_step = run.end - run.begin;
 }
 
-/// Marks the thread that makes a frame, while it lives.
+/// Marks the thread that computes a frame, during the lifetime of this object.
 class MakingFrame
 {
 public:
@@ -101,7 +101,7 @@ private:
   static inline thread_local bool here = false;
 };
 
-/// The reduced frames of all scenes; two threads do not make the same.
+/// The reduced frame of a scene; concurrent threads do not compute the same frame twice.
 std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, const coupling::Progress &progress)
 {
   static apps::ReducedFrameStore *const shelf =

@@ -110,7 +110,7 @@ VectorXd of_angles(const VectorXd &x, const std::vector<int> &angles)
   return x(angles);
 }
 
-/// Why rotors that move at the start are taken for swinging ones: something depends on their angles without a period.
+/// Reason why rotors that move at the start count as oscillating: something depends on their angles without a period.
 std::string held_angles(const coupling::AngleInvariance &invariance, const VectorXd &speed,
                         const coupling::Machine &machine)
 {

@@ -242,7 +242,7 @@ Comparison BudgetMaker::more_modes_kept()
     return nothing_errs("the frame is not reduced");
   if (run_.modes >= run_.most_modes)
     return nothing_errs("all modes are kept");
-  ModelVariant more = finest_; // whose frame has so many at least, if it was made with more
+  ModelVariant more = finest_; // its frame already has these modes if it was made with more
   more.modes        = more_modes(scene_, run_);
   if (!modes_are_chosen(scene_)) // only statics
     more.reduction = "craig-bampton";

@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 using Complex = std::complex<double>;
 
-/// z^H M z = 1 and, of the phase left over, Re z at right angles to Im z and no shorter.
+/// Normalises z: z^H M z = 1, and the phase such that Re z is orthogonal to Im z and not shorter.
 void normalise(const MatrixXd &M, Eigen::VectorXcd &z)
 {
   z /= std::sqrt(z.dot(M * z).real());

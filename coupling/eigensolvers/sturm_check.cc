@@ -110,8 +110,8 @@ void SturmCheckedModes::look_for_missing(LowestModes known, int count, double om
   }
 }
 
-/// E, of the size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j: past the shift it must not.  The mode above
-/// the gap, which is not known, is taken for like those below it.
+/// E, of size growth * eps * diag(C), moves omega_j^2 by v_j^T E v_j, which must not pass the shift. The unknown mode
+/// above the gap is assumed to be as sensitive as those below it.
 double SturmCheckedModes::largest_growth(double shift) const
 {
   constexpr double      eps      = std::numeric_limits<double>::epsilon();

@@ -25,7 +25,7 @@ Vector3d nearest_in(const FaceBox &box, const Vector3d &x)
   return nearest;
 }
 
-/// Directions of its sides, at right angles; a side without length has the direction that the others leave.
+/// Directions of the sides, orthogonal; a side of length zero has the remaining direction.
 Matrix3d axes_of(const FaceBox &box)
 {
   Matrix3d axes = Matrix3d::Zero();

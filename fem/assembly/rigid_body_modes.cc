@@ -207,7 +207,7 @@ std::vector<std::string> free_motions(const FrameMatrices &frame, const std::vec
   const double                        length = length_of(frame);
   const std::vector<std::vector<int>> parts  = connected_parts(frame.C, held);
   std::vector<std::string>            names;
-  // Parts whose motions are named; a frame that falls into more has a mesh whose cells do not hang together.
+  // Number of parts whose motions are named; with more parts, the cells of the mesh are not connected.
   constexpr std::size_t most_parts = 20;
   for (std::size_t part = 0; part < std::min(parts.size(), most_parts); ++part)
     for (std::string &name : names_of(free_space(frame, parts[part], length),

@@ -118,7 +118,7 @@ private:
 
   Count place() { return Count(in_.tellg()); }
 
-  /// A number of `things` that take so many bytes each, at least.
+  /// Reads the number of `things`, each of at least the given number of bytes.
   Count count(const std::string &things, Count bytes)
   {
     const Count at   = place();

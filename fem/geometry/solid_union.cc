@@ -188,7 +188,8 @@ bool some_are_near(const CadModel &model, double distance)
   return false;
 }
 
-/// Solids that another one is as near to as the gap must be far thicker: their own faces would be taken for one.
+/// Requires that solids with another solid within the gap are much thicker than the gap: otherwise their own faces
+/// would be merged.
 void require_small_gap(const CadModel &model, const FrameSpecification &specification)
 {
   const double gap = specification.mesh.gap;

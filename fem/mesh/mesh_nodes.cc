@@ -23,7 +23,7 @@ constexpr Vector3 oblique = {0.43762743542266774, 0.5624637353870905, 0.70151035
 
 } // namespace
 
-// Points no further apart than the distance are so along any unit vector, too: sorted along one, only those within a
+// Points within the distance are also within it along any unit vector. After sorting along one, only points within a
 // slab of that width are compared.
 std::vector<std::pair<int, int>> coincident(const std::vector<Point3> &points, double distance)
 {

@@ -47,7 +47,7 @@ bool is_global(const Vector3d &axis)
   return std::any_of(all.begin(), all.end(), [&](const Vector3d &a) { return are_parallel(a, axis); });
 }
 
-/// Unit vectors at right angles to the axis and to each other, at most so many, as near to `directions` as may be.
+/// At most `at_most` unit vectors, orthogonal to the axis and to each other, as near to `directions` as possible.
 std::vector<Vector3d> across(const Vector3d &axis, const std::vector<Vector3d> &directions, std::size_t at_most)
 {
   std::vector<Vector3d> found;

@@ -181,7 +181,7 @@ std::string VariedKey::overridden(double by) const
     append_exact(number, reported.value * (1. + (by * reported.value > 0. ? 1. : -1.) * share * std::abs(by)));
     return reported.key + '=' + number + (number.find_first_of(".e") == std::string::npos ? ".0" : "");
   }
-  // An integer in the file that stands for a real number is written as a string.
+  // An integer in the file in place of a real number is written as a string.
   std::string text_of_share;
   append_exact(text_of_share, share * std::abs(by));
   return reported.key + "=\"(" + text + ")*(1 " + (by * reported.value > 0. ? "+ " : "- ") + text_of_share + ")\"";

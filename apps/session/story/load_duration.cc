@@ -84,7 +84,7 @@ void add_modes(const coupling::ElementPlacement &placement, const LocalModes &th
   load.t_modes                     = there.t;
   load.place                       = there.place;
   load.unknown                     = there.unknown;
-  constexpr double      slow       = 100.; // periods up to so many durations: slower modes see an impulse
+  constexpr double      slow       = 100.; // times the duration: slower modes see an impulse
   constexpr double      fast       = 4.;   // periods within the fall: its factor is below 0.1 beyond
   constexpr std::size_t most_modes = 12;   // rows of a table
   for (std::size_t j = 0; j < std::min(there.modes.size(), std::size_t(most)) && load.modes.size() < most_modes; ++j)

@@ -105,7 +105,7 @@ std::vector<int> ends_of(int curve)
   return points;
 }
 
-/// Edges that hang together by their ends.
+/// Groups of edges that are connected at their ends.
 std::vector<std::vector<int>> loops_of(const std::vector<int> &edges)
 {
   std::vector<std::pair<std::set<int>, std::vector<int>>> loops; // ends, edges
