@@ -139,7 +139,7 @@ int run_guarded(int argc, char **argv, JsonAnswer &answer)
   }
   catch (const std::exception &error)
   {
-    if (interruption()) // what was under way then fails somewhere
+    if (interruption()) // an interruption makes the current work fail
       return fail(exit_interrupted, std::string("interrupted: ") + error.what(), answer);
     if (is_of_a_name(error))
       return fail(exit_wrong_input, std::string(error.what()) + "; give another name", answer);

@@ -47,7 +47,7 @@ void print_answer(const coupling::RunResult &run)
             << std::setprecision(3) << double(run.work.newton) / std::max(1L, run.work.steps)
             << " Newton iterations a step, " << run.work.factorisations << " factorisations, " << run.wall_s << " s\n";
   const coupling::EnergySummary &energy = run.energy;
-  if (energy.exchanged > 0. || energy.residual > 0.) // else the balance was not kept
+  if (energy.exchanged > 0. || energy.residual > 0.) // otherwise the balance was not computed
     std::cout << "energy residual " << energy.residual << " J of " << energy.exchanged << " J exchanged, "
               << energy.input << " J supplied\n";
 }

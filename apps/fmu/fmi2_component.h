@@ -34,7 +34,7 @@ struct FmuComponent
   bool                      stops = false;
 
   void log(fmi2Status status, const std::string &category, const std::string &message) const;
-  void tell_findings(); ///< and events of the model
+  void tell_findings(); ///< also events of the model
 };
 
 /// Phases in which a function may be called.

@@ -53,7 +53,7 @@ struct Comparison
 {
   std::optional<ModelAnswer> first, second;
   double                     factor = 1.;   ///< from the difference of two values to the error of the first
-  std::string                reason;        ///< what the second model is; without one why
+  std::string                reason;        ///< the second model; if there is none, the reason
   bool                       exact = false; ///< there is nothing to err
 };
 
@@ -220,7 +220,7 @@ Comparison BudgetMaker::coarser_cells()
     return not_known("the mesh comes from a file and cannot be made coarser");
   ModelVariant variant = finest_;
   variant.mesh *= coarser;
-  if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
+  if (scene_.frame.source != FrameSource::parts) // the second reduction of parts stays unchanged
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;
   comparison.first        = models_.of(finest_);

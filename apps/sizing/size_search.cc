@@ -63,7 +63,7 @@ private:
   std::vector<Cells>             kinds_ = {Cells::given}, untried_; ///< of meshes
   std::deque<SizedPlace>         judged_;
   SizePlace                      planned_; ///< modes and time of the next model
-  std::vector<Shares>            others_;  ///< that they will leave
+  std::vector<Shares>            others_;  ///< shares of error expected with it
   SizeResult                     result_;
 };
 
@@ -139,7 +139,7 @@ void Search::keep_few_modes(const SizedPlace &coarse)
   const bool more = planned_.modes > coarse.place.modes;
   if (planned_.modes <= 0)
     return;
-  double rest = 0.; // what mesh and time take where nothing is made finer
+  double rest = 0.; // share of mesh and time in the coarse model
   for (const Shares &shares : coarse.point.shares)
     rest = std::max(rest, shares.mesh() + shares.time);
   const double part              = std::max(of_modes(), aim - rest);

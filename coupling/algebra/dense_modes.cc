@@ -31,7 +31,7 @@ double lowest_quotient(const MatrixXd &C, const MatrixXd &M, double cancelled, b
   VectorXd quotients(C.rows());
   int      n = 0;
   for (int i = 0; i < C.rows(); ++i)
-    if (M(i, i) > 0. && std::isfinite(C(i, i) / M(i, i))) // what is beyond has no mass
+    if (M(i, i) > 0. && std::isfinite(C(i, i) / M(i, i))) // others have no mass
       quotients(n++) = C(i, i) / M(i, i);
   const double largest = n > 0 ? quotients.head(n).maxCoeff() : 0.;
   double       s       = largest;

@@ -32,7 +32,7 @@ constexpr int    block = 64; ///< columns factored or divided by at once: 64 x 6
 constexpr int    small = 32; // the same for fronts that are not wide
 constexpr int    wide  = 4 * small; // columns
 constexpr int    slice = 256;       // columns of a triangle that are treated as a rectangle
-constexpr double one = 1., minus_one = -1., two = 2., zero = 0.; ///< whose addresses BLAS wants
+constexpr double one = 1., minus_one = -1., two = 2., zero = 0.; ///< BLAS takes their addresses
 
 /// X <- X L^-T, X [rows x w] below L [w x w], both with columns h apart: as products with the inverses of blocks on the
 /// diagonal, for OpenBLAS divides by narrow L at half the speed of a product.

@@ -142,7 +142,7 @@ void BlockLanczos::start_block()
     if (pass == 0 && (norms(product(X, MX)).array() <= 1e-7 * before.array()).all())
       X = MultiVector(n_, 0), MX = MultiVector(n_, 0);
   }
-  inverse_->solve_in_place(MX); // what of it has no mass would never leave the space
+  inverse_->solve_in_place(MX); // removes parts without mass, which would stay in the space
   std::swap(X, MX);
   M_.multiply(X, MX);
   const VectorXd scale = norms(product(X, MX));

@@ -63,7 +63,7 @@ public:
     if (circulatory)
     {
       if (Eigen::FullPivLU<MatrixXd>(K).setThreshold(cancelled).isInvertible())
-        return; // nothing floats
+        return; // no motion is free
       throw std::invalid_argument(
           "inertia relief is not available for follower forces, such as a load with carried_by, on an unsupported "
           "machine: no single acceleration balances them; support the machine, or start with rule = \"given\"");
@@ -391,7 +391,7 @@ private:
   VectorXd                 q_, lambda_;
   MatrixXd                 M_;
   MatrixXd                 floating_, inertia_; ///< R [n x k] of the motions that inertia relieves, and M R
-  std::string              loose_; ///< what is said of the motion along which an unbalanced force finds no stiffness
+  std::string              loose_;              ///< note on a motion with a force and no stiffness
   std::vector<std::string> notes_;
 };
 

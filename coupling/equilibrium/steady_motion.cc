@@ -39,7 +39,8 @@ public:
   {
   }
 
-  /// By least squares, with the smallest motion.  @return the rank of the demands in the remaining DOFs
+  /// Satisfies the demands by least squares with the smallest motion.
+  /// @return the rank of the demands in the remaining DOFs
   Eigen::Index satisfy(const Demands &demands)
   {
     if (demands.A.rows() == 0 || Z_.cols() == 0)

@@ -130,7 +130,7 @@ Rest regular_rest(const std::vector<MeshValue> &meshes)
     rest.doubt                     = std::max(disagreement, share_of_step * std::abs(rest.correction));
   }
   constexpr double least_share = 0.5; // of the estimate that is true at least, where nothing better is known
-  if (meshes.size() < 4)              // fewer may lie near each other by chance
+  if (meshes.size() < 4)              // fewer may agree by chance
     rest.doubt = std::max(rest.doubt, least_share * estimated_rest(last) - std::abs(rest.correction));
   return rest;
 }

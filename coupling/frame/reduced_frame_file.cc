@@ -422,7 +422,7 @@ ReducedFrame read_reduced_frame(const std::string &file)
     {
       return read_content(file).frame;
     }
-    catch (const std::runtime_error &failure) // where there was no child
+    catch (const std::runtime_error &failure) // if there was no child process
     {
       defect = failure.what();
     }

@@ -152,7 +152,7 @@ struct Switch
 /// Kind of the measures of an element.
 enum class MeasureKind
 {
-  displacement, ///< or several of all kinds, which the element itself distinguishes
+  displacement, ///< also several kinds that the element distinguishes
   angle         ///< for an element that could also act on a displacement: its forces are torques
 };
 

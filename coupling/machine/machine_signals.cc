@@ -202,7 +202,7 @@ private:
     signal.unit     = measure.unit + (derivative == 0 ? "" : derivative == 1 ? "/s" : "/s^2");
     signal.measure  = i;
     signal.quantity = derivative;
-    for (const Measure &u : measure.measures) // so that whoever reads the signal provides their motion
+    for (const Measure &u : measure.measures) // so that the reader provides their motion
       for (const auto &[coordinate, weight] : u)
         signal.on_q.emplace_back(coordinate, 0.);
     return signals_[path] = signal;

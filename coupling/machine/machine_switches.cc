@@ -270,7 +270,7 @@ void MachineParts::give_orders(int index, const LocalState &state)
     {
       target.commands->command(given.order, target.motion(state, by_history), history_of(target));
     }
-    catch (const std::domain_error &beyond) // it has no law that can be continued
+    catch (const std::domain_error &beyond) // the law cannot be continued
     {
       std::ostringstream message;
       message << "at t = " << state.t << " s, switch \"" << own.request.name << "\" tells \"" << given.element

@@ -173,7 +173,7 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
     modes[j].refined_hz = refined_hz(*frame, Eigen::Index(j));
   for (std::size_t j = 0; j < std::min(modes.size(), frame->facts.free_motions.size()); ++j)
   {
-    modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // what is left is rounding
+    modes[j].frequency_hz = modes[j].damped_frequency_hz = modes[j].growth = 0.; // only rounding remains
     modes[j].damping_ratio                                                 = std::numeric_limits<double>::quiet_NaN();
   }
   return modes;
@@ -308,7 +308,7 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
     const int                 k       = element.n_measures();
     mechanism::LocalMotion    motion{local.t, local.u.data() + first, local.v.data() + first, local.a.data() + first};
     const bool drives = structure[first] == 0. && placement.joint < 0 && element.work() == mechanism::Work::input;
-    if (drives && !sticks(element, motion)) // what sticks gives no way
+    if (drives && !sticks(element, motion)) // a sticking drive is rigid
     {
       Eigen::VectorXd p(k);
       Eigen::MatrixXd du(k, k), dv(k, k);

@@ -208,7 +208,7 @@ public:
       x[i]                      = there;
       weights[i]                = slope.value;
       largest                   = std::max(largest, std::abs(slope.value));
-      constexpr double rounding = 1e-12; // what it leaves of a value in quotients with the smallest step
+      constexpr double rounding = 1e-12; // relative error of values in quotients with the smallest step
       worst                     = std::max(worst, slope.error - rounding * std::abs(value()) / first_step);
     }
     if (kink || worst > smooth * largest)

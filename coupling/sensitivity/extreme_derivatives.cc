@@ -162,9 +162,9 @@ void ExtremeDerivatives::take(Extreme &extreme, const Turn &turn, double step)
   }
   VectorXd dt  = -turn.d_rate / turn.second;
   bool     far = false, lost = false;
-  // of a derivative of an instant, its error: it has no more figures than its y''
+  // error of the derivative of an instant, relative: no more figures than y''
   constexpr double known_share = 1e-4;
-  // or of the run's length, what the whole value of a parameter may move it wrongly
+  // or relative to the run's length, for a change by the whole value of the parameter
   constexpr double known_time = 1e-6;
   for (Index k = 0; k < turn.d_off.size(); ++k)
     if (const double off = std::abs(turn.d_off[k] / turn.second);

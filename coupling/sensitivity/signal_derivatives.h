@@ -19,7 +19,7 @@ enum class Kink
 {
   none,
   corner, ///< its rate jumps
-  jump    ///< it does
+  jump    ///< the signal jumps
 };
 
 /// Time derivatives of a signal at or near a turning point.

@@ -139,7 +139,7 @@ void VariationalSteps::look_along(const SmoothPiece &piece)
 {
   std::vector<MotionState> passed;
   constexpr std::size_t    looks           = 7;  // at a piece at least, for what acts on it
-  constexpr std::size_t    nodes_of_a_look = 20; // what is zero at each look and acts between them lasts no longer
+  constexpr std::size_t    nodes_of_a_look = 20; // a term that is zero at all looks acts for fewer nodes
   const std::size_t        last = piece.nodes.size() - 1, n = std::max(looks, last / nodes_of_a_look);
   for (std::size_t i = 0; i <= n; ++i)
   {

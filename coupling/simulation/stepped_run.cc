@@ -22,7 +22,7 @@ namespace
 {
 
 constexpr double no_time    = 1e-9; ///< share of a step that rounding may leave
-constexpr long   first_look = 64;   ///< steps: no run is checked with fewer than the 50 of the longest controlled ones
+constexpr long   first_look = 64;   ///< steps, above the 50 that a controlled run has at least
 
 /// The driver cannot predict the loads, because it does not know the end.
 LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOptions &options,
@@ -248,7 +248,7 @@ std::string SteppedRun::finish(const std::string &failure, const std::string &id
   outcome_.stop(id, "", failure);
   for (const auto &check : checks_)
     check->finish(outcome_);
-  machine_.events().follow_history(options_.events); // which checks may have ended
+  machine_.events().follow_history(options_.events); // checks may have ended it
   return failure.empty() ? outcome_.failure : "";
 }
 
@@ -318,7 +318,7 @@ SteppedState SteppedRun::state()
 void SteppedRun::restore(const SteppedState &state)
 {
   const FlushDenormals while_it_starts;
-  const SteppedState   at = state; // it may be the own one
+  const SteppedState   at = state; // it may be a member of this run
   ended_                  = at.ended;
   end_                    = at.t;
   events_.erase(std::remove_if(events_.begin(), events_.end(), [&](const Event &e) { return e.t > at.t; }),

@@ -103,7 +103,7 @@ std::vector<fem::Interface> kept(const FrameOfParts &frame, const PartUnion &par
   for (fem::Interface interface : parts.interfaces)
     if (std::find(names.begin(), names.end(), interface.name) != names.end())
     {
-      interface.face = {}; // what its fields are to the joint, modes are to the frame
+      interface.face = {}; // modes replace the fields of the joint
       interface.renumber([&](int i) { return column[std::size_t(i)]; });
       interfaces.push_back(std::move(interface));
     }

@@ -266,8 +266,8 @@ private:
 
   const std::vector<GeoToken>             &tokens_;
   const RefuseLine                        &refuse_;
-  std::vector<std::size_t>                 closing_; ///< by the bracket that opens
-  std::map<std::size_t, std::size_t>       opening_; ///< by the bracket that closes
+  std::vector<std::size_t>                 closing_; ///< by opening bracket
+  std::map<std::size_t, std::size_t>       opening_; ///< by closing bracket
   std::vector<bool>                        of_constants_;
   std::vector<std::size_t>                 files_;
   const std::map<std::string, std::string> refused_ = refused_words();

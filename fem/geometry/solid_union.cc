@@ -79,7 +79,7 @@ void restore(const std::vector<SurfaceGroup> &groups, std::map<int, std::vector<
 Parents fragment(const CadModel &model, const FrameSpecification &specification, const GmshSession &session)
 {
   gmsh::vectorpair                first = {{3, model.solids[0].tag}}, rest, pieces;
-  std::vector<gmsh::vectorpair>   of_solid; // and then of every face of a group
+  std::vector<gmsh::vectorpair>   of_solid; // followed by those of every face of a group
   const std::vector<SurfaceGroup> groups  = surface_groups();
   const std::vector<int>          grouped = faces_of(groups);
   for (std::size_t i = 1; i < model.solids.size(); ++i)

@@ -210,7 +210,7 @@ void follow_geometry(ExtractedMesh &extracted, const CadModel &model)
 void unfold(Mesh &mesh)
 {
   const std::size_t n_curved = mesh.middles.size();
-  std::set<Edge>    straightened; // or only halved: those keep a middle
+  std::set<Edge>    straightened; // or halved: these keep a middle node
   for (bool folded = !mesh.middles.empty(); folded;)
   {
     folded = false;

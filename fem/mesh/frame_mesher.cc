@@ -213,7 +213,7 @@ bool sweep(MeshedModel &result, const FrameSpecification &specification, const M
   try
   {
     result.extracted      = swept_mesh(result.model, result.selection, specification, options);
-    result.expected_cells = 0.; // which is of tetrahedra
+    result.expected_cells = 0.; // an estimate for tetrahedra
     return true;
   }
   catch (const NotSwept &reason)

@@ -68,7 +68,7 @@ std::map<Triple, int> owners(const QuadraticMesh &mesh)
       if (const auto found = owner.find(sorted({nodes[a], nodes[b], nodes[c]})); found != owner.end())
         found->second = cell;
     }
-  std::map<Triple, int> in_order; // as the skin names its corners
+  std::map<Triple, int> in_order; // in the order of the skin's corners
   for (const auto &face : mesh.skin)
     in_order[{face[0], face[1], face[2]}] = owner.at(sorted({face[0], face[1], face[2]}));
   return in_order;

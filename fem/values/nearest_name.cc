@@ -51,12 +51,12 @@ std::vector<std::string> parts_of(const std::string &path)
   return parts;
 }
 
-constexpr int another_word = 1 << 20; ///< more letters than any two words differ by
+constexpr int another_word = 1 << 20; ///< more than any distance of two words
 
 /// Edit distance of a typing error; `another_word` if the words differ by more than a third of their letters.
 int slip(const std::string &name, const std::string &meant)
 {
-  constexpr std::size_t longest_word = 200; // else time and memory go by the product of lengths that a file chooses
+  constexpr std::size_t longest_word = 200; // bounds time and memory, which grow with the product of the lengths
   if (std::max(name.size(), meant.size()) > longest_word)
     return another_word;
   const int distance = edit_distance(lower(name), lower(meant));

@@ -44,7 +44,7 @@ void PositionFunction::check_closure() const
   {
     std::ostringstream needed;
     needed << there << ", as where the next one begins" << out;
-    constexpr double joined = 1e-9; // what may be open at the ends of a period: rounding of constants, as pi
+    constexpr double joined = 1e-9; // gap at the ends of a period: rounding of constants such as pi
     require(std::abs(here - there) <= joined * scale / unit, name, what + " at the end of the period", here,
             needed.str());
   };
@@ -102,7 +102,7 @@ void PositionFunction::start(double x, double rate, double *history) const
   if (counts_periods())
   {
     if (rate < 0. && x == period_->begin + n * period_->length)
-      n -= 1.; // where it goes
+      n -= 1.; // the period that it enters
     history[formula_.n_kinks()] = n;
   }
   const double inner = period_ ? x - n * period_->length : x;

@@ -36,7 +36,7 @@ struct ChartCommandOptions
   std::vector<std::string> methods;          ///< keys such as "exact-6", "cvode-5", "bdf*"
   std::vector<std::string> steps;            ///< of fixed steps, "10 us" or plain numbers in s
   std::vector<std::string> tolerances;       ///< of controlled steps and of peers
-  std::vector<std::string> errors;           ///< that a choice is offered for
+  std::vector<std::string> errors;           ///< errors for which a choice is given
   std::vector<std::string> signals;          ///< for the errors; "q*" for all with this beginning
   std::vector<int>         modes;            ///< numbers of modes of the reduced frame
   std::string              reference;        ///< CSV file; empty: an own fine run

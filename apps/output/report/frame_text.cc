@@ -74,7 +74,7 @@ const char *const static_residual_words =
 
 std::string words_above(double limit, double before, double frequency)
 {
-  const double reach = 1.02 * limit; // which may be the frequency of a mode, better known than by the model itself
+  const double reach = 1.02 * limit; // the limit may be a mode's frequency, now known more accurately
   if (!(before <= reach && frequency > reach))
     return "";
   return "above " + short_text(limit, 4) +

@@ -94,7 +94,7 @@ void require_free_motion(const Scene &scene, coupling::Machine &machine, const c
     throw std::invalid_argument(scene.element_places.at(conflict.element) + ": " + conflict.words);
   coupling::LocalState local;
   local.resize(machine);
-  machine.events().follow_history(true); // which sticking_conflict() has begun: kinks have the sides of the run
+  machine.events().follow_history(true); // sticking_conflict() began it: kinks have their sides
   machine.gather(initial.t, initial.q, initial.v, Eigen::VectorXd::Zero(machine.size()), local);
   const coupling::LawWithoutValue none = coupling::law_without_value(machine, local);
   machine.events().follow_history(false);

@@ -225,7 +225,7 @@ Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machi
   Eigen::VectorXd q = Eigen::VectorXd::Zero(machine.size());
   for (const auto &value : scene.modes.at)
     set_coordinate(q, value, machine);
-  coupling::close_chains(machine, q); // what is only given by its crank, such as a slide, follows
+  coupling::close_chains(machine, q); // moves bodies that follow a crank, such as a slide
   return q;
 }
 

@@ -47,7 +47,7 @@ std::string line_of(const std::string &text, std::size_t number)
   return line;
 }
 
-constexpr int deepest = 50; ///< tables and arrays in each other; parsers take some of the stack for each
+constexpr int deepest = 50; ///< levels of nested tables and arrays; parsers recurse on the stack
 
 /// Past a string that begins at i: to its closing quotes, or the end of the text.
 std::size_t behind_string(const std::string &text, std::size_t i)

@@ -15,8 +15,8 @@ namespace
 struct Plausible
 {
   const char *unit;
-  double      least, most; ///< beyond these no solid is
-  double      low, high;   ///< beyond these hardly any structure is
+  double      least, most; ///< outside: no solid
+  double      low, high;   ///< outside: hardly any structure
   const char *below, *above;
   struct OtherUnit
   {

@@ -170,7 +170,7 @@ void BdfControlled::restart()
     follow = depend_on_accelerations(system_, local_);
   }
   if (follow && has_consistent())
-    close_joints(); // and the accelerations on which forces depend
+    close_joints(); // also for the accelerations on which forces depend
   virtual_rates_.settle(z_.head(n_), z_.segment(n_, n_), local_);
   z_.segment(2 * n_ + n_u_, n_u_) = local_.v;
   keep_forces(z_);
@@ -381,7 +381,7 @@ void BdfControlled::motion_at(double t, const std::vector<int> &coordinates, Eig
 
 void BdfControlled::cut(double t)
 {
-  if (!(t > t_begin_)) // nothing is left of the step
+  if (!(t > t_begin_)) // the cut removes the whole step
     z_cut_ = z_begin_;
   else
   {
@@ -393,7 +393,7 @@ void BdfControlled::cut(double t)
   cut_ = true;
   present(z_cut_, t);
   if (is_implied() &&
-      t > t_begin_) // as they will be at the restart, so that what breaks away does not stick again at once
+      t > t_begin_) // as at the restart, so that a measure that breaks away does not stick again at once
     find_implied(z_cut_, t);
   system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);
   ++work_.evaluations;

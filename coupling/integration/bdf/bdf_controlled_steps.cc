@@ -225,7 +225,7 @@ bool BdfControlled::is_sound(double h_beta)
   const double   inverse = 1. / h_beta, squared = h_beta * h_beta;
   const StepForm form{1., h_beta, squared, squared, 1., inverse, inverse * inverse, h_beta};
   const auto    &S = implicit_.condensed(form, work_).S;
-  dp_du_.setZero(); // what sticks writes nothing
+  dp_du_.setZero(); // sticking measures write nothing
   dp_dv_.setZero();
   point(z_begin_, t_end_, local_);
   system_.forces().derivatives(local_, base_.p, dp_du_, dp_dv_);

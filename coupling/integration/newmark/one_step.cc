@@ -120,7 +120,7 @@ void OneStep::advance()
   // The grid is kept free of what many additions of h would leave.
   end_.motion.t = end_.motion.local.t = t_begin_ + static_cast<double>(index_) * step_;
   const bool holds                    = !system_.forces().held().empty();
-  if (holds) // which finds the multipliers too
+  if (holds) // this also finds the multipliers
     start_.hold(end_.motion.q, end_.motion.v, end_.motion.local, work_);
   end_.keep_balance();
   if (!holds && system_.joints().n_rows() > 0 && system_.joints().wants_multipliers())

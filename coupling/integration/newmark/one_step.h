@@ -51,7 +51,7 @@ protected:
     Eigen::VectorXd a, f;
     Eigen::VectorXd p, lambda; ///< [n_u], [n_c] as the method balances them; those of the motion if computed
 
-    void keep_balance(); ///< they are those of the motion
+    void keep_balance(); ///< copies those of the motion
     void exchange(StateArchive &archive);
   };
 

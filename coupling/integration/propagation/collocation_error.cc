@@ -91,7 +91,7 @@ bool CollocationStep::is_sound(const StepTable &table)
   constexpr double least_pivot = 0.25; // of I - S dp: its solution is at most about four times as large as the motion
   if (context_.system->forces().held().empty())
     return lu_.least_pivot() > least_pivot;
-  dp_du_.setZero(); // what sticks writes nothing
+  dp_du_.setZero(); // sticking measures write nothing
   dp_dv_.setZero();
   defect_ = begin_at_.p;
   context_.system->forces().derivatives(begin_at_, defect_, dp_du_, dp_dv_);
@@ -127,7 +127,7 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   ++context_.work.evaluations;
   if (!context_.system->forces().held().empty())
     context_.accelerate(x_end_,
-                        end); // so that the guards of what sticks see its force with the accuracy of the state
+                        end); // so that sticking guards use the force at the accuracy of the state
   U_.col(s_ + 1) = end.u;
   V_.col(s_ + 1) = end.v;
   find_defect(end);

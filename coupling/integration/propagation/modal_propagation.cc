@@ -360,7 +360,7 @@ int ModalPropagation::parts_of_step() const
       const double x_1 = std::abs(x_work_[b]), x_2 = std::abs(x_work_[measures.n_p + b]);
       const auto   moved = [&](const auto &read)
       { return x_1 * read.row(b).cwiseAbs().array() + x_2 * read.row(measures.n_p + b).cwiseAbs().array(); };
-      constexpr double looked_at = 1e-3; // what a mode moves in a measure, of its largest excursion
+      constexpr double looked_at = 1e-3; // least part of a mode in a measure's largest excursion
       if (((moved(measures.read_u) + moved(measures.read_v) / rate).transpose() > looked_at * context_.scale.array())
               .any())
         most = h * rate;

@@ -65,7 +65,7 @@ bool ImplicitStep::iterate_sparse(const StepForm &form, const Eigen::VectorXd &f
   saddle_->hold(system_.forces().held());
   saddle_->set_weights(form.w_M, form.w_B, form.w_C, form.force);
   y_.resize(saddle_->size());
-  saddle_->forget_factor(); // that of the previous step costs more iterations than it saves
+  saddle_->forget_factor(); // the old one costs more iterations than it saves
 
   find_measures(x, form, base);
   for (int iteration = 0; iteration < options_.max_iterations; ++iteration)

@@ -117,7 +117,7 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
     const double     change    = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
     constexpr double converged = 0.1; // of what is open: what twice as many panels change
     if (change < converged * open())
-      return; // what is open is the method's own
+      return; // the remaining error is that of the method
   }
 }
 

@@ -68,7 +68,7 @@ double length_in_step(const std::string &path)
 LengthUnit file_unit(const fem::FrameSpecification &frame)
 {
   double length = frame.unit > 0. ? frame.unit : 1.;
-  if (fem::is_step(frame.cad)) // whose unit the specification's overrides: the length of its millimetre
+  if (fem::is_step(frame.cad)) // a given unit is the length of the file's millimetre
     length = length_in_step(frame.cad) * (frame.unit > 0. ? frame.unit / 1e-3 : 1.);
   for (const auto &[name, value] : names)
     if (std::abs(length - value) < 1e-9 * value)

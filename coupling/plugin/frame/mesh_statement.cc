@@ -63,7 +63,7 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
       2. * bytes_per_cell * mesh_error.mesh().n_cells() > available)
     return {};
   constexpr int most_raised = 24; // modes that are compared with degree three
-  constexpr int guard_modes = 4;  // beyond them, which keep the last ones of a projection good
+  constexpr int guard_modes = 4;  // further modes, which keep the last compared ones accurate
   const int     count       = std::min(modes.within, most_raised),
             taken           = std::min<int>(count + guard_modes, int(modes.ritz.omega.size()) - modes.n_rigid);
   const Eigen::MatrixXd X   = reduced.basis.T * modes.ritz.V.middleCols(modes.n_rigid, taken);

@@ -189,7 +189,7 @@ std::vector<double> InterfaceReceptance::errors_of(const Groups &groups, int m, 
 
 InsideCount InterfaceReceptance::fewest(double tolerance, Inside inside) const
 {
-  std::size_t worst = 0; // where the last number failed the next one will, too
+  std::size_t worst = 0; // where the last number failed, the next one probably fails too
   for (int m = 0; m <= omega0_.size(); ++m)
   {
     const Fractions model = of_model(m, inside);

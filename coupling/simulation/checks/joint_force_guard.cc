@@ -88,11 +88,11 @@ void JointForceGuard::step()
   Eigen::Index row;
   const double force = lambda.cwiseAbs().maxCoeff(&row), lever = std::max(size_, 1. / size_), bound = limit * lever;
   if (!(force > lever * largest_))
-    return; // what was seen before explains it
+    return; // forces seen before explain it
   largest_ = std::max(largest_, known_forces());
   if (!(force > bound * largest_))
     return;
-  largest_ = std::max(largest_, known_forces() + elastic_forces()); // which cost more, and are seldom needed
+  largest_ = std::max(largest_, known_forces() + elastic_forces()); // expensive and rarely needed
   if (!(force > bound * largest_))
     return;
   std::ostringstream text;

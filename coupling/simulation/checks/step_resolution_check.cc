@@ -106,7 +106,7 @@ class AtTime
 {
 public:
   AtTime(const LocalForces &forces, const LocalState &state)
-      : forces_(forces), state_(state), p_(VectorXd::Zero(state.u.size())) // what sticks has no law that writes there
+      : forces_(forces), state_(state), p_(VectorXd::Zero(state.u.size())) // laws of sticking measures write nothing
   {
   }
 
