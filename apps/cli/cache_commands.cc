@@ -163,7 +163,7 @@ CacheExplanation explained(const std::string &scene, const std::string &key, con
   return found;
 }
 
-/// In what the recipes of these frames differ, by the names of ingredients in the order of the first.
+/// Ingredients in which the recipes of these frames differ, by name, in the order of the first frame.
 std::vector<std::string> distinguishing(const std::vector<const CacheEntry *> &entries)
 {
   std::vector<std::string> names;

@@ -162,7 +162,7 @@ void print_surfaces(const coupling::MeshReport &report)
   }
 }
 
-/// In a form that can be pasted into a scene.
+/// Prints selectors in a form that can be pasted into a scene.
 void print_selectors(const coupling::MeshReport &report)
 {
   for (const coupling::SurfaceReport &surface : report.surfaces)

@@ -20,7 +20,7 @@ namespace
 using coupling::BodyKind;
 using Eigen::VectorXd;
 
-constexpr double equal_speeds = 1e-2; ///< of speeds at the start, which elastic shafts let differ a little
+constexpr double equal_speeds = 1e-2; ///< relative difference of speeds by elastic shafts at the start
 
 /// Angles [rad] that may rotate and move initially: of rotors, and of planar bodies, which may also oscillate.
 struct MovingAngles

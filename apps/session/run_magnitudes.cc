@@ -148,7 +148,7 @@ void RunMagnitudes::watch_frame(const coupling::MachineModel &small)
         watch(Kind::yielding, "frame." + interface.name, motions[d]);
 }
 
-/// For a rod its own length, for others the size of the machine.
+/// Length of an element: for a rod its own, for others the size of the machine.
 double RunMagnitudes::size_of(const std::string &element) const
 {
   for (const coupling::DrawnRod &rod : scene_.rods)

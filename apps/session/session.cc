@@ -39,7 +39,7 @@ void states_for_pictures(const PreparedMachine &prepared, coupling::RunResult &r
       state = prepared.project(state);
 }
 
-/// On the periodic motion that the state leads to.
+/// Moves the state onto the periodic motion to which it leads.
 void go_on_orbit(const Scene &scene, PreparedMachine &prepared, const std::atomic<bool> *stop,
                  coupling::InitialState &state)
 {

@@ -17,7 +17,7 @@ bool is_meshed(const std::string &cad)
   return kind != ".msh" && kind != ".inp" && kind != ".stl";
 }
 
-/// Whether there are but planes.
+/// Whether all faces are planes.
 bool is_plane(const fem::FrameSpecification &frame, KnownPlanes &known)
 {
   if (const auto found = known.find(frame.cad); found != known.end())

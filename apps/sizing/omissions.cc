@@ -197,7 +197,7 @@ void Questions::rigid_frame()
     found_.left_out.push_back(what + ": " + changed->text());
 }
 
-/// Both kinds of every interface: a wall softer than its rigid surface, and one whose elasticity does nothing.
+/// Tries both kinds of every interface: a wall softer than its rigid surface, and one whose elasticity has no effect.
 void Questions::kinds_of_interfaces()
 {
   const auto &interfaces = model_.scene.frame.geometry.interfaces;

@@ -16,12 +16,12 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double aim          = 0.8; ///< of what is allowed, as laws err
+constexpr double aim          = 0.8; ///< of the tolerance, because laws have errors
 constexpr double of_a_part    = 0.2; ///< of the allowed error: modes and time are cheap compared with the mesh,
 constexpr double without_mesh = 0.5; ///< of modes where there is none to be made finer
 constexpr double most_runs    = 10.; ///< of the chosen model, that a search may take
 
-constexpr double no_limit = std::numeric_limits<double>::infinity(); ///< of what a model may cost, or err by
+constexpr double no_limit = std::numeric_limits<double>::infinity(); ///< of the cost or the error of a model
 
 class Search
 {

@@ -153,7 +153,7 @@ ReorderedMatrix::ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std
           entries.push_back({place[a.row()], a.value()});
     return entries;
   };
-  column_.reserve(A.nonZeros()); // most of it is never touched
+  column_.reserve(A.nonZeros()); // most of it is not used
   value_.reserve(A.nonZeros());
   std::vector<Entry> x = row(0), y = row(1), z = row(2);
   for (int k = 0; k < n_;)

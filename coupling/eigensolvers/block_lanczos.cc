@@ -178,7 +178,7 @@ void BlockLanczos::set_next(const VectorXd &scale)
     next_.transform(F);
     M_next_.transform(F);
     E_ = (root.asDiagonal() * U.transpose() * size.asDiagonal() * E_).eval();
-    // of the same eigenvalue, from which once is enough: 1e-16 / 1e-6 is left, the break-down
+    // the same eigenvalue, above which one pass is sufficient: rounding is then at most 1e-16 / 1e-6
     constexpr double well_apart = 1e-6;
     if (rank == 0 || (dropped == 0 && lambda(0) > well_apart))
       break;

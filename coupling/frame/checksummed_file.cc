@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-constexpr std::size_t head_size = 512; // at which HDF5 searches its own header, in addition to the first byte
+constexpr std::size_t head_size = 512; // HDF5 searches its header here, and at byte 0
 
 std::string head_of(const std::string &title, const std::string &hash)
 {

@@ -212,7 +212,7 @@ double MachineParts::switch_guard(const PlacedSwitch &own, const LocalState &sta
     return state.t - history[own.history + due_slot];
   const double side = history[own.history + side_slot];
   if (phase(own) == SwitchPhase::watches && side == 0.)
-    return -1.; // not past what rises
+    return -1.; // a rising one is not past it
   const double past = watched_value(own, state) - own.request.level;
   if (phase(own) == SwitchPhase::watches)
     return past;

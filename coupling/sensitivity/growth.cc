@@ -77,7 +77,7 @@ std::vector<std::string> Growth::warnings() const
     const std::string grown    = most.early > 0. ? "; since the first tenth of the run it grew by a factor of " +
                                                     short_text(most.ratio / most.early, 2)
                                                  : "";
-    constexpr double  believed = 0.1; // of its way, up to which first order is believed
+    constexpr double  believed = 0.1; // share of the range up to which first order is accepted
     sentences.push_back(
         "1 % of " + twins_[k].key + " would move " + machine_.coordinate_name(int(most.coordinate)) + " at t = " +
         short_text(most.t) + " s by " + short_text(one_percent * most.ratio, 2) + " times its total travel" + grown +

@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double shift = 1e-7; ///< of the size of an element, by which its measures are moved
+constexpr double shift = 1e-7; ///< step of its measures, relative to the size of an element
 
 /// (plus - minus)/2 step as a sparse matrix; empty if it is zero.
 Eigen::SparseMatrix<double> quotient(const Eigen::SparseMatrix<double> &minus, const Eigen::SparseMatrix<double> &plus,
@@ -406,7 +406,7 @@ void MotionLinearisation::bend_joints(const MotionState &state, VectorXd LocalSt
     const auto way = [&](const ConstraintBlock &block)
     {
       const double     size = block.size > 0. ? block.size : 1.;
-      constexpr double bend = 1e-6; // of the size of a joint, by which its measures are moved
+      constexpr double bend = 1e-6; // step of its measures, relative to the size of a joint
       return bend * (of_u ? size : std::max(size, std::abs((state.local.*moved)[block.first_measure + j])));
     };
     const auto move = [&](double sign)

@@ -24,7 +24,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double little    = 0.02; ///< of their step, over which rates in time are taken
+constexpr double little    = 0.02; ///< of their step: increment of quotients in time
 constexpr double same_time = 1e-9; ///< of the run's length: what locating two events leaves of one
 
 /// Second pass over the run, with its derivatives.
@@ -209,7 +209,7 @@ RowVectorXd Passage::event_time_derivatives(int guard, const MotionState &state,
   }
   const double moves = std::abs(guard_at(steps_.step()) - guard_at(-steps_.step())) +
                        std::abs(guard_at(steps_.step()) + guard_at(-steps_.step()));
-  constexpr double touching = 1e-4; // of what a guard moves in a step, its rate: it touches its zero only
+  constexpr double touching = 1e-4; // rate of a guard, over its change in a step: it only touches zero
   if (!(std::abs(rate) * steps_.step() > touching * moves))
   {
     const ActiveGuard  active = machine_.events().guard(guard);

@@ -138,7 +138,7 @@ VariationalSteps::VariationalSteps(VariationalEquation &equation, double first, 
 void VariationalSteps::look_along(const SmoothPiece &piece)
 {
   std::vector<MotionState> passed;
-  constexpr std::size_t    looks           = 7;  // at a piece at least, for what acts on it
+  constexpr std::size_t    looks           = 7;  // at least, in each piece
   constexpr std::size_t    nodes_of_a_look = 20; // a term that is zero at all looks acts for fewer nodes
   const std::size_t        last = piece.nodes.size() - 1, n = std::max(looks, last / nodes_of_a_look);
   for (std::size_t i = 0; i <= n; ++i)
@@ -292,7 +292,7 @@ bool VariationalSteps::try_step(double to)
     stage_state_.t = i == n_stages - 1 ? to : from + at_shares[i] * H;
     reader_.read(0.25 * H, stage_state_);
     equation_.linearisation().complete(stage_state_);
-    constexpr double time_share = 0.01; // of a step, over which rates by the time itself are taken
+    constexpr double time_share = 0.01; // of a step: increment of quotients in time
     equation_.linearisation().linearise(stage_state_, stage_at_, shifted ? time_share * H : 0.);
     if (leaves_ && i == middle)
     {

@@ -188,7 +188,7 @@ double SignalExtremes::range(std::size_t signal) const
   for (std::size_t i = 0; i < signals_.size(); ++i)
     if (like_[i] == like_[signal])
       widest = std::max(widest, own(i));
-  constexpr double at_rest  = 1e-6;  // of what others of its unit range over: a signal that moves less does not move
+  constexpr double at_rest  = 1e-6;  // share of the range of signals in its unit: a smaller range is no motion
   constexpr double rounding = 1e-11; // of a value: fourth differences of its rounding are epsilon times that
   return std::max({own(signal), at_rest * widest, rounding * value});
 }
@@ -293,7 +293,7 @@ void SignalExtremes::search(const Sought &sought, int middle)
   for (int k = 0; k < 8 && maximum(p[0], p[1], p[2], top); ++k)
   {
     if (top.t < samples_[begin_].t)
-      return; // in the previous step, where it was searched
+      return; // in the previous step, already searched
     // A peak that seems to be outside is searched at the end, from inside.
     if (top.t >= p[2].t)
       top.t = 0.25 * p[1].t + 0.75 * p[2].t;

@@ -128,7 +128,7 @@ void draw_skin(CadBody &part, const CadModel &model)
     {
       TriangleSurface surface = surface_of(solid.faces, model.unit);
       turn_outwards(surface);
-      // of the volume, by a skin of coarse triangles, which cut corners: an open skin encloses anything
+      // share of the volume inside a coarse skin, which cuts corners; an open skin encloses any volume
       constexpr double enclosed_share = 0.5;
       const bool closed = unmatched_edges(surface) == 0 && enclosed_volume(surface) > enclosed_share * solid.volume;
       if (!closed)

@@ -74,7 +74,7 @@ private:
   enum Mode
   {
     follows, ///< the profile
-    rests,   ///< until it is started
+    rests,   ///< before its start
     ramps    ///< by a command
   };
   using Pieces = Profile::Piece[Profile::most_pieces];

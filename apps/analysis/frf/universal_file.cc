@@ -19,7 +19,7 @@ namespace
 struct DataSet
 {
   std::string              file, kind;
-  int                      line = 0; ///< in the file, at which its records begin
+  int                      line = 0; ///< line in the file at which its records begin
   std::vector<std::string> records;
 
   [[noreturn]] void refuse(std::size_t record, const std::string &reason) const
@@ -104,7 +104,7 @@ int whole(double number)
   return number >= 0. && number <= 1e6 && number == std::floor(number) ? int(number) : -1;
 }
 
-/// From the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
+/// Number of time derivatives, from the type of the ordinate's numerator: 8 displacement, 11 velocity, 12 acceleration.
 int derivatives_of(int data_type)
 {
   return data_type == 8 ? 0 : data_type == 11 ? 1 : data_type == 12 ? 2 : -1;

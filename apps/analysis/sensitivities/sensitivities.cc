@@ -127,7 +127,7 @@ public:
   }
   void after_motion(RunInProgress &run) override
   {
-    PerturbedScenes twins = std::move(twins_); // two machines for each key, which only this needs
+    PerturbedScenes twins = std::move(twins_); // two machines per key, used only here
     if (!run.result.run->failure.empty() || run.result.run->interrupted)
       return;
     const std::clock_t begin = std::clock();

@@ -16,7 +16,7 @@ constexpr std::size_t most_charts = 8, most_bars = 10, most_named = 5;
 constexpr double      bar_half  = 0.3;  ///< height, of the place a bar has
 constexpr double      no_change = 1e-9; ///< [%] that is rounding
 
-/// Keys of an output, that with the largest change by 1 % first; those without any are left out.
+/// Keys of an output with a derivative, the one with the largest change by 1 % first.
 std::vector<Eigen::Index> by_influence(const SensitivityResult &result, const SensitivityOutput &output)
 {
   std::vector<Eigen::Index> order;

@@ -36,7 +36,7 @@ double ringing_begin(const RunResult &run, const Stage &last)
 /// Samples at equal times; rows off the grid, as at events, are omitted.
 Eigen::MatrixXd samples_of(const HistoryRows &rows, double output_step, Ringing &ringing)
 {
-  constexpr double most_samples = 300; // of the pencil, whose cost grows with their cube
+  constexpr double most_samples = 300; // samples in the pencil; the cost grows with their cube
   const double     every        = std::max(1., std::floor((ringing.end - ringing.begin) / output_step / most_samples));
   std::vector<std::vector<double>> taken(ringing.signals.size());
   ringing.step = every * output_step;

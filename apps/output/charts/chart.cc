@@ -224,7 +224,7 @@ bool is_near(const Chart &chart, const Curve &curve, std::size_t i)
   return !all([&](double x) { return x < chart.x.begin; }) && !all([&](double x) { return x > chart.x.end; });
 }
 
-/// The line as a path; of long curves per column of pixels at most four points in the order in which they occur.
+/// The line as an SVG path; long curves are reduced to at most four points per column of pixels, in their order.
 std::string line_path(const Chart &chart, const Curve &curve, const Area &area)
 {
   const auto drawn = [&](std::size_t i)

@@ -256,7 +256,7 @@ void OwnFolder::keep_list(const std::set<std::string> &names)
     write_file(path_ / list_name, text);
     names_ = names;
   }
-  catch (const coupling::WriteFailure &) // the longer list is right, too: what it names is gone
+  catch (const coupling::WriteFailure &) // the old list is valid too: it also names deleted files
   {
   }
 }

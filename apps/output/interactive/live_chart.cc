@@ -77,7 +77,7 @@ void add_curves(Json &data, const Chart &chart)
     seen.push_back({"", {}, part(curve.y, first, last)});
   const std::vector<double> x              = part(curves.front().x, first, last);
   constexpr std::size_t     most_rows      = 2000; // of all curves: two for each pixel of a chart
-  constexpr std::size_t     fewest_buckets = 250;  // of each curve, however many there are
+  constexpr std::size_t     fewest_buckets = 250;  // for each curve, for any number of curves
   const std::size_t         buckets        = std::max(fewest_buckets, most_rows / (2 * curves.size() + 1));
   const auto                rows           = telling_rows(x, seen, chart.marks, buckets);
   data["x"]                                = base64(chosen(curves.front().x, rows, first));

@@ -292,7 +292,7 @@ void write_coupled_modes(OwnFolder &folder, const Result &result, std::vector<st
   folder.write("coupled_modes.pvd", collection.document());
 }
 
-/// For the main peak, or without one the start of the motion.
+/// View of the main peak or, if there is none, of the start of the motion.
 ViewMacro macro_of(const Result &result)
 {
   const coupling::RunResult &run = *result.run;

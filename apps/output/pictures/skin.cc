@@ -40,7 +40,8 @@ std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
   return planes;
 }
 
-/// Number of the group of every point, numbered as they are met: points in one cell of a grid on the same planes.
+/// Group number of every point, in order of first occurrence: points in one cell of a grid and on the same planes form
+/// a group.
 std::vector<int> groups_of(const Skin &skin, double edge)
 {
   using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;

@@ -24,7 +24,7 @@ std::string with_unit(const std::string &name, const std::string &unit)
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-/// The axis with room about the values; of those that are all but one, a thousandth of it.
+/// The axis with a margin around the values; its span is at least a thousandth of the largest value.
 ChartAxis axis_about(const std::string &label, double low, double high)
 {
   // span of values, of their size: rounding of a constant value fills no chart
@@ -301,7 +301,7 @@ Chart basins_chart(const BasinMap &map)
       for (end = i + 1; end < plane.points && basins.motion(end, j) == motion; ++end)
       {
       }
-      constexpr double cell_overlap = 0.05; // of a cell, over which the next one is drawn: no gaps
+      constexpr double cell_overlap = 0.05; // share of a cell under the next one: no gaps
       if (motion > 0)
         chart.panels[0].tiles.push_back({plane.x_begin + i * width, plane.x_begin + (end + cell_overlap) * width,
                                          plane.y_begin + j * height, plane.y_begin + (j + 1 + cell_overlap) * height,

@@ -48,7 +48,7 @@ struct ModelFacts
 /// What the user requested.
 struct Request
 {
-  std::string                         file; ///< of the scene, as it was given
+  std::string                         file; ///< the scene file, as given
   std::vector<std::string>            set;  ///< scene keys overridden on the command line
   std::optional<coupling::RunOptions> run;  ///< of a run
   coupling::GeometricStiffness        geometric = coupling::GeometricStiffness::included; ///< of its modes

@@ -152,7 +152,7 @@ private:
   Warnings          warnings_;
 
   const std::vector<Key> *keys_ = nullptr; ///< null: any key may be requested
-  bool                    open_ = false;   ///< in addition to `keys` other keys are allowed, which are names
+  bool                    open_ = false;   ///< keys other than `keys` are allowed: names
 };
 
 } // namespace gestell::apps

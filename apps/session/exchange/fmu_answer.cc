@@ -118,7 +118,8 @@ bool may_be_file(const Key &key)
          std::find(key.others.begin(), key.others.end(), Key::Form::file) != key.others.end();
 }
 
-/// Files that keys of a table name go with the scene; the keys then name them there.  Any other text stays what it is.
+/// Adds the files that keys of a table name to the archive, and makes the keys name them there. Other text is not
+/// changed.
 void take_files(SceneNode &table, const std::vector<Key> &keys, std::map<std::string, std::string> &files)
 {
   for (auto &[name, value] : table.entries)
@@ -224,7 +225,7 @@ std::string without(std::string text, const std::string &part)
 
 FmuDescription described(const FmuModel &model)
 {
-  constexpr double steps  = 100.; ///< of a run between which it communicates, about
+  constexpr double steps  = 100.; ///< about this number of communication steps in a run
   const Scene     &scene  = model.scene();
   const auto      &run    = scene.run.options;
   const double     h      = run.method.step;

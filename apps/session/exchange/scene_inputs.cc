@@ -46,7 +46,7 @@ void add_body_places(const BodyRequest &body, std::vector<InputPlace> &places)
                       from + ", about = [" + exact_text(x) + ", " + exact_text(y) + ", " + exact_text(z) + "]"});
 }
 
-/// For the frame any name of this form: names of interfaces are checked by their reader.
+/// Places of forces. For the frame any name of this form is accepted: the reader of interfaces checks it.
 std::vector<InputPlace> force_places(const Scene &scene, const std::string &requested)
 {
   std::vector<InputPlace> places;

@@ -16,7 +16,7 @@ namespace gestell::apps
 
 namespace
 {
-constexpr double share = 1e-6; ///< of a value, by which it is varied: rounding and curvature of laws are 1e-9 then
+constexpr double share = 1e-6; ///< relative change of a value: rounding and curvature of laws are then 1e-9
 
 [[noreturn]] void refuse(const std::string &key, const std::string &what)
 {

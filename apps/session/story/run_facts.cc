@@ -51,7 +51,7 @@ class EventsOfRun
 public:
   explicit EventsOfRun(const coupling::RunResult &run) : run_(run), rows_(run) {}
 
-  /// Null where the motion there is not known.
+  /// Null if the motion there is unknown.
   const coupling::EventValues *at(std::size_t e) const
   {
     if (e >= run_.event_values.size() || rows_.size() < 2)
@@ -102,7 +102,7 @@ const std::vector<coupling::KeptState> *states_about(const std::vector<coupling:
                                                      const coupling::RunResult &run, std::size_t s, bool largest)
 {
   const auto &around = run.states.around;
-  const auto  wanted = swing_extremes(signals, 1); // all of them; those kept are the first ones
+  const auto  wanted = swing_extremes(signals, 1); // all of them; the stored ones come first
   for (std::size_t i = 0; i < std::min(wanted.size(), around.size()); ++i)
     if (wanted[i].signal == int(s) && wanted[i].largest == largest)
       return &around[i];

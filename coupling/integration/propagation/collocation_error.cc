@@ -135,7 +135,7 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   reach(end);
   grow_scale(end.u, end.v, table.h);
   estimate(table);
-  constexpr int steps_of_way = 16; // between two evaluations of way(), each of which costs a few products
+  constexpr int steps_of_way = 16; // between two calls of way(), each a few products
   // way() costs a pass over the modes: it is evaluated if it may save the step, else from time to time.
   if (context_.error_tolerance == 0. || (error_ <= context_.error_tolerance && age_of_way_++ % steps_of_way != 0))
     return;
@@ -163,7 +163,7 @@ void CollocationStep::reach(const LocalState &end)
 void CollocationStep::estimate(const StepTable &table)
 {
   const bool       expected   = is_expected(table.h);
-  constexpr double least_part = 1e-6; // of the motion as a whole, below which a measure does not count for less
+  constexpr double least_part = 1e-6; // of the whole motion: least scale of a measure
   const double     way =
       std::max({context_.farthest, reached_.way, expected ? expected_.way : 0., least_part * context_.loads_way});
   const double least = least_part * std::max(way, context_.loads_way);

@@ -112,7 +112,7 @@ public:
   void exchange(StateArchive &archive);
 
 private:
-  static constexpr double unseen_contraction = 1.;    ///< of Newton before it is measured: no assumption
+  static constexpr double unseen_contraction = 1.;    ///< assumed before it is measured
   static constexpr double best_contraction   = 1e-2;  ///< assumed at best for later steps
   static constexpr double good_contraction   = 0.05;  ///< of Newton's corrections: the matrix for G is kept
   static constexpr double turned_little      = 1e-13; ///< correction that changes directions by no more than rounding

@@ -33,7 +33,7 @@ struct SaddleMatrix::Factor
     klu_defaults(&common);
     common.btf   = 0;  // one block: a mechanism of several parts needs no special case
     common.scale = -1; // see scale()
-    // of the diagonal, where it is not that much smaller than the column: fill against four digits
+    // least ratio of a diagonal pivot to the largest entry of its column: less fill, at a loss of up to four digits
     constexpr double pivot_preference = 1e-4;
     common.tol                        = pivot_preference;
   }

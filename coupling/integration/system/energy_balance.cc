@@ -115,7 +115,7 @@ void EnergyBalance::step(const TimeIntegrator &integrator, const PowerRule &rule
     const Power before = work_;
     integrate(integrator, panels);
     const double     change    = std::abs(work_.input - before.input) + std::abs(work_.dissipated - before.dissipated);
-    constexpr double converged = 0.1; // of what is open: what twice as many panels change
+    constexpr double converged = 0.1; // share of the error: change by twice as many panels
     if (change < converged * open())
       return; // the remaining error is that of the method
   }

@@ -58,7 +58,7 @@ Eigen::VectorXd by_degree(const Modes &modes, const ReducedModel &reduced, const
   // cost of the reduction (docs/theory/mesh_error.md): some 15 CPU s for thin walls, whose bending stresses do not
   // show, and 3 s for bodies, for which stresses suffice.
   constexpr double most_of_walls = 4e5, most_of_bodies = 6e4;
-  constexpr double bytes_per_cell = 1e5; // of the matrices, while they are summed up
+  constexpr double bytes_per_cell = 1e5; // of the matrices, during assembly
   if (n > (thin_walls ? most_of_walls : most_of_bodies) ||
       2. * bytes_per_cell * mesh_error.mesh().n_cells() > available)
     return {};

@@ -99,7 +99,7 @@ void EnergyCheck::finish(RunOutcome &outcome)
   const std::string words = this->words(verdict);
   if (outcome.failure.empty() && verdict == EnergyGuard::Verdict::no_motion && !forced_)
     outcome.stop(energy_finding, "", words);
-  else if (outcome.end_id != energy_finding) // with which verify() may have ended the run
+  else if (outcome.end_id != energy_finding) // verify() may have ended the run with it
     outcome.warn(energy_finding, "", words);
 }
 

@@ -129,7 +129,7 @@ void ForceBandwidthCheck::take_modes(const ReducedFrame &frame)
 
   shapes_ = w.transpose() * Phi * model.square().inverse().matrix().asDiagonal();
   for (MatrixXd *load : {&by_measures_, &by_loads_, &by_motion_, &by_rates_})
-    if (load->rows() > 0) // of a machine whose only forces are base springs, by_measures_ has no columns
+    if (load->rows() > 0) // without forces except base springs by_measures_ has no columns
       *load = (Phi.transpose() * *load).eval();
 
   const ArrayXd zeta = (Phi.transpose() * frame.B * Phi).diagonal().array() / (2. * model);
