@@ -54,7 +54,7 @@ std::string with_point(double value)
   return text;
 }
 
-/// In the scene; names of parameters have no dots.
+/// Key of the parameter in the scene; names in [parameters] have no dots.
 std::string key_of(const FmuVariable &parameter)
 {
   return (parameter.name.find('.') == std::string::npos ? "parameters." : "") + parameter.name;

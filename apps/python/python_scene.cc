@@ -273,7 +273,7 @@ std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const apps::Wat
   return result;
 }
 
-/// With signals of the same name for paths, "slide.displacement", that the scene has none for.
+/// The scene with additional signals for paths such as "slide.displacement", named by their path.
 Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
 {
   Scene                    scene = this->scene();

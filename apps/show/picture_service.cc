@@ -253,7 +253,7 @@ public:
     {
       const Parts parts = read_parts(frame);
       enclose(parts, box);
-      // of the frame; of a mode, which has no size, of all that moves
+      // of the frame only; for a mode, whose size is arbitrary, of all parts
       most = std::max(most, largest_displacement(series.swings ? parts : Parts{parts.front()}));
     }
     if (series.rests)

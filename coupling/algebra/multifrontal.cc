@@ -88,7 +88,7 @@ public:
 
   ptrdiff_t contribution_size(int s) const { return ptrdiff_t(below(s)) * below(s); }
 
-  /// Most numbers that lie on the stack at a time: what waits, and the contribution in the making above it.
+  /// Largest number of values on the stack: waiting contributions and the new one above them.
   ptrdiff_t stack_size() const
   {
     ptrdiff_t              now = 0, most = 1;

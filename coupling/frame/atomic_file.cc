@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr const char *unfinished = "unfinished-"; // prefix of the temporary names
-/// an hour: what is older was left by a process that was killed
+/// one hour: older files are from a process that was killed
 constexpr auto writing = std::chrono::hours(1);
 
 std::string name_beside(const std::string &path)

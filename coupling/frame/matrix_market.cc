@@ -281,7 +281,7 @@ Matrix read_matrix_market(const std::string &file, std::int64_t known_size)
 namespace
 {
 
-/// A file with its head line and remark; ends with what it could not write.
+/// A file with head line and remark; finish() reports write errors.
 class Output
 {
 public:

@@ -25,7 +25,7 @@ std::string text_of(const std::filesystem::path &path)
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// In which a file names others.
+/// Language of the references to other files.
 enum class Language
 {
   none,

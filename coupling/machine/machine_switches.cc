@@ -221,7 +221,7 @@ double MachineParts::switch_guard(const PlacedSwitch &own, const LocalState &sta
   return past - side * own.request.hysteresis;
 }
 
-/// Passes what it waited for: the crossing, the delay, the way back.
+/// Executes the event of the switch: crossing, end of the delay, or return.
 void MachineParts::throw_switch(int index, const LocalState &state)
 {
   const PlacedSwitch &own  = switches[index];

@@ -58,7 +58,7 @@ struct Share
   Eigen::Index other;
 };
 
-/// Both roots of s^2 + b s + square, the vibrating one once.
+/// Both roots of s^2 + b s + square.
 std::array<Complex, 2> roots(double b, double square)
 {
   const Complex root = std::sqrt(Complex(0.25 * b * b - square));
@@ -154,7 +154,7 @@ Eigen::Index take_nearest(const DenseModes &modes, double omega, std::vector<cha
 
 } // namespace
 
-/// In the state (Omega y, y'), as large as the highest frequency.
+/// Roots of the damped system, from the state (Omega y, y'), whose entries are as large as the highest frequency.
 Eigen::VectorXcd damped_roots(const DenseModes &modes, const Eigen::MatrixXd &C, const Eigen::MatrixXd &B)
 {
   require_finite_damping(modes, B);

@@ -287,7 +287,7 @@ struct Drives
   std::vector<int> lags; ///< virtual coordinates of active elements; others only decay with their own constants
 };
 
-/// For a motion that starts here.
+/// Whether an element sticks in a motion that starts here.
 bool sticks(const mechanism::Element &element, const mechanism::LocalMotion &motion)
 {
   double rate;
@@ -371,7 +371,8 @@ Eigen::MatrixXd state_matrix(const Linear &linear, const Eigen::VectorXd &omega,
   return A;
 }
 
-/// The coordinate that a solution (y', x) moves most: by its kinetic energy, or without any the lag.
+/// The coordinate that a solution (y', x) moves most, by kinetic energy; if it has none, the virtual coordinate with
+/// the largest amplitude.
 std::string moved_most(const Machine &machine, const std::vector<int> &lags, const Eigen::MatrixXd &M,
                        const Eigen::MatrixXd &V, const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
 {

@@ -124,7 +124,7 @@ private:
     return next;
   }
 
-  /// With the frame undeformed.
+  /// The assembled state with the frame undeformed.
   InitialState relaxed(InitialState state, double x)
   {
     state.q.head(machine_.model().n_frame()).setZero();
@@ -134,7 +134,7 @@ private:
     return state;
   }
 
-  /// From the start to the first position, as the machine would be moved.
+  /// Moves the machine from its start to the first position in steps.
   Position walk_to_first(const InitialState &start)
   {
     Position last{start, {}};
@@ -159,7 +159,7 @@ private:
     return last;
   }
 
-  /// In steps that keep a linkage on its branch; where that way is barred, at once.
+  /// Assembles in steps, which keep a linkage on its branch, or directly if an obstacle prevents that.
   InitialState assembled(double x, const Position &from)
   {
     // [rad] of a step on the way to a position: 5 degrees, in which Newton's method follows joints

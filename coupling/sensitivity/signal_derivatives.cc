@@ -166,7 +166,7 @@ Course SignalDerivatives::course(const MotionState &state, double way)
   return found;
 }
 
-/// On the branches of here.
+/// The motion after the time `by`, on the present branches.
 MotionState SignalDerivatives::moved(const MotionState &state, const Course &course, double by)
 {
   MotionState there = state;

@@ -123,7 +123,7 @@ void VariationalEquation::find_loads(const Linearised &at, const MotionColumns &
     }
 }
 
-/// columns.a = A^-1 f; of small systems by A^-1 B and A^-1 C, for few parameters have loads r.
+/// columns.a = A^-1 f; for small systems by A^-1 B and A^-1 C, since few parameters change loads r.
 void VariationalEquation::answer_loads(const Base &base, const Linearised &at, MotionColumns &columns)
 {
   if (base.inverse.size() == 0)

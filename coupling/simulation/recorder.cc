@@ -240,7 +240,7 @@ void Recorder::rows()
   }
 }
 
-/// At t in the last step, where evaluate() was last.
+/// Energy at t in the last evaluated step.
 EnergySummary Recorder::energy_inside(double t)
 {
   between_.t = t;
@@ -256,7 +256,7 @@ void Recorder::row(double t, const SignalSample &sample, const EnergySummary &en
     result_.rows.insert(result_.rows.end(), {energy.input, energy.stored, energy.dissipated});
 }
 
-/// On the grid, and for some steps after an event on a much finer one that shows ringing.
+/// Saves pictures on the grid and, for some steps after an event, on a much finer grid that shows ringing.
 void Recorder::pictures()
 {
   if (!(picture_step_ > 0.))

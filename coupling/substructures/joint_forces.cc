@@ -77,7 +77,7 @@ fem::FrameOutput rod_force(const FrameJoint &joint, const JointSpring &spring, c
   return output;
 }
 
-/// Weights of the force that presses the joint: what acts on the second part away from the first.
+/// Weights of the force that presses the joint: the component that pushes the second part away from the first.
 Vector6 pressing(const FrameJoint &joint)
 {
   Vector6 weights   = Vector6::Zero();

@@ -142,7 +142,8 @@ Point with_cubics(const ReferenceCell::Points &points, int p, const std::vector<
   return point;
 }
 
-/// Exact for the stiffness of straight cells; of masses, whose cubics carry next to nothing, nearly so.
+/// Quadrature, exact for the stiffness of straight cells and nearly exact for the mass, where cubic functions
+/// contribute little.
 std::vector<Point> rule(CellKind kind, const std::vector<Local> &functions)
 {
   const ReferenceCell::Points &finer = reference_cell(kind).finer;

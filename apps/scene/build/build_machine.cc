@@ -326,7 +326,7 @@ bool is_motion_of_interface(const std::string &path)
          std::regex_match(path.substr(last + 1, 32), motion);
 }
 
-/// For a motion that an interface of the frame does not have.
+/// Refuses a motion that an interface of the frame does not have.
 void require_motion(const coupling::Signal &signal, const std::string &path)
 {
   if (signal.on_q.empty() && signal.on_v.empty() && signal.on_a.empty() && is_motion_of_interface(path))

@@ -112,7 +112,7 @@ Eigen::Matrix3d resisted(const coupling::FrameOfParts &frame)
   return sum;
 }
 
-/// For frames from geometry.
+/// Whether a frame from geometry has supports.
 bool has_supports(const FrameRequest &frame)
 {
   return !frame.geometry.supports.empty() ||

@@ -120,7 +120,7 @@ MeasureRequest read_position_function(const SceneTable &table, const Names &name
   return measure;
 }
 
-/// Terms of one motion count together: of each marker the sum of weight * axis, of a measure of two places its weight.
+/// Whether all terms cancel: for each marker the sum of weight * axis, for a measure of two points its weight.
 static bool cancel(const std::vector<TermRequest> &terms)
 {
   constexpr double                                        rounding = 1e-14; // of factors that are written by decimals

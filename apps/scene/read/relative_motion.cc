@@ -20,7 +20,7 @@ const BodyRequest *leading_body(const BodyRequest *from, const BodyRequest *to, 
   return to && to->kind == kind ? to : nullptr;
 }
 
-/// Along a constant direction: of bodies as such, or of points on them, which move by their rotation too.
+/// Displacement along a constant direction, of bodies or of points on them, which also move by rotation.
 RelativeMotion displacement(const PlaceRequest &from, const PlaceRequest &to, const Vector3 &direction)
 {
   if (!from.at && !to.at)

@@ -290,7 +290,7 @@ void Bdf::multistep(double t)
   }
 }
 
-/// By extrapolation, one order above that of the first points.
+/// Predicts by extrapolation, one order higher than that of the first points.
 void Bdf::predict(Eigen::VectorXd Point::*x, Eigen::VectorXd Point::*rate, Eigen::VectorXd &to) const
 {
   if (n_past_ >= 3)

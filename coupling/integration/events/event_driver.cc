@@ -236,7 +236,7 @@ bool EventDriver::far_from_zero() const
   return true;
 }
 
-/// In parts, if the phase of the motion advances far within the step.
+/// Finds the first crossing; searches the step in parts if the phase of the motion advances far within it.
 bool EventDriver::first_crossing(Crossing &first)
 {
   const int n = system_.events().n_guards();

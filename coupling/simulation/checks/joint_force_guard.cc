@@ -34,7 +34,7 @@ JointForceGuard::JointForceGuard(const Machine &machine, const TimeIntegrator &i
   find_inertias();
 }
 
-/// For each coordinate the measure of a joint that is this coordinate alone.
+/// Finds for each coordinate the measure of a joint that equals this coordinate.
 void JointForceGuard::find_inertias()
 {
   const auto &W = machine_.forces().directions();

@@ -317,7 +317,7 @@ std::string StabilityGuard::message_of(const ModeAccuracy &worst) const
   return text;
 }
 
-/// For methods whose modes are coupled.
+/// Whether the motion grows; for methods that couple modes.
 bool StabilityGuard::motion_grows(double h) const
 {
   const auto weights = method_of(options_).growing_weights(options_);

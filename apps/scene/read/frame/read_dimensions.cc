@@ -57,7 +57,7 @@ std::vector<Assignment> assignments_of(const std::string &script)
   return all;
 }
 
-/// In the unit of the script.
+/// Value of a dimension in the unit of the script.
 double in_script(const SceneTable &dimensions, const std::string &name, double unit)
 {
   const Quantity quantity = dimensions.quantity(name);
