@@ -6,7 +6,6 @@
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/text/svg.h"
 #include "apps/output/values/fmu_description.h"
-#include "apps/scene/file/scene_file.h"
 #include "apps/scene/scene.h"
 #include "apps/session/exchange/fmu_answer.h"
 #include "apps/session/exchange/scene_inputs.h"
@@ -197,8 +196,8 @@ int export_scene(const CommonOptions &options, const ExportOptions &requested)
 {
   library_of_fmus();
   ProgressLine progress(options.quiet);
-  SceneNode    root   = read_scene_file(options.input, options.overrides);
-  const Scene  plain  = read_scene(root, options.input, options.scripts);
+  Variant      scene  = Variant::of_file(options.input, options.overrides, options.scripts);
+  const Scene  plain  = scene.scene();
   const auto   file   = place_of_fmu(options, requested, plain);
   const auto   folder = std::filesystem::absolute(file).parent_path();
   require_writable(folder);
@@ -206,9 +205,9 @@ int export_scene(const CommonOptions &options, const ExportOptions &requested)
     OwnFolder(folder).require_free({file.filename().string()}, inputs_of(options));
   else
     require_archive(file);
-  add_scene_inputs(requested.inputs, plain, root);
-  Session         session(read_scene(root, options.input, options.scripts), options.overrides, {progress.callback()});
-  const FmuAnswer answer = fmu_of(root, session);
+  add_scene_inputs(requested.inputs, plain, scene.root);
+  Session         session(std::move(scene), {progress.callback()});
+  const FmuAnswer answer = fmu_of(session);
   progress.done();
   if (requested.fmu.empty())
     OwnFolder(folder).claim(file.filename().string());

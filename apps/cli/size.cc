@@ -12,6 +12,7 @@
 #include "apps/session/session.h"
 #include "apps/sizing/size_search.h"
 #include "apps/sizing/sized_scene.h"
+#include "coupling/frame/frame_cache.h"
 
 #include <iostream>
 #include <memory>
@@ -69,10 +70,10 @@ int size_scene(const CommonOptions &options, const SizeCommand &requested)
   prepare_folder(folder);
   const std::filesystem::path file = folder / sized_name;
   OwnFolder(folder).write(sized_name, sized_scene(scene, options.overrides, model.chosen, folder));
-  const double begin = cpu_now();
+  const double begin = coupling::cpu_time_without_cache();
   Session      sized(file.string(), {}, options.scripts, {{}, &interruption()});
   Result       result = complete_run(sized);
-  model.result.cpu_s += cpu_now() - begin;
+  model.result.cpu_s += coupling::cpu_time_without_cache() - begin;
   result.command       = "size";
   result.size          = model.result;
   const SizeRung &rung = model.result.ladder[model.result.chosen];

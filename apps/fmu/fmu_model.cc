@@ -2,10 +2,9 @@
 
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/file/scene_file.h"
-#include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
 #include "apps/scene/file/written_text.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/variant.h"
 #include "coupling/frame/reduced_frame_file.h"
 #include "fem/values/number_text.h"
 
@@ -99,11 +98,11 @@ FmuModel::FmuModel(const std::filesystem::path &folder)
 
 void FmuModel::build()
 {
-  SceneNode root = root_;
+  Variant variant{root_, (folder_ / "scene.toml").string()};
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     if (const FmuVariable &variable = interface_.parameters[i]; parameters_[i] != variable.start)
-      apply_override(root, key_of(variable) + "=" + with_point(parameters_[i]));
-  scene_ = read_scene(root, (folder_ / "scene.toml").string(), fem::Scripts::harmless);
+      variant.set(key_of(variable) + "=" + with_point(parameters_[i]));
+  scene_ = variant.scene();
   require_run(scene_);
   handles_ = scene_inputs(scene_);
   machine_.emplace(machine_at_hand(scene_));

@@ -4,7 +4,6 @@
 #include "apps/analysis/result_folder.h"
 #include "apps/output/folder_lock.h"
 #include "apps/scene/file/scene_file.h"
-#include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
 #include "apps/session/checkpoint/input_files.h"
 #include "apps/session/session.h"
@@ -29,17 +28,8 @@ struct Run::Parts
   std::vector<double>            times{};
 };
 
-struct Scene::Parts
+struct Scene::Parts : apps::Variant
 {
-  apps::SceneNode          root;
-  std::string              path;
-  std::vector<std::string> overrides{};
-
-  std::shared_ptr<apps::Session> session() const
-  {
-    return std::make_shared<apps::Session>(apps::read_scene(root, path, fem::Scripts::harmless), overrides,
-                                           apps::Watch{});
-  }
 };
 
 namespace
@@ -98,20 +88,19 @@ void Run::save(const std::string &folder) const
   apps::write_results(folder, parts_->result);
 }
 
-Scene::Scene(const std::string &file) : parts_(new Parts{apps::read_scene_file(file, {}), file}) {}
+Scene::Scene(const std::string &file) : parts_(new Parts{apps::Variant::of_file(file)}) {}
 
 Scene Scene::of_text(const std::string &text, const std::string &folder)
 {
   const fs::path path = (fs::absolute(folder) / "scene").lexically_normal();
   const auto     own  = apps::parse_toml_text(text, "scene", path.parent_path().string());
-  return Scene(std::shared_ptr<Parts>(new Parts{apps::with_extended(own, path.string()), path.string()}));
+  return Scene(std::shared_ptr<Parts>(new Parts{{apps::with_extended(own, path.string()), path.string()}}));
 }
 
 Scene &Scene::set(const std::string &key, const std::string &value)
 {
   auto changed = std::make_shared<Parts>(*parts_);
-  apps::apply_override(changed->root, key + "=" + value);
-  changed->overrides.push_back(key + "=" + value);
+  changed->set(key + "=" + value);
   parts_ = std::move(changed);
   return *this;
 }
@@ -126,7 +115,7 @@ Scene &Scene::set(const std::string &key, double value)
 
 Run Scene::run() const
 {
-  auto session = parts_->session();
+  auto session = std::make_shared<apps::Session>(*parts_);
   session->check_run();
   auto        parts = std::make_shared<Run::Parts>(Run::Parts{session, apps::complete_run(*session)});
   const auto &run   = *parts->result.run;
@@ -142,7 +131,7 @@ Run Scene::run() const
 
 Modes Scene::modes() const
 {
-  const apps::Result result = parts_->session()->modes();
+  const apps::Result result = apps::Session(*parts_).modes();
   Modes              modes;
   modes.coordinates = result.coordinate_names;
   for (const coupling::Mode &mode : result.coupled_modes)

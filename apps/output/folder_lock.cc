@@ -103,9 +103,6 @@ Holder holder_in(int file)
 
 constexpr const char *computes = "is computing results for this folder";
 
-/// Milliseconds that a process which has taken the lock has to write its name; on a full disk it never does.
-constexpr int most_waits = 200;
-
 } // namespace
 
 FolderLock::FolderLock(const fs::path &folder)
@@ -194,7 +191,8 @@ bool FolderLock::is_still_there() const
 void FolderLock::take(const std::string &doing, const std::string &way_out)
 {
   const short   type       = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
-  constexpr int most_tries = 1000; // while other processes create and remove the same folder
+  constexpr int most_tries = 1000; // while others make and remove the same folder
+  constexpr int most_waits = 200;  // [ms] to wait for the name of a new holder; on a full disk it never comes
   int           waits      = 0;
   for (int tries = 0; tries < most_tries; ++tries)
   {
@@ -217,9 +215,10 @@ void FolderLock::take(const std::string &doing, const std::string &way_out)
         {
           const Holder      holder  = holder_in(file_); // of several the last one
           const std::string process = lock.l_pid > 0 ? std::to_string(lock.l_pid) : holder.process;
-          if (process == holder.process || waits++ == most_waits)
-            refuse_held(reported_, process, process == holder.process ? holder.host : "",
-                        holder.doing.empty() ? computes : holder.doing, way_out);
+          const bool        named   = !process.empty() && process == holder.process;
+          if (named || lock.l_type == F_RDLCK || waits++ == most_waits)
+            refuse_held(reported_, process, named ? holder.host : "", holder.doing.empty() ? computes : holder.doing,
+                        way_out);
           usleep(1000); // its name is not written yet
         }
         close(file_);

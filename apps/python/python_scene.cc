@@ -8,12 +8,12 @@
 #include "apps/python/scene_values.h"
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/scene_summary.h"
+#include "apps/scene/file/extending_scene.h"
 #include "apps/scene/file/scene_file.h"
 #include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/toml_text.h"
-#include "apps/session/prepared_machine.h"
+#include "apps/session/reduced_frame_store.h"
 #include "apps/sizing/sized_scene.h"
-#include "apps/study/runs/reduced_frame_store.h"
 #include "coupling/plugin/mesh_service.h"
 #include "fem/values/nearest_name.h"
 
@@ -44,21 +44,12 @@ std::string folder_of_path(const std::string &path)
   return fs::path(path).parent_path().string();
 }
 
-std::vector<std::string> names_of(const SceneNode &table)
-{
-  std::vector<std::string> names;
-  for (const auto &entry : table.entries)
-    names.push_back(entry.first);
-  return names;
-}
-
 /// Anything else that a scene does not have is refused when it is read; a parameter would only go unused.
 void require_known_parameter(const SceneNode &root, const std::vector<std::string> &key, const Place &place)
 {
-  const SceneNode *parameters = root.find("parameters");
-  if (key.size() == 2 && key[0] == "parameters" && !(parameters && parameters->find(key[1])))
-    place.fail("the scene has no parameter '" + key[1] + "'" +
-               suggestion(key[1], parameters ? names_of(*parameters) : std::vector<std::string>()));
+  const auto all = apps::names_in(root.find("parameters"));
+  if (key.size() == 2 && key[0] == "parameters" && std::find(all.begin(), all.end(), key[1]) == all.end())
+    place.fail("the scene has no parameter '" + key[1] + "'" + suggestion(key[1], all));
 }
 
 /// Removes unselected signals, and output that the choice does not need.
@@ -66,14 +57,7 @@ void keep(Scene &scene, const RunChoice &choice)
 {
   coupling::RunOptions &run = scene.run.options;
   if (choice.signals)
-  {
-    const auto &kept = *choice.signals;
-    auto       &all  = scene.signals;
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [&](const apps::SignalRequest &signal)
-                             { return std::find(kept.begin(), kept.end(), signal.name) == kept.end(); }),
-              all.end());
-  }
+    apps::keep_signals(scene, *choice.signals);
   if (choice.lean || !choice.history)
   {
     run.picture_step = 0.;
@@ -107,7 +91,7 @@ std::shared_ptr<const coupling::ReducedFrame> shared_frame(const Scene &scene, c
   static apps::ReducedFrameStore *const shelf =
       new apps::ReducedFrameStore(true); // outlives what the interpreter ends last
   static std::mutex alone;
-  if (!apps::ReducedFrameStore::serves(scene))
+  if (!apps::on_reduced_frame(scene))
     return nullptr;
   const MakingFrame     once;
   const std::lock_guard lock(alone);
@@ -182,52 +166,53 @@ fem::FrameMatrices assembled(const Scene &scene, const coupling::Progress &progr
 
 PythonScene PythonScene::of_file(const std::string &path)
 {
-  return {apps::read_scene_file(path, {}), path};
+  return PythonScene(apps::Variant::of_file(path));
 }
 
 PythonScene PythonScene::of_text(const std::string &text, const std::string &folder)
 {
   const std::string path = path_in(folder);
-  return {apps::with_extended(apps::parse_toml_text(text, "scene", folder_of_path(path)), path), path};
+  return PythonScene({apps::with_extended(apps::parse_toml_text(text, "scene", folder_of_path(path)), path), path});
 }
 
 PythonScene PythonScene::of_values(const py::dict &values, const std::string &folder)
 {
   const std::string path = path_in(folder);
-  return {apps::with_extended(node_of(values, Place{"scene", 0}, folder_of_path(path)), path), path};
+  return PythonScene({apps::with_extended(node_of(values, Place{"scene", 0}, folder_of_path(path)), path), path});
 }
 
 void PythonScene::set(const std::string &key, py::handle value)
 {
   const Place     place{"scene[\"" + key + "\"]", 0};
   const SceneNode node = node_of(value, place, fs::current_path().string());
-  require_known_parameter(root_, apps::key_segments(key, place), place);
-  apps::apply_override(root_, key, node);
-  const std::string of_key = key + "=";
-  overrides_.erase(std::remove_if(overrides_.begin(), overrides_.end(),
-                                  [&](const std::string &set) { return set.compare(0, of_key.size(), of_key) == 0; }),
-                   overrides_.end());
-  overrides_.push_back(of_key + toml_of(node));
+  require_known_parameter(variant_.root, apps::key_segments(key, place), place);
+  apps::apply_override(variant_.root, key, node);
+  const std::string of_key  = key + "=";
+  auto             &changes = variant_.changes;
+  changes.erase(std::remove_if(changes.begin(), changes.end(),
+                               [&](const std::string &set) { return set.compare(0, of_key.size(), of_key) == 0; }),
+                changes.end());
+  changes.push_back(of_key + apps::written_value(node));
 }
 
 void PythonScene::add(const std::string &table, const py::dict &entries)
 {
   const Place     place{"scene", 0};
-  const SceneNode added = node_of(entries, place, folder_of_path(path_), table);
-  SceneNode       root  = root_;
+  const SceneNode added = node_of(entries, place, folder_of_path(variant_.path), table);
+  SceneNode       root  = variant_.root;
   for (const auto &[key, value] : added.entries)
     apps::apply_override(root, table + "." + apps::written_key(key), value);
-  root_ = std::move(root);
+  variant_.root = std::move(root);
 }
 
 py::object PythonScene::get(const std::string &key) const
 {
-  const SceneNode *node = &root_;
+  const SceneNode *node = &variant_.root;
   for (const std::string &segment : apps::key_segments(key, Place{"scene[\"" + key + "\"]", 0}))
   {
     const SceneNode *next = node->find(segment);
     if (!next)
-      throw py::key_error(key + suggestion(segment, names_of(*node)));
+      throw py::key_error(key + suggestion(segment, apps::names_in(node)));
     node = next;
   }
   return value_of(*node);
@@ -235,7 +220,7 @@ py::object PythonScene::get(const std::string &key) const
 
 py::object PythonScene::values() const
 {
-  return value_of(root_);
+  return value_of(variant_.root);
 }
 
 std::string PythonScene::name() const
@@ -266,8 +251,7 @@ std::vector<std::string> PythonScene::words() const
 std::shared_ptr<apps::Session> PythonScene::session(Scene scene, const apps::Watch &watch) const
 {
   const auto frame  = shared_frame(scene, apps::stoppable(watch.progress, watch.interruption));
-  auto       result = std::make_shared<apps::Session>(std::move(scene), overrides_, watch);
-  result->take_entries(root_);
+  auto       result = std::make_shared<apps::Session>(variant_, std::move(scene), watch);
   if (frame)
     result->use_frame(*frame);
   return result;
@@ -280,8 +264,8 @@ Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
   std::vector<std::string> known;
   for (const apps::SignalRequest &signal : scene.signals)
     known.push_back(signal.name);
-  SceneNode root  = root_;
-  bool      added = false;
+  apps::Variant other = variant_;
+  bool          added = false;
   for (const std::string &name : signals)
   {
     if (std::find(known.begin(), known.end(), name) != known.end())
@@ -292,10 +276,10 @@ Scene PythonScene::scene_with(const std::vector<std::string> &signals) const
     path.type  = SceneNode::Type::text;
     path.text  = name;
     path.place = Place{"signals", 0};
-    apps::apply_override(root, "output.signals." + apps::written_key(name), path);
+    apps::apply_override(other.root, "output.signals." + apps::written_key(name), path);
     added = true;
   }
-  return added ? apps::read_scene(root, path_, fem::Scripts::harmless) : scene;
+  return added ? other.scene() : scene;
 }
 
 std::shared_ptr<PythonResult> PythonScene::run(const RunChoice &choice) const
@@ -399,10 +383,7 @@ std::pair<apps::SizeResult, PythonScene> PythonScene::size(const SizeChoice &cho
         {
           PythonScene other = self;
           for (const auto &[key, value] : apps::sized_entries(scene, model))
-          {
-            apps::apply_override(other.root_, key + "=" + value);
-            other.overrides_.push_back(key + "=" + value);
-          }
+            other.variant_.set(key + "=" + value);
           return other;
         };
         apps::SizeOptions options;

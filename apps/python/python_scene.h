@@ -6,7 +6,7 @@
 #include "apps/output/values/state_space_model.h"
 #include "apps/python/python_frame.h"
 #include "apps/python/python_result.h"
-#include "apps/scene/file/scene_node.h"
+#include "apps/scene/variant.h"
 #include "apps/sizing/size_search.h"
 
 #include <pybind11/pybind11.h>
@@ -81,15 +81,13 @@ public:
                                         pybind11::object progress) const;
 
 private:
-  PythonScene(apps::SceneNode root, std::string path) : root_(std::move(root)), path_(std::move(path)) {}
+  explicit PythonScene(apps::Variant variant) : variant_(std::move(variant)) {}
 
-  apps::Scene                    scene() const { return apps::read_scene(root_, path_, fem::Scripts::harmless); }
+  apps::Scene                    scene() const { return variant_.scene(); }
   apps::Scene                    scene_with(const std::vector<std::string> &signals) const;
   std::shared_ptr<apps::Session> session(apps::Scene scene, const apps::Watch &watch) const;
 
-  apps::SceneNode          root_;
-  std::string              path_;      ///< of the file, or of one in its place
-  std::vector<std::string> overrides_; ///< "key=value" of keys that were set
+  apps::Variant variant_;
 };
 
 } // namespace gestell::python

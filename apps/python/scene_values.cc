@@ -1,7 +1,5 @@
 #include "apps/python/scene_values.h"
 
-#include "apps/scene/file/written_text.h"
-
 #include <cmath>
 
 namespace gestell::python
@@ -153,26 +151,6 @@ py::object value_of(const SceneNode &node)
     return py::float_(node.number);
   default:
     return py::str(node.text);
-  }
-}
-
-std::string toml_of(const SceneNode &node)
-{
-  std::string text;
-  switch (node.type)
-  {
-  case Type::table:
-    for (const auto &[key, value] : node.entries)
-      text += (text.empty() ? "" : ", ") + apps::written_key(key) + " = " + toml_of(value);
-    return "{ " + text + " }";
-  case Type::array:
-    for (const SceneNode &element : node.elements)
-      text += (text.empty() ? "" : ", ") + toml_of(element);
-    return '[' + text + ']';
-  case Type::text:
-    return apps::written_text(node.text);
-  default:
-    return node.text;
   }
 }
 

@@ -19,7 +19,4 @@ apps::SceneNode node_of(pybind11::handle value, const apps::Place &place, const 
 /// Converts a scene value to Python: dict, list, str, bool, int or float.
 pybind11::object value_of(const apps::SceneNode &node);
 
-/// A scene value in TOML syntax, for --set.
-std::string toml_of(const apps::SceneNode &node);
-
 } // namespace gestell::python

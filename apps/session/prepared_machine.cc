@@ -125,7 +125,7 @@ PreparedMachine on_full_frame(const Scene &scene, const coupling::Progress &prog
     constexpr int damped_modes = 60; // Modes damped in an unreduced frame with modal damping, at least.
     coupling::frame_service().add_modal_damping(frame, std::max(damped_modes, n_reduced), progress);
   }
-  return {build_machine(scene, std::move(frame)), std::move(companion), false, {}};
+  return {build_machine(scene, std::move(frame)), std::move(companion), {}};
 }
 
 PreparedMachine without_warnings(const Scene &scene, const coupling::Progress &progress)
@@ -134,14 +134,11 @@ PreparedMachine without_warnings(const Scene &scene, const coupling::Progress &p
   {
   case FramePath::none:
   case FramePath::dense:
-    return {build_machine(scene), {}, false, {}};
+    return {build_machine(scene), {}, {}};
   case FramePath::from_file:
-    return {build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file)), {}, false, {}};
+    return {build_machine(scene, coupling::read_reduced_frame(scene.frame.reduced_file)), {}, {}};
   case FramePath::reduce:
-  {
-    auto [frame, from_cache] = reduced_frame(scene, progress);
-    return {build_machine(scene, std::move(frame)), {}, from_cache, {}};
-  }
+    return {build_machine(scene, reduced_frame(scene, progress).frame), {}, {}};
   case FramePath::sparse:
     break;
   }
@@ -171,7 +168,7 @@ PreparedMachine in_modes(const Scene &scene, PreparedMachine physical)
   link->companion.resize(physical.small().size(), modes.V.cols());
   for (Eigen::Index j = 0; j < modes.V.cols(); ++j)
     link->companion.col(j) = sparse ? physical.project(modes.V.col(j)) : Eigen::VectorXd(modes.V.col(j));
-  PreparedMachine result{std::move(modes.machine), std::move(physical.companion), false, std::move(modes.notes)};
+  PreparedMachine result{std::move(modes.machine), std::move(physical.companion), std::move(modes.notes)};
   if (sparse)
     link->whole = std::move(physical.machine);
   else
@@ -192,10 +189,12 @@ void keep_stable_step(PreparedMachine &prepared, RunRequest &run)
     prepared.warnings.push_back(text);
 }
 
-PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress)
+namespace
 {
-  tell(progress, "frame");
-  PreparedMachine prepared = without_warnings(scene, progress);
+
+/// Adds superposition, if the scene requests it, and the warnings.
+PreparedMachine finished(const Scene &scene, PreparedMachine prepared, const coupling::Progress &progress)
+{
   if (scene.reduction.superposition)
   {
     tell(progress, "modes of the machine");
@@ -205,11 +204,15 @@ PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &pr
   return prepared;
 }
 
-PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame)
+} // namespace
+
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress,
+                                const coupling::ReducedFrame *on)
 {
-  PreparedMachine prepared{build_machine(scene, frame), {}, false, {}};
-  add_warnings(scene, prepared);
-  return prepared;
+  if (on)
+    return finished(scene, {build_machine(scene, *on), {}, {}}, progress);
+  tell(progress, "frame");
+  return finished(scene, without_warnings(scene, progress), progress);
 }
 
 Eigen::VectorXd PreparedMachine::project(const Eigen::VectorXd &state) const

@@ -36,7 +36,6 @@ struct PreparedMachine
   /// For an unreduced frame or a machine in modes: the same machine on the reduced frame or in its own coordinates,
   /// which is used for initial state, modes and pictures.
   std::optional<coupling::Machine> companion;
-  bool                             from_cache = false;
   std::vector<std::string>         warnings;
 
   const coupling::Machine &small() const { return companion ? *companion : machine; }
@@ -50,11 +49,10 @@ struct PreparedMachine
   Eigen::VectorXd project(const Eigen::VectorXd &state) const;
 };
 
-/// Makes the frame of the scene (or reads the reduced one from the cache) and builds the machine on it.
-PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {});
-
-/// The same on a given reduced frame.
-PreparedMachine prepare_machine_on(const Scene &scene, const coupling::ReducedFrame &frame);
+/// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
+/// @param on  a given reduced frame; null: none
+PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {},
+                                const coupling::ReducedFrame *on = nullptr);
 
 /// For a machine in modes: limits the step of central differences to a stable one, see the other keep_stable_step().
 void keep_stable_step(PreparedMachine &prepared, RunRequest &run);

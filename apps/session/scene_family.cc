@@ -2,7 +2,6 @@
 
 #include "apps/scene/file/scene_override.h"
 #include "apps/session/repeating_machine.h"
-#include "coupling/frame/frame_recipe.h"
 #include "coupling/frame/number_in_file.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -32,18 +31,7 @@ double split(const std::string &option, const std::string &text, std::string &un
   return value;
 }
 
-/// The frame as a machine needs it, without data for pictures and reports.
-std::shared_ptr<const coupling::ReducedFrame> plain(const coupling::ReducedFrame &frame)
-{
-  auto copy          = std::make_shared<coupling::ReducedFrame>(frame);
-  copy->points       = {};
-  copy->triangles    = {};
-  copy->displacement = {};
-  copy->stress       = {};
-  return copy;
-}
-
-/// Lowest frequency of the loads on the frame and on bodies [rad/s]; infinite if none oscillates.
+/// Of the loads on the frame and on bodies [rad/s]; infinite where none oscillates.
 double lowest_frequency(const Scene &scene)
 {
   double lowest = std::numeric_limits<double>::infinity();
@@ -89,27 +77,23 @@ void require_effect(const std::string &key)
 
 } // namespace
 
-void require_parameter(const SceneNode &root, const std::string &path, const std::string &key)
+void require_parameter(const Variant &file, const std::string &key)
 {
   require_effect(key);
   const std::string table = "parameters.";
   if (key.compare(0, table.size(), table) != 0)
     return;
   const std::string name = key.substr(table.size());
-  const SceneNode  *all  = root.find("parameters");
-  if (all && all->find(name))
+  const auto        all  = names_in(file.root.find("parameters"));
+  if (std::find(all.begin(), all.end(), name) != all.end())
     return;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; all && i < all->entries.size(); ++i)
-    names.push_back(all->entries[i].first);
-  throw std::invalid_argument("--along " + key + ": " + path + " has no parameter '" + name + "'" +
-                              suggestion(name, names));
+  throw std::invalid_argument("--along " + key + ": " + file.path + " has no parameter '" + name + "'" +
+                              suggestion(name, all));
 }
 
-SceneFamily::SceneFamily(SceneFileAt file, PreparedMachine &machine, const PeriodicRequest &request,
+SceneFamily::SceneFamily(Variant file, PreparedMachine &machine, const PeriodicRequest &request,
                          const coupling::PeriodicProblem &like)
-    : path_(std::move(file.path)), key_(request.along), root_(std::move(file.root)), scripts_(file.scripts),
-      request_(request), like_(like)
+    : file_(std::move(file)), key_(request.along), request_(request), like_(like)
 {
   if (request.from.empty() || request.to.empty())
     throw std::invalid_argument("--along " + key_ + ": give its ends, --from and --to");
@@ -123,25 +107,22 @@ SceneFamily::SceneFamily(SceneFileAt file, PreparedMachine &machine, const Perio
   if (from_ == to_)
     throw std::invalid_argument("--from and --to are both " + request.from + "; there is no way between them");
   const Scene first = scene_at(from_), last = last_scene();
-  if (frame_path(first) != FramePath::reduce && frame_path(first) != FramePath::from_file)
+  if (!on_reduced_frame(first))
     return;
-  if (frame_path(first) == FramePath::reduce &&
-      coupling::content_key(frame_origin(first).recipe) != coupling::content_key(frame_origin(last).recipe))
+  if (!same_frame(first, last))
     throw std::invalid_argument("--along " + key_ +
                                 ": this entry changes the frame itself, which would be meshed and "
                                 "reduced anew at each of some hundred values; follow an entry of the "
                                 "mechanism, or compute single values with --set " +
                                 key_ + "=...");
-  frame_ = plain(*machine.machine.model().reduced_frame());
+  frame_ = std::make_shared<coupling::ReducedFrame>(without_pictures(*machine.machine.model().reduced_frame()));
 }
 
 Scene SceneFamily::scene_at(double value) const
 {
   std::string text;
   append_exact(text, value);
-  SceneNode root = root_;
-  apply_override(root, key_ + '=' + (unit_.empty() ? text : '"' + text + ' ' + unit_ + '"'));
-  return read_scene(root, path_, scripts_);
+  return file_.with(key_ + '=' + (unit_.empty() ? text : '"' + text + ' ' + unit_ + '"')).scene();
 }
 
 Scene SceneFamily::last_scene() const
@@ -192,11 +173,7 @@ std::string SceneFamily::standstill(double within, double beyond) const
 
 std::shared_ptr<MachineMember> SceneFamily::member(double value) const
 {
-  auto member            = std::make_shared<MachineMember>();
-  member->scene          = std::make_unique<Scene>(scene_at(value));
-  member->prepared       = std::make_unique<PreparedMachine>(frame_ ? prepare_machine_on(*member->scene, *frame_)
-                                                                    : prepare_machine(*member->scene));
-  member->problem        = like_;
+  auto member = std::make_shared<MachineMember>(MachineMember{prepared_scene(scene_at(value), frame_.get()), like_});
   member->problem.system = &member->prepared->machine;
   if (!like_.period_is_unknown() && request_.period.empty())
     member->problem.period = like_.ratio * load_period(*member->scene, member->prepared->machine);

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "apps/scene/file/scene_node.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/variant.h"
 #include "apps/session/periodic_request.h"
-#include "apps/session/prepared_machine.h"
-#include "apps/session/sensitivity/perturbed_scenes.h"
+#include "apps/session/reduced_frame_store.h"
 #include "coupling/periodic/followed_equations.h"
 
 #include <memory>
@@ -14,26 +12,24 @@
 namespace gestell::apps
 {
 
-/// A machine at one value of a scene key.
-struct MachineMember
+/// A machine at one value of an entry of its scene.
+struct MachineMember : PreparedScene
 {
-  std::unique_ptr<Scene>           scene;
-  std::unique_ptr<PreparedMachine> prepared;
-  coupling::PeriodicProblem        problem;
+  coupling::PeriodicProblem problem;
 };
 
-/// Rejects a parameter that the scene does not have, because an override would only create an unused key, and keys that
-/// do not change the equations of motion, such as those of [run] and [output].
-/// @throws std::invalid_argument with the key, its role, and suitable keys
-void require_parameter(const SceneNode &root, const std::string &path, const std::string &key);
+/// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads;
+/// and entries that do not change the equations of motion, such as those of [run] and [output].
+/// @throws std::invalid_argument: which entry, what it is, and which serve
+void require_parameter(const Variant &file, const std::string &key);
 
 /// A scene at varying values of one key, on a frame that is reduced only once.
 class SceneFamily
 {
 public:
-  /// @throws std::invalid_argument if the limits are not numbers of one unit, the key is unknown, or the key changes
-  ///   the frame itself (with the cost of that)
-  SceneFamily(SceneFileAt file, PreparedMachine &machine, const PeriodicRequest &request,
+  /// @throws std::invalid_argument where the ends are no numbers of one unit, the key is unknown, or the entry changes
+  /// the frame itself, with what that would cost
+  SceneFamily(Variant file, PreparedMachine &machine, const PeriodicRequest &request,
               const coupling::PeriodicProblem &like);
 
   double             from() const { return from_; }
@@ -54,9 +50,8 @@ private:
   Scene scene_at(double value) const;
   Scene last_scene() const;
 
-  std::string                                   path_, key_, unit_;
-  SceneNode                                     root_; ///< of the file, with all overrides except that of the key
-  fem::Scripts                                  scripts_;
+  Variant                                       file_;
+  std::string                                   key_, unit_;
   PeriodicRequest                               request_;
   double                                        from_ = 0., to_ = 0.;
   std::shared_ptr<const coupling::ReducedFrame> frame_; ///< without pictures; null: the scene reduces none

@@ -4,9 +4,6 @@
 #include "apps/scene/build/build_machine.h"
 #include "apps/scene/build/damping_text.h"
 #include "apps/scene/build/result_window.h"
-#include "apps/scene/file/scene_file.h"
-#include "apps/scene/file/scene_override.h"
-#include "apps/scene/scene.h"
 #include "apps/session/backbone.h"
 #include "apps/session/basin_answer.h"
 #include "apps/session/joint_opening.h"
@@ -139,13 +136,17 @@ coupling::RunResult not_started(const coupling::RunOptions &run, const std::stri
 
 Session::Session(const std::string &path, const std::vector<std::string> &overrides, fem::Scripts scripts,
                  const Watch &watch)
-    : path_(path), overrides_(overrides), scripts_(scripts), scene_(read_scene(path, overrides, scripts)), watch_(watch)
+    : Session(Variant::of_file(path, overrides, scripts), watch)
 {
 }
 
-Session::Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch)
-    : path_(scene.file), overrides_(overrides), scripts_(scene.frame.geometry.scripts), scene_(std::move(scene)),
-      watch_(watch)
+Session::Session(Variant variant, const Watch &watch)
+    : variant_(std::move(variant)), scene_(variant_.scene()), watch_(watch)
+{
+}
+
+Session::Session(Variant variant, Scene scene, const Watch &watch)
+    : variant_(std::move(variant)), scene_(std::move(scene)), watch_(watch)
 {
 }
 
@@ -154,7 +155,7 @@ std::unique_ptr<Session> Session::beside(const std::string &file) const
   // Not a copy: the callback may have a state, as one that knows whether there is something to save.
   const Watch same{[this](const std::string &phase, double share) { tell(watch_.progress, phase, share); },
                    watch_.interruption};
-  return std::make_unique<Session>(file, std::vector<std::string>(), scripts_, same);
+  return std::make_unique<Session>(file, std::vector<std::string>(), variant_.scripts, same);
 }
 
 void Session::check()
@@ -192,14 +193,13 @@ PreparedMachine &Session::machine()
 
 void Session::use_frame(const coupling::ReducedFrame &frame)
 {
-  machine_ = std::make_shared<PreparedMachine>(prepare_machine_on(scene_, frame));
+  machine_ = std::make_shared<PreparedMachine>(prepare_machine(scene_, {}, &frame));
 }
 
 FrameAnswer Session::reduced_frame()
 {
   check();
-  auto [frame, from_cache] = apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption));
-  FrameAnswer answer{std::move(frame), from_cache, {}};
+  FrameAnswer answer{apps::reduced_frame(scene_, stoppable(progress(), watch_.interruption)), {}};
   answer.facts.frame        = answer.frame.facts;
   answer.facts.frame_mass   = answer.frame.mass;
   answer.facts.free_motions = static_cast<int>((answer.frame.frequencies_hz.array() == 0.).count());
@@ -222,7 +222,7 @@ Result Session::answered(const std::string &command, const std::function<void(Re
   PreparedMachine &prepared = machine();
   progress()("modes", -1.);
   Result result    = begin_result(scene_, command, prepared, geometric);
-  result.requested = {path_, overrides_, std::nullopt, geometric};
+  result.requested = {variant_.path, variant_.changes, std::nullopt, geometric};
   add(result);
   return finished(std::move(result));
 }
@@ -231,16 +231,6 @@ Result Session::modes(coupling::GeometricStiffness geometric)
 {
   return answered(
       "modes", [](Result &) {}, geometric);
-}
-
-SceneNode Session::entries() const
-{
-  return entries_ ? *entries_ : read_scene_file(path_, overrides_);
-}
-
-SceneFileAt Session::file() const
-{
-  return {entries(), path_, scripts_};
 }
 
 Result Session::run(const RunParts &parts)
@@ -256,7 +246,7 @@ Result Session::run(const RunParts &parts)
   scene_.run.options.from = result_window(scene_, prepared.machine, initial);
   Result result           = begin_result(scene_, "run", prepared);
   result.settings         = settings_text(scene_.run.options);
-  result.requested        = {path_, overrides_, scene_.run.options, coupling::GeometricStiffness::included};
+  result.requested = {variant_.path, variant_.changes, scene_.run.options, coupling::GeometricStiffness::included};
   RunInProgress in_progress{*this, signals, result};
   for (RunPart *part : parts)
     part->before_motion(in_progress);
@@ -290,15 +280,9 @@ Result Session::periodic(const PeriodicRequest &request)
     throw std::invalid_argument(
         "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
         "; take reduction.method = \"craig-bampton\"");
-  SceneNode root = entries();
-  require_parameter(root, path_, request.along);
-  // Branches start at the first value of the parameter.
-  const std::string        at_begin  = request.along + '=' + request.from;
-  std::vector<std::string> overrides = overrides_;
-  overrides.push_back(at_begin);
-  apply_override(root, at_begin);
-  begin_ = std::make_unique<Session>(read_scene(root, path_, scripts_), overrides, watch_);
-  begin_->take_entries(std::move(root));
+  require_parameter(variant_, request.along);
+  // Branches begin where the parameter does.
+  begin_ = std::make_unique<Session>(variant_.with(request.along + '=' + request.from), watch_);
   return begin_->periodic_here(request);
 }
 
@@ -328,7 +312,7 @@ PeriodicResult Session::periodic_motions(const PeriodicRequest &request, Result 
     found.coordinates.push_back({machine.coordinate_name(i), coordinate_sign(machine, i)});
   std::optional<SceneFamily> family;
   if (!request.along.empty())
-    family.emplace(file(), *machine_, request, repeating.problem);
+    family.emplace(variant_, *machine_, request, repeating.problem);
   progress()("periodic motions", -1.);
   const coupling::PeriodicGuess &guess     = repeating.guess;
   auto                           solutions = searched(chosen, repeating.problem, guess, options, found);
@@ -385,7 +369,7 @@ coupling::RunResult Session::simulated(const coupling::InitialState        &init
   std::optional<coupling::RunCheckpoints> checkpoints;
   std::vector<std::string>                not_kept;
   if (checkpoints_)
-    checkpoints = run_checkpoints(*checkpoints_, entries(), machine_->machine, initial, not_kept);
+    checkpoints = run_checkpoints(*checkpoints_, variant_.root, machine_->machine, initial, not_kept);
   try
   {
     coupling::RunResult result =

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/scene/file/scene_node.h"
+#include "apps/scene/variant.h"
 #include "apps/session/checkpoint/run_checkpoints.h"
 #include "apps/session/partition.h"
 #include "apps/session/periodic_request.h"
@@ -18,9 +18,7 @@
 namespace gestell::apps
 {
 
-struct SceneFileAt;
-
-/// Callback for the progress of a session, and a flag to interrupt it.
+/// Receives the progress of a session, and may interrupt it.
 struct Watch
 {
   coupling::Progress       progress{};             ///< phase, and its completed share; negative: unknown
@@ -28,11 +26,9 @@ struct Watch
 };
 
 /// The reduced frame of a scene.
-struct FrameAnswer
+struct FrameAnswer : coupling::CachedFrame
 {
-  coupling::ReducedFrame frame;
-  bool                   from_cache = false;
-  ModelFacts             facts;
+  ModelFacts facts;
 };
 
 /**
@@ -51,14 +47,12 @@ public:
   /// @param overrides  "key.path=value"
   explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
-  /// A scene that was read before, with these overrides of its file.
-  Session(Scene scene, const std::vector<std::string> &overrides, const Watch &watch);
-
-  /// All keys, with overrides, of a scene without a file; for a scene with a file it is read again to vary keys.
-  void take_entries(SceneNode entries) { entries_ = std::move(entries); }
+  explicit Session(Variant variant, const Watch &watch = {});
+  /// @param scene  that of the variant, which may compute less
+  Session(Variant variant, Scene scene, const Watch &watch);
 
   const Scene             &scene() const { return scene_; }
-  SceneFileAt              file() const; ///< in its present state, to vary its keys
+  const Variant           &variant() const { return variant_; } ///< to vary its entries further
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
   /// Another scene, read from its file, with the progress and the interruption flag of this session, which must outlive
   /// it.
@@ -102,18 +96,14 @@ public:
   coupling::Progress progress();
 
 private:
-  SceneNode           entries() const;
   coupling::RunResult simulated(const coupling::InitialState &initial, const std::vector<coupling::Signal> &signals,
                                 coupling::Trajectory *trajectory, std::vector<std::string> &warnings);
   Result              periodic_here(const PeriodicRequest &request);
   PeriodicResult      periodic_motions(const PeriodicRequest &request, Result &result);
   Result              finished(Result result);
 
-  std::string                      path_;
-  std::vector<std::string>         overrides_;
-  fem::Scripts                     scripts_;
+  Variant                          variant_;
   Scene                            scene_;
-  std::optional<SceneNode>         entries_;
   Watch                            watch_;
   PhaseTimes                       times_;
   std::shared_ptr<PreparedMachine> machine_; ///< shared with results, which compute its forces when they are written

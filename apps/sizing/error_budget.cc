@@ -1,6 +1,8 @@
 #include "apps/sizing/error_budget.h"
 
 #include "apps/scene/build/build_machine.h"
+#include "apps/sizing/size_laws.h"
+#include "coupling/frame/frame_cache.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "fem/values/number_text.h"
 
@@ -14,8 +16,6 @@ namespace gestell::apps
 namespace
 {
 
-/// size of the cells of the second mesh: a third of the coordinates in solids, so it costs little
-constexpr double coarser    = 1.5;
 constexpr double mesh_order = 1.5; ///< in the size of the cells: between 1 of edges and 2 and more of smooth fields
 
 using Differs = std::optional<std::string>; ///< the event in which two models differ; none: in none
@@ -111,7 +111,7 @@ private:
 template <typename Make>
 Comparison BudgetMaker::timed(double &cpu, const Make &make)
 {
-  const double begin = cpu_now();
+  const double begin = coupling::cpu_time_without_cache();
   Comparison   comparison;
   try
   {
@@ -123,7 +123,7 @@ Comparison BudgetMaker::timed(double &cpu, const Make &make)
       throw;
     comparison = not_known(std::string("the second model failed: ") + failure.what());
   }
-  cpu += cpu_now() - begin;
+  cpu += coupling::cpu_time_without_cache() - begin;
   return comparison;
 }
 
@@ -188,7 +188,7 @@ Comparison BudgetMaker::raised()
   ModelVariant variant          = finest_;
   variant.modes                 = run_.modes;
   constexpr int coarsest_raised = 3; // powers of the ratio of sizes: 1.5^3 = 3.4 times as coarse
-  for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= coarser)
+  for (int k = 0; k <= coarsest_raised; ++k, variant.mesh *= ratio_of_meshes)
   {
     if (k > 0 && !mesh_can_change(scene_))
       break;
@@ -203,9 +203,9 @@ Comparison BudgetMaker::raised()
     variant.raised = true;
     if (modes_are_chosen(scene_)) // a frame may already be available
       variant.made = std::max(more_modes(scene_, run_), more_than(finest_.made));
-    Comparison comparison =
-        against(variant, "elements of degree three" +
-                             (k > 0 ? " in cells of " + short_text(std::pow(coarser, k), 3) + " times the size" : ""));
+    Comparison comparison = against(
+        variant, "elements of degree three" +
+                     (k > 0 ? " in cells of " + short_text(std::pow(ratio_of_meshes, k), 3) + " times the size" : ""));
     constexpr double left_over = 1.25; // of what degree three corrects, docs/theory/mesh_error.md (4b)
     comparison.factor          = left_over / std::pow(ratio, mesh_order);
     return comparison;
@@ -219,8 +219,8 @@ Comparison BudgetMaker::coarser_cells()
   if (!mesh_can_change(scene_))
     return not_known("the mesh comes from a file and cannot be made coarser");
   ModelVariant variant = finest_;
-  variant.mesh *= coarser;
-  if (scene_.frame.source != FrameSource::parts) // the second reduction of parts stays unchanged
+  variant.mesh *= ratio_of_meshes;
+  if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;
   comparison.first        = models_.of(finest_);

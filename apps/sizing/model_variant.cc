@@ -1,6 +1,7 @@
 #include "apps/sizing/model_variant.h"
 
 #include "apps/scene/build/result_window.h"
+#include "apps/scene/variant.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/sizing/first_modes.h"
 #include "coupling/frame/frame_cache.h"
@@ -9,14 +10,11 @@
 #include "coupling/plugin/mesh_service.h"
 #include "coupling/reduction/reductions.h"
 #include "coupling/simulation/simulation.h"
+#include "fem/process/cpu_time.h"
 #include "fem/values/number_text.h"
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <stdexcept>
 #include <variant>
 
@@ -26,14 +24,18 @@ namespace gestell::apps
 namespace
 {
 
-/// [Hz] of a mode that is asked for; a machine may have fewer than modes.number.
-template <typename Modes>
-double frequency_of(const OutputName &output, const Modes &modes)
+void take_frequencies(const std::vector<coupling::Mode> &modes, const std::vector<OutputName> &outputs,
+                      ModelAnswer &answer)
 {
-  if (output.mode > int(modes.size()))
-    throw std::invalid_argument("--outputs: '" + output.text + "': this model has " + std::to_string(modes.size()) +
-                                " modes");
-  return modes[std::size_t(output.mode) - 1].frequency_hz;
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    if (!outputs[i].of_signal())
+    {
+      if (outputs[i].mode > int(modes.size())) // a machine may have fewer than modes.number
+        throw std::invalid_argument("--outputs: '" + outputs[i].text + "': this model has " +
+                                    std::to_string(modes.size()) + " modes");
+      answer.sizes[i] = answer.values[i] = modes[std::size_t(outputs[i].mode) - 1].frequency_hz;
+      answer.units[i]                    = "Hz";
+    }
 }
 
 const coupling::SignalSummary &signal_of(const coupling::RunResult &run, const std::string &name)
@@ -66,28 +68,10 @@ void take_modes(const Scene &scene, coupling::Machine &small, const std::vector<
     return;
   const auto modes = coupling::linearised_modes(small, modes_configuration(scene, small),
                                                 coupling::Linearisation{scene.modes.open}, scene.modes.number);
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (!outputs[i].of_signal())
-    {
-      answer.sizes[i] = answer.values[i] = frequency_of(outputs[i], modes);
-      answer.units[i]                    = "Hz";
-    }
+  take_frequencies(modes, outputs, answer);
 }
 
 } // namespace
-
-double cpu_now()
-{
-  double seconds = 0.;
-  for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN})
-  {
-    rusage used{};
-    getrusage(who, &used);
-    for (const timeval &time : {used.ru_utime, used.ru_stime})
-      seconds += double(time.tv_sec) + 1e-6 * double(time.tv_usec);
-  }
-  return seconds;
-}
 
 int modes_asked(const Scene &scene, const ModelAnswer &answer)
 {
@@ -106,13 +90,11 @@ int more_modes(const Scene &scene, const ModelAnswer &answer)
   return std::min(answer.most_modes, more_than(modes));
 }
 
+ModelAnswer::ModelAnswer(std::size_t n, double begin) : values(n), sizes(n), units(n), decided_s(n, begin) {}
+
 ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outputs)
 {
-  ModelAnswer answer;
-  answer.values.resize(outputs.size());
-  answer.sizes.resize(outputs.size());
-  answer.units.resize(outputs.size());
-  answer.decided_s.resize(outputs.size());
+  ModelAnswer answer(outputs.size(), 0.);
   answer.n_frame   = std::max(0, result.model.frame_dofs);
   answer.interface = std::max(0, result.model.interface);
   answer.modes     = result.model.modes;
@@ -120,12 +102,7 @@ ModelAnswer answer_of(const Result &result, const std::vector<OutputName> &outpu
       result.model.superposed > 0 ? result.model.superposed : std::max(0, answer.n_frame - answer.interface);
   answer.run_cpu = result.run->wall_s;
   take_run(*result.run, outputs, result.requested.run->end, answer);
-  for (std::size_t i = 0; i < outputs.size(); ++i)
-    if (!outputs[i].of_signal())
-    {
-      answer.sizes[i] = answer.values[i] = frequency_of(outputs[i], result.coupled_modes);
-      answer.units[i]                    = "Hz";
-    }
+  take_frequencies(result.coupled_modes, outputs, answer);
   return answer;
 }
 
@@ -214,50 +191,24 @@ coupling::CachedFrame raised_frame(Scene &scene)
       origin, [&] { return coupling::mesh_service().reduce_raised(frame, scene.reduction.options, {}); });
 }
 
-/// [s] A frame that was made before in this process has cost what it did, though it now comes from the cache.
-double preparation(const Scene &making, bool raised, bool from_cache, double taken)
-{
-  static std::map<std::string, double> made;
-  static std::mutex                    one;
-  if (frame_path(making) != FramePath::reduce)
-    return taken;
-  const std::lock_guard<std::mutex> alone(one);
-  double &cpu = made[coupling::content_key(frame_origin(making).recipe) + (raised ? "raised" : "")];
-  return cpu  = from_cache ? std::max(cpu, taken) : taken;
-}
-
-/// The scene on its frame.  @param cpu  [s] that it took
+/// The scene on its frame.  @param cpu  [s] that it took; a cached frame counts with the CPU time of its reduction
 PreparedMachine prepare(Scene &scene, const ModelVariant &variant, double &cpu)
 {
-  const double begin  = cpu_now();
-  const bool   nested = variant.modes >= 0 && variant.made > variant.modes && is_nested(scene);
-  Scene        making = scene;
+  const bool nested = variant.modes >= 0 && variant.made > variant.modes && is_nested(scene);
+  Scene      making = scene;
   if (nested)
     making.reduction.options.n_modes = variant.made;
-  const auto made_apart = [&]
-  {
-    coupling::CachedFrame made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
-    if (nested)
-      made.frame = with_first_modes(std::move(made.frame), variant.modes);
-    PreparedMachine prepared = prepare_machine_on(scene, made.frame);
-    prepared.from_cache      = made.from_cache;
-    return prepared;
-  };
-  PreparedMachine prepared = nested || variant.raised ? made_apart() : prepare_machine(scene);
+  const bool            reduced = variant.raised || frame_path(scene) == FramePath::reduce;
+  coupling::CachedFrame made;
+  if (reduced)
+    made = variant.raised ? raised_frame(making) : reduced_frame(making, {});
+  const double begin = fem::cpu_time();
+  if (nested)
+    made.frame = with_first_modes(std::move(made.frame), variant.modes);
+  PreparedMachine prepared = prepare_machine(scene, {}, reduced ? &made.frame : nullptr);
   keep_stable_step(prepared, scene.run);
-  cpu = preparation(making, variant.raised, prepared.from_cache, cpu_now() - begin);
+  cpu = made.cpu + fem::cpu_time() - begin;
   return prepared;
-}
-
-/// No others, which may read what a model does not tell.
-void keep_signals_of(const std::vector<OutputName> &outputs, Scene &scene)
-{
-  const auto unread = [&](const SignalRequest &signal)
-  {
-    return std::none_of(outputs.begin(), outputs.end(),
-                        [&](const OutputName &output) { return output.signal == signal.name; });
-  };
-  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(), unread), scene.signals.end());
 }
 
 } // namespace
@@ -267,14 +218,9 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
 {
   Scene other = varied(scene, variant);
   if (variant.raised)
-    keep_signals_of(outputs, other);
-  ModelAnswer answer;
-  answer.values.resize(outputs.size());
-  answer.sizes.resize(outputs.size());
-  answer.units.resize(outputs.size());
-  answer.decided_s.assign(outputs.size(), other.run.options.begin);
+    keep_signals(other, signals_of(outputs));
+  ModelAnswer     answer(outputs.size(), other.run.options.begin);
   PreparedMachine prepared = prepare(other, variant, answer.prepare_cpu);
-  answer.from_cache        = prepared.from_cache;
   if (const coupling::ReducedFrame *frame = prepared.small().model().reduced_frame())
   {
     answer.n_frame    = frame->n_full;
@@ -293,7 +239,7 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
       answer.cutoff_hz = frame->omega0.maxCoeff() / (2. * M_PI);
   }
   take_modes(other, prepared.small(), outputs, answer);
-  const double ready = cpu_now();
+  const double ready = fem::cpu_time();
   if (std::any_of(outputs.begin(), outputs.end(), [](const OutputName &output) { return output.of_signal(); }))
   {
     const coupling::InitialState initial = prepare_start(other, prepared);
@@ -306,7 +252,7 @@ ModelAnswer answer_of(const Scene &scene, const ModelVariant &variant, const std
       throw coupling::ConvergenceFailure(run.interrupted ? "interrupted" : run.failure);
     take_run(run, outputs, other.run.options.end, answer);
   }
-  answer.run_cpu = cpu_now() - ready;
+  answer.run_cpu = fem::cpu_time() - ready;
   return answer;
 }
 

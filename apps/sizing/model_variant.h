@@ -41,6 +41,8 @@ struct ModelVariant
 /// What a model answers, and what it costs.
 struct ModelAnswer
 {
+  explicit ModelAnswer(std::size_t n_outputs = 0, double begin = 0.);
+
   std::vector<double>          values; ///< of the outputs asked for
   std::vector<double>          sizes;  ///< largest of the signal without its sign, of a mode its frequency
   std::vector<std::string>     units;
@@ -53,14 +55,10 @@ struct ModelAnswer
   int                          most_modes  = 0;     ///< that it could keep
   double                       cutoff_hz   = 0.;    ///< of the highest mode that the frame keeps; 0: none
   bool                         whole       = false; ///< the frame is not reduced
-  bool                         from_cache  = false;
   double                       prepare_cpu = 0., run_cpu = 0.; ///< [s]
 
   double cpu() const { return prepare_cpu + run_cpu; }
 };
-
-/// [s] of the processor that this process and the helpers that it waited for took so far.
-double cpu_now();
 
 /// As reduction.modes has it: of a frame of parts each part's, below zero where they are chosen by themselves.
 int modes_asked(const Scene &scene, const ModelAnswer &answer);

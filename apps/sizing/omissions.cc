@@ -1,5 +1,6 @@
 #include "apps/sizing/omissions.h"
 
+#include "apps/scene/variant.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -43,10 +44,8 @@ public:
   }
 
 private:
-  /// No others, which may read what is left out.
-  Scene with_signals_of_outputs(Scene scene) const;
-  /// Change with another scene; null if it cannot be run: other parts depend on the omitted one.
-  std::optional<Change> change(const Scene &other, const ModelAnswer &than) const;
+  /// Of another scene; null where it cannot be run: others rest on what it lacks.
+  std::optional<Change> change(Scene other, const ModelAnswer &than) const;
   void                  may_be_left_out(const std::string &what, const Scene &without);
   bool                  may_ask(const std::string &what, double cpu);
   /// Tries the scene with each member of a list changed.
@@ -76,17 +75,6 @@ private:
   Omissions                found_;
 };
 
-Scene Questions::with_signals_of_outputs(Scene scene) const
-{
-  const auto unread = [&](const SignalRequest &signal)
-  {
-    return std::none_of(model_.outputs.begin(), model_.outputs.end(),
-                        [&](const OutputName &output) { return output.signal == signal.name; });
-  };
-  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(), unread), scene.signals.end());
-  return scene;
-}
-
 /// Else it is named.
 bool Questions::may_ask(const std::string &what, double cpu)
 {
@@ -96,11 +84,12 @@ bool Questions::may_ask(const std::string &what, double cpu)
   return may;
 }
 
-std::optional<Change> Questions::change(const Scene &other, const ModelAnswer &than) const
+std::optional<Change> Questions::change(Scene other, const ModelAnswer &than) const
 {
+  keep_signals(other, signals_of(model_.outputs)); // others may read what is left out
   try
   {
-    const ModelAnswer answer = answer_of(with_signals_of_outputs(other), {}, model_.outputs, stop_);
+    const ModelAnswer answer = answer_of(other, {}, model_.outputs, stop_);
     Change            change;
     for (std::size_t i = 0; i < model_.outputs.size(); ++i)
       if (const double share = std::abs(answer.values[i] - than.values[i]) / model_.scales[i]; share >= change.share)

@@ -82,6 +82,14 @@ std::vector<OutputName> outputs_named(const std::string &list, const std::vector
   return outputs;
 }
 
+std::vector<std::string> signals_of(const std::vector<OutputName> &outputs)
+{
+  std::vector<std::string> names;
+  for (const OutputName &output : outputs)
+    names.push_back(output.signal);
+  return names;
+}
+
 double value_of(const OutputName &output, const coupling::SignalSummary &signal)
 {
   return output.kind == "min"     ? signal.min

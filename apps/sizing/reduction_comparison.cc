@@ -49,7 +49,6 @@ ReductionPoint point_of(const Scene &scene, const std::string &method, int modes
   point.method      = method;
   point.modes       = answer.whole ? 0 : std::max(0, answer.modes);
   point.coordinates = answer.whole ? answer.n_frame : answer.interface + point.modes;
-  point.from_cache  = answer.from_cache;
   point.prepare_cpu = answer.prepare_cpu;
   point.run_cpu     = answer.run_cpu;
   point.values      = answer.values;

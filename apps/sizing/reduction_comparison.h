@@ -15,7 +15,6 @@ struct ReductionPoint
   std::string         method;          ///< of [reduction]
   int                 coordinates = 0; ///< of the frame: interface and modes; without reduction its DOFs
   int                 modes       = 0;
-  bool                from_cache  = false;
   double              prepare_cpu = 0., run_cpu = 0.; ///< [s]
   std::vector<double> values;                         ///< of the outputs
   double              error = 0.; ///< largest difference to the reference relative to the size of the signal

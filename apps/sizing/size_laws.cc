@@ -61,8 +61,8 @@ std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> poin
   if (!(expected(0.) <= aim) && std::isfinite(error))
     return {};
   double           ratio    = coarsest / best.size;
-  constexpr double unseen   = 1. / 1.5; // next size where the error is not known
-  constexpr int    halvings = 40;       // to 2^-40 of the first range of ratios
+  constexpr double unseen   = 1. / ratio_of_meshes; // next size where the error is not known
+  constexpr int    halvings = 40;                   // to 2^-40 of the first range of ratios
   if (!std::isfinite(error))
     ratio = largest(best.shares, &Shares::sides) <= aim ? unseen : 0.;
   else if (expected(least) > aim)

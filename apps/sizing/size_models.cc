@@ -1,5 +1,6 @@
 #include "apps/sizing/size_models.h"
 
+#include "coupling/frame/frame_cache.h"
 #include "coupling/integration/system/convergence_failure.h"
 #include "fem/values/number_text.h"
 
@@ -157,7 +158,7 @@ SizeRung SizeModels::rung_of(const SizePlace &place, const ModelAnswer &answer) 
 
 SizedPlace SizeModels::judge(const SizePlace &place, double most_cells)
 {
-  const double begin = cpu_now();
+  const double begin = coupling::cpu_time_without_cache();
   SizedPlace   here;
   ModelVariant variant = variant_of(place, most_cells);
   if (has_frames(place))
@@ -167,7 +168,7 @@ SizedPlace SizeModels::judge(const SizePlace &place, double most_cells)
   here.model             = judged(models_, variant);
   const ModelAnswer &run = here.model.run;
   here.point             = {place.mesh, double(run.n_frame), run.prepare_cpu, {}};
-  here.work              = std::max(1., (cpu_now() - begin) / run.cpu());
+  here.work              = std::max(1., (coupling::cpu_time_without_cache() - begin) / run.cpu());
   here.rung              = rung_of(place, run);
   here.rung.entries      = here.model.budget.entries;
   take_shares(here);

@@ -7,9 +7,7 @@
 namespace gestell::apps
 {
 
-constexpr double coarsest_mesh = 2.25; ///< relative to the scene's size: start of the search
-
-constexpr double ratio_of_meshes = 1.5; ///< ratio of the element sizes of two compared meshes
+constexpr double coarsest_mesh = ratio_of_meshes * ratio_of_meshes; ///< of the scene's size: the search begins there
 
 /// Peak memory [byte] of the program; 0: the system does not report it.
 double memory_taken();

@@ -2,6 +2,7 @@
 
 #include "apps/sizing/omissions.h"
 #include "apps/sizing/size_models.h"
+#include "coupling/frame/frame_cache.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
@@ -27,8 +28,7 @@ class Search
 {
 public:
   Search(const Scene &scene, const std::vector<OutputName> &outputs, const SizeOptions &options)
-      : scene_(scene), outputs_(outputs), options_(options), begin_(cpu_now()),
-        models_(scene, outputs, options.tolerance, options.stop)
+      : scene_(scene), outputs_(outputs), options_(options), models_(scene, outputs, options.tolerance, options.stop)
   {
   }
 
@@ -51,14 +51,14 @@ private:
   void                     stop_above(double cpu);
   bool                     may_cost(const SizePlace &place, const MeshPoint &next);
   void                     search();
-
-  void question(const SizedPlace &chosen);
-  void try_all(const SizedPlace &chosen);
+  double                   spent() const { return coupling::cpu_time_without_cache() - begin_; } ///< [s]
+  void                     question(const SizedPlace &chosen);
+  void                     try_all(const SizedPlace &chosen);
 
   const Scene                   &scene_;
   const std::vector<OutputName> &outputs_;
   const SizeOptions             &options_;
-  const double                   begin_; ///< [s]
+  const double                   begin_ = coupling::cpu_time_without_cache(); ///< [s]
   SizeModels                     models_;
   std::vector<Cells>             kinds_ = {Cells::given}, untried_; ///< of meshes
   std::deque<SizedPlace>         judged_;
@@ -300,9 +300,9 @@ bool Search::is_worth(const SizePlace &place, double coordinates)
 void Search::forecast(double coordinates, double model_cpu, double work)
 {
   constexpr double of_finer_cells = 2.6; // CPU time of cells of 2/3 the size in walls, 1.5^(2 1.2)
-  const double     spent = cpu_now() - begin_, proof = mesh_can_change(scene_) ? of_finer_cells : 0.;
-  SizeForecast    &reported = result_.forecast;
-  reported                  = {coordinates, planned_.modes, model_cpu, spent, spent + (work + proof + 1.) * model_cpu};
+  const double     proof          = mesh_can_change(scene_) ? of_finer_cells : 0.;
+  SizeForecast    &reported       = result_.forecast;
+  reported = {coordinates, planned_.modes, model_cpu, spent(), spent() + (work + proof + 1.) * model_cpu};
   if (options_.on_forecast)
     options_.on_forecast(reported);
 }
@@ -379,7 +379,7 @@ void Search::question(const SizedPlace &chosen)
   constexpr double not_worth_counting = 5.; // [s] that a search may take of machines that run in a moment
   if (!options_.exhaustive)                 // and the last run
     model.affords = [&](double cpu)
-    { return cpu_now() - begin_ + cpu + answer.cpu() <= std::max(most_runs * answer.cpu(), not_worth_counting); };
+    { return spent() + cpu + answer.cpu() <= std::max(most_runs * answer.cpu(), not_worth_counting); };
   const Omissions found                                        = find_omissions(model, options_.stop);
   std::tie(result_.left_out, result_.missing, result_.unasked) = std::tie(found.left_out, found.missing, found.unasked);
 }
@@ -434,7 +434,7 @@ SizedModel Search::run()
   result_.finer     = chosen.model.what;
   result_.tolerance = options_.tolerance;
   question(chosen);
-  result_.cpu_s = cpu_now() - begin_;
+  result_.cpu_s = spent();
   if (options_.exhaustive)
     try_all(chosen);
   return {result_, models_.variant_of(chosen.place)};

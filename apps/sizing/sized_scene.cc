@@ -1,11 +1,12 @@
 #include "apps/sizing/sized_scene.h"
 
+#include "apps/scene/file/extending_scene.h"
+#include "apps/scene/file/scene_override.h"
 #include "apps/scene/file/written_text.h"
 #include "coupling/integration/integration_methods.h"
 #include "fem/values/number_text.h"
 
 #include <algorithm>
-#include <sstream>
 
 namespace gestell::apps
 {
@@ -17,16 +18,6 @@ std::string number(double value)
 {
   const std::string digits = exact_text(value);
   return digits.find_first_of(".e") == std::string::npos ? digits + ".0" : digits;
-}
-
-/// A value of the command line in TOML syntax: text that is not a number, list, table, boolean or quoted string becomes
-/// a string.
-std::string toml_value(const std::string &value)
-{
-  const bool literal = value == "true" || value == "false" ||
-                       (!value.empty() && (value[0] == '"' || value[0] == '[' || value[0] == '{')) ||
-                       (!value.empty() && value.find_first_not_of("+-0123456789.eE_") == std::string::npos);
-  return literal ? value : written_text(value);
 }
 
 using Entries = std::vector<std::pair<std::string, std::string>>;
@@ -96,22 +87,18 @@ std::vector<std::pair<std::string, std::string>> sized_entries(const Scene &scen
 std::string sized_scene(const Scene &scene, const std::vector<std::string> &overrides, const ModelVariant &model,
                         const std::filesystem::path &folder)
 {
-  const auto         sizes = sized_entries(scene, model);
-  std::ostringstream text;
-  const auto         base =
-      std::filesystem::proximate(std::filesystem::absolute(scene.file), std::filesystem::absolute(folder));
-  text << "# " << scene.name << " with no more model than its outputs need, by gestell size.\nextends = "
-       << written_text(base.generic_string()) << "\n\n";
-  for (const std::string &override : overrides)
+  std::vector<SceneNode::Entry> changes;
+  const auto                    add = [&](const std::string &text)
   {
-    const std::size_t equals = override.find('=');
-    const std::string key    = override.substr(0, equals);
-    if (std::none_of(sizes.begin(), sizes.end(), [&](const auto &size) { return size.first == key; }))
-      text << key << " = " << toml_value(override.substr(equals + 1)) << '\n';
-  }
-  for (const auto &[key, value] : sizes)
-    text << key << " = " << value << '\n';
-  return text.str();
+    const auto [key, value] = parsed_override(text);
+    add_change(changes, key, value);
+  };
+  for (const std::string &override : overrides)
+    add(override);
+  for (const auto &[key, value] : sized_entries(scene, model))
+    add(key + '=' + value);
+  return extending_scene(scene.name + " with no more model than its outputs need, by gestell size.", scene.file,
+                         changes, folder);
 }
 
 } // namespace gestell::apps

@@ -4,8 +4,6 @@
 #include "apps/analysis/result_files.h"
 #include "apps/output/folder/own_folder.h"
 #include "apps/output/text/csv.h"
-#include "apps/scene/file/scene_file.h"
-#include "apps/scene/file/scene_override.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/verify/data_table.h"
 #include "coupling/integration/stability/overshoot.h"
@@ -283,9 +281,8 @@ CaseRun::CaseRun(const ReferenceCase &one, const std::vector<std::string> &more,
     return;
   std::vector<std::string> set = one.set;
   set.insert(set.end(), more.begin(), more.end());
-  const SceneNode root = read_scene_file(one.scene, set);
-  parameters_          = Parameters(root.find("parameters"));
-  Session     session(one.scene, set, fem::Scripts::harmless, {{}, interruption});
+  Session session(one.scene, set, fem::Scripts::harmless, {{}, interruption});
+  parameters_ = Parameters(session.variant().root.find("parameters"));
   CaseRequest requested(one);
   for (const Computation &computation : scene_computations())
     if (computation.name == one.compute)

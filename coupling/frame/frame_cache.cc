@@ -2,12 +2,15 @@
 
 #include "coupling/frame/atomic_file.h"
 #include "coupling/frame/cache_folder.h"
+#include "fem/process/cpu_time.h"
 
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 
 namespace gestell::coupling
@@ -94,7 +97,7 @@ std::string cache_file(const std::string &key)
   return folder.empty() ? "" : (folder / (key + ".h5")).string();
 }
 
-std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note)
+std::optional<StoredFrame> find_in_cache(const std::string &key, std::string &note)
 {
   const std::string file = cache_file(key);
   std::error_code   error;
@@ -102,9 +105,9 @@ std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &n
     return {};
   try
   {
-    ReducedFrame frame = read_entry(file, key).frame;
+    StoredFrame stored = read_entry(file, key);
     fs::last_write_time(file, fs::file_time_type::clock::now(), error); // a cache for reading only is one, too
-    return frame;
+    return stored;
   }
   catch (const std::runtime_error &failure)
   {
@@ -134,16 +137,64 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin)
   }
 }
 
+namespace
+{
+
+/// CPU time of the reductions of frames found in the cache [s].
+class SavedTime
+{
+public:
+  void add(const std::string &key, double seconds)
+  {
+    const std::lock_guard<std::mutex> while_changed(mutex_);
+    each_time_ += seconds;
+    once_ += keys_.insert(key).second ? seconds : 0.;
+  }
+  /// @param each_time  a frame found twice counts twice, not once
+  double seconds(bool each_time)
+  {
+    const std::lock_guard<std::mutex> while_changed(mutex_);
+    return each_time ? each_time_ : once_;
+  }
+
+private:
+  std::mutex            mutex_;
+  std::set<std::string> keys_;
+  double                once_ = 0., each_time_ = 0.;
+};
+
+SavedTime &saved_time()
+{
+  static SavedTime saved;
+  return saved;
+}
+
+} // namespace
+
+double cpu_time_without_cache()
+{
+  return fem::cpu_time() + saved_time().seconds(false);
+}
+
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make)
 {
-  std::string note;
-  if (auto known = find_in_cache(content_key(origin.recipe), note))
-    return {std::move(*known), true};
+  const std::string key = content_key(origin.recipe);
+  std::string       note;
+  if (auto known = find_in_cache(key, note))
+  {
+    saved_time().add(key, known->origin.cpu);
+    return {std::move(known->frame), true, known->origin.cpu};
+  }
+  const auto   now   = [] { return fem::cpu_time() + saved_time().seconds(true); }; // its parts may have been found
+  const double begin = now();
   ReducedFrame frame = make();
-  for (const std::string &text : {note, keep_in_cache(frame, origin)})
+  FrameOrigin  made  = origin;
+  made.cpu           = now() - begin;
+  saved_time().add(key, 0.); // when found later, it has been counted
+  for (const std::string &text : {note, keep_in_cache(frame, made)})
     if (!text.empty())
       frame.cache_notes.push_back(text);
-  return {std::move(frame), false};
+  return {std::move(frame), false, made.cpu};
 }
 
 std::string content_defect(const CacheEntry &entry)

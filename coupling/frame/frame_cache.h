@@ -15,7 +15,7 @@ namespace gestell::coupling
 /// The frame stored in the cache under this key: nothing if there is none, or if its file is damaged, of another
 /// version or key, or of another user (foreign()); the reason is then appended to `note` (the frame has to be reduced
 /// again). Found frames count as used now.
-std::optional<ReducedFrame> find_in_cache(const std::string &key, std::string &note);
+std::optional<StoredFrame> find_in_cache(const std::string &key, std::string &note);
 
 /// Stores the frame in the cache under the key of its recipe, if the recipe determines the frame completely. A cache
 /// that cannot be written does not cause a failure: the reason is returned, else "".
@@ -25,7 +25,8 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 struct CachedFrame
 {
   ReducedFrame frame;
-  bool         from_cache = false; ///< read from the cache, not computed now
+  bool         from_cache = false; ///< found, not made now
+  double       cpu        = 0.;    ///< [s] CPU time of its reduction, now or as its process stored it; 0: not known
 };
 
 /// The frame of a recipe from the cache, otherwise from `make`, which is then stored.
@@ -33,6 +34,10 @@ struct CachedFrame
 /// one not stored
 /// @throws the exceptions of `make`; nothing is stored then
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
+
+/// [s] CPU time of this process as if the cache had been empty: fem::cpu_time() and, once per frame found, the CPU time
+/// of its reduction.
+double cpu_time_without_cache();
 
 /// Path of the frame of this key in cache_folder(); "": none.
 std::string cache_file(const std::string &key);

@@ -1,9 +1,7 @@
-# Writes the header that tells apart programs that make different frames: SHA-256 over the sources that make them, so that
-# nobody has to remember to raise a number.  Called with SOURCE (top folder), HEADER (to write).
-include("${CMAKE_CURRENT_LIST_DIR}/frame_sources.cmake")
-frame_sources("${SOURCE}" sources)
+# Writes the header that distinguishes programs that make different frames: SHA-256 over the sources that make them, and over
+# headers that state the versions of libraries, so that nobody has to raise a number.  Called with SOURCES, HEADER (to write).
 set(all "")
-foreach(source IN LISTS sources)
+foreach(source IN LISTS SOURCES)
   file(SHA256 "${source}" hash)
   string(APPEND all "${hash};")
 endforeach()
@@ -14,7 +12,7 @@ file(CONFIGURE OUTPUT "${HEADER}" @ONLY CONTENT [[
 namespace gestell::coupling
 {
 
-/// SHA-256 over the sources that make frames.
+/// SHA-256 over the sources that make frames and the versions of their libraries.
 constexpr const char *frame_sources_hash = "@frame_sources_hash@";
 
 } // namespace gestell::coupling

@@ -296,7 +296,8 @@ void require_consistent(const ReducedFrame &frame)
 
 FrameOrigin read_origin(const Hdf5File &file)
 {
-  return {parse_recipe(file.read_text("made_from")), file.read_text("scene"), file.read_text("source")};
+  return {parse_recipe(file.read_text("made_from")), file.read_text("scene"), file.read_text("source"),
+          file.has("cpu") ? file.read_number("cpu") : 0.};
 }
 
 } // namespace
@@ -316,6 +317,8 @@ void write_reduced_frame(const std::string &name, const ReducedFrame &frame, con
   file.write("made_from", text_of(origin.recipe));
   file.write("scene", origin.scene);
   file.write("source", origin.source);
+  if (origin.cpu > 0.)
+    FrameWriter{file}("cpu", origin.cpu);
   each_part(frame, FrameWriter(file));
   write_stress(file, frame.stress);
   write_sealed(name, title, file.image());

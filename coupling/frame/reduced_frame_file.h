@@ -11,9 +11,10 @@ namespace gestell::coupling
 /// Origin of a reduced frame, stored with it; every part may be empty.
 struct FrameOrigin
 {
-  Recipe      recipe; ///< its inputs, which determine its key
-  std::string scene;  ///< file of the scene that first requested it
-  std::string source; ///< CAD file or matrix; for people
+  Recipe      recipe;   ///< its inputs, which determine its key
+  std::string scene;    ///< file of the scene that requested it first
+  std::string source;   ///< CAD file or matrix; for people
+  double      cpu = 0.; ///< [s] CPU time of its reduction, written for the cache only; 0: not known
 };
 
 /**

@@ -65,7 +65,8 @@ void MachineParts::add_interfaces(const std::vector<fem::Interface> &interfaces)
     marker.name = "frame." + interface.name;
     for (int i = 0; i < 6; ++i)
       if (interface.coordinate[i] >= 0)
-        (i < 3 ? marker.translation[i] : marker.rotation[i - 3]) = {{interface.coordinate[i], interface.sign[i]}};
+        (i < 3 ? marker.translation[i] : marker.rotation[i - 3])
+            .emplace_back(interface.coordinate[i], interface.sign[i]);
     positions[marker.name] = interface.position;
     markers[marker.name]   = marker;
   }

@@ -178,9 +178,10 @@ void set_smallest_as_background(const std::vector<double> &fields)
 
 void set_refined_sizes(const SizeField &field, double unit)
 {
+  // From 4.9 on the callback replaces all other sizes, whose minimum it gets; before, the minimum of all counts.
   gmsh::model::mesh::setSizeCallback(
-      [field, unit](int, int, double x, double y, double z) {
-        return field({unit * x, unit * y, unit * z}) / unit;
+      [field, unit](int, int, double x, double y, double z, auto... so_far) {
+        return std::min({field({unit * x, unit * y, unit * z}) / unit, so_far...});
       });
 }
 

@@ -85,8 +85,9 @@ TriangleSurface surface_of(const std::vector<int> &tags, double unit)
   std::map<std::size_t, int> index;
   for (const int tag : tags)
   {
-    std::vector<std::size_t> elements, nodes;
-    gmsh::model::mesh::getElementsByType(2, elements, nodes, tag); // 2: triangles of three nodes
+    std::vector<std::size_t> nodes;
+    std::vector<double>      x, parameters;
+    gmsh::model::mesh::getNodesByElementType(2, nodes, x, parameters, tag, false); // 2: triangles of three nodes
     for (std::size_t i = 0; i < nodes.size(); i += 3)
     {
       std::array<int, 3> triangle;
@@ -94,11 +95,8 @@ TriangleSurface surface_of(const std::vector<int> &tags, double unit)
       {
         const auto [entry, is_new] = index.try_emplace(nodes[i + k], static_cast<int>(surface.points.size()));
         triangle[k]                = entry->second;
-        if (!is_new)
-          continue;
-        std::vector<double> x, parameters;
-        gmsh::model::mesh::getNode(nodes[i + k], x, parameters);
-        surface.points.push_back(unit * Vector3{x[0], x[1], x[2]});
+        if (is_new)
+          surface.points.push_back(unit * Vector3{x[3 * (i + k)], x[3 * (i + k) + 1], x[3 * (i + k) + 2]});
       }
       surface.triangles.push_back(triangle);
     }

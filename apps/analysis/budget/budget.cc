@@ -15,7 +15,8 @@ template <class Visitor>
 void describe_answer(Visitor &v, const ErrorBudget &x)
 {
   v.maybe(true, "budget", by_name(x.entries, &BudgetEntry::output), "", "errors of each output, `run --budget`");
-  v.maybe(true, "budget_cpu_s", x.cpu_s(), "s", "what the run and each part of the budget took");
+  v.maybe(true, "budget_cpu_s", x.cpu_s(), "s",
+          "CPU time of the run and of each part of the budget, with the reduction of cached frames");
 }
 
 namespace

@@ -45,7 +45,7 @@ void add_frequencies(PerturbedScenes &twins, const Result &result, SensitivityRe
   std::vector<coupling::FrequencyTwins> sides;
   for (std::size_t k = 0; k < twins.twins.size(); ++k)
   {
-    SceneTwin &below = twins.scenes[2 * k], &above = twins.scenes[2 * k + 1];
+    PreparedScene &below = twins.scenes[2 * k], &above = twins.scenes[2 * k + 1];
     sides.push_back(
         {at(*below.scene, below.prepared->machine), at(*above.scene, above.prepared->machine), twins.twins[k].step});
   }
@@ -112,13 +112,13 @@ public:
   void        check(Session &session) override
   {
     left_out_.clear();
-    keys_ = varied_keys(session.file().root, list_, &left_out_);
+    keys_ = varied_keys(session.variant().root, list_, &left_out_);
   }
   void before_motion(RunInProgress &run) override
   {
     outcome_                 = AnalysisOutcome::done;
     const std::clock_t begin = std::clock();
-    twins_                   = perturbed_scenes(run.session.file(), run.session.scene(), run.session.machine(), keys_,
+    twins_ = perturbed_scenes(run.session.variant(), run.session.scene(), run.session.machine(), keys_,
                               list_ == "all" ? &left_out_ : nullptr, run.session.progress());
     for (const auto *warnings : {&left_out_, &twins_.warnings})
       run.result.warnings.insert(run.result.warnings.end(), warnings->begin(), warnings->end());

@@ -12,6 +12,7 @@
 #include "apps/output/folder/own_folder.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "apps/scene/language/quantity.h"
+#include "apps/scene/variant.h"
 #include "apps/session/prepared_machine.h"
 #include "apps/version.h"
 #include "fem/values/nearest_name.h"
@@ -338,7 +339,8 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
     reductions.modes          = chart_options.modes;
     return chart_reductions(options, reductions);
   }
-  Scene scene = read_scene(options.input, options.overrides, options.scripts);
+  const Variant file  = Variant::of_file(options.input, options.overrides, options.scripts);
+  const Scene   scene = file.scene();
   require_run(scene);
   check_scene(scene);
   if (chart_options.samples < 2)
@@ -377,11 +379,8 @@ int make_chart(const CommonOptions &options, const ChartCommandOptions &chart_op
   if (chart_options.modes.empty())
     chart_model(request, scene, chart, progress);
   for (const int modes : chart_options.modes)
-  {
-    std::vector<std::string> overrides = options.overrides;
-    overrides.push_back("reduction.modes=" + std::to_string(modes));
-    references.push_back(chart_model(request, read_scene(options.input, overrides, options.scripts), chart, progress));
-  }
+    references.push_back(
+        chart_model(request, file.with("reduction.modes=" + std::to_string(modes)).scene(), chart, progress));
   for (std::size_t m = 0; m + 1 < references.size(); ++m)
     chart.models[m].truncation = scaled_error(references[m], references.back());
   progress.done();

@@ -24,8 +24,8 @@ namespace
 void print_point(const ReductionPoint &point)
 {
   std::cout << "  " << std::left << std::setw(16) << point.method << std::right << std::setw(7) << point.modes
-            << std::setw(13) << point.coordinates << std::setw(14) << short_text(point.prepare_cpu, 3)
-            << (point.from_cache ? " *" : "  ") << std::setw(10) << short_text(point.run_cpu, 3) << "  ";
+            << std::setw(13) << point.coordinates << std::setw(17) << short_text(point.prepare_cpu, 3) << std::setw(13)
+            << short_text(point.run_cpu, 3) << "  ";
   if (!point.failure.empty())
     std::cout << point.failure;
   else if (point.worst.empty())
@@ -37,14 +37,13 @@ void print_point(const ReductionPoint &point)
 
 std::string csv_of(const ReductionComparison &comparison)
 {
-  std::string csv = "method,modes,coordinates,from cache,prepare cpu [s],run cpu [s],error,worst,failure";
+  std::string csv = "method,modes,coordinates,prepare cpu [s],run cpu [s],error,worst,failure";
   for (const OutputName &output : comparison.outputs)
     csv += ',' + output.text;
   csv += '\n';
   const auto add = [&](const ReductionPoint &point)
   {
-    csv += point.method + ',' + std::to_string(point.modes) + ',' + std::to_string(point.coordinates) + ',' +
-           (point.from_cache ? "yes" : "no");
+    csv += point.method + ',' + std::to_string(point.modes) + ',' + std::to_string(point.coordinates);
     for (const double x : {point.prepare_cpu, point.run_cpu, point.error})
       append_exact(csv += ',', x);
     std::string failure = point.failure;
@@ -122,9 +121,6 @@ int chart_reductions(const CommonOptions &options, const ReductionChart &request
   const ReductionComparison comparison = compare_reductions(scene, outputs, how);
   OwnFolder(folder).remove_all([](const std::string &name) { return has_form(name, "charts/reductions_*"); });
   write_or_rescue(folder, [&](Writing &writing) { write_comparison(comparison, scene.name, writing); });
-  if (std::any_of(comparison.points.begin(), comparison.points.end(),
-                  [](const auto &point) { return point.from_cache; }))
-    std::cout << "  * read from the cache of frames; with GESTELL_CACHE on an empty folder each is made\n";
   std::cout << "table: " << (folder / "reductions.csv").string()
             << "\nchart: " << (folder / "charts" / "reductions_cpu.svg").string() << '\n';
   return interruption().load() ? exit_interrupted : exit_done;

@@ -73,7 +73,8 @@ std::string forecast_text(const SizeForecast &forecast)
   if (forecast.coordinates > 0.)
     text << " a model of " << short_text(forecast.coordinates, 2) << " coordinates,";
   text << ' ' << short_text(forecast.model_cpu_s, 2) << " CPU s from CAD to the end of its run; with its errors "
-       << short_text(forecast.cpu_s, 2) << " CPU s, of which " << short_text(forecast.spent_cpu_s, 2) << " are spent";
+       << short_text(forecast.cpu_s, 2) << " CPU s, of which " << short_text(forecast.spent_cpu_s, 2)
+       << " are counted so far";
   return text.str();
 }
 

@@ -45,6 +45,14 @@ std::size_t equals_sign(const std::string &text)
 
 } // namespace
 
+std::vector<std::string> names_in(const SceneNode *table)
+{
+  std::vector<std::string> names;
+  for (std::size_t i = 0; table && i < table->entries.size(); ++i)
+    names.push_back(table->entries[i].first);
+  return names;
+}
+
 std::vector<std::string> key_segments(const std::string &path, const Place &place)
 {
   std::vector<std::string> result;

@@ -93,23 +93,68 @@ std::string toml_hint(const std::string &line)
   return hint_of_value(trimmed(content.substr(equals + 1)));
 }
 
-std::string hint_of_reason(const std::string &reason)
+namespace
 {
-  static const std::regex twice(R"x((value|table) \("([^"]+)"\) already exists)x");
+
+/// What a line defines: the text in the brackets of a head, or that before the =.
+std::string defined_in(const std::string &line)
+{
+  const std::string content = trimmed(line);
+  const bool        head    = content.compare(0, 1, "[") == 0;
+  const std::size_t begin   = head ? content.find_first_not_of('[') : 0;
+  const std::size_t end     = content.find(head ? ']' : '=');
+  return begin < end && end != std::string::npos ? trimmed(content.substr(begin, end - begin)) : "";
+}
+
+/// Of a key or table that is defined twice.
+std::string hint_of_repetition(const std::string &line, const std::string &reason)
+{
+  static const std::regex twice(R"(cannot redefine existing ([a-z-]+)( '([A-Za-z0-9_.-]+)')?)");
   std::smatch             parts;
   const std::string       begin = reason.substr(0, 2 * longest_judged);
   if (!std::regex_search(begin, parts, twice))
     return "";
-  const std::string name = parts[2];
-  return parts[1] == "table" ? "[" + name + "] stands in the file twice; put all its keys under one head"
-                             : "the key '" + name + "' stands twice in this table; leave one of the two out";
+  const std::string name =
+      parts[3].length() > 0 ? parts[3].str() : defined_in(line); // it repeats letters after a quote
+  const std::string type = parts[1];
+  const bool        head = trimmed(line).compare(0, 1, "[") == 0;
+  if (reason.find(" as table") != std::string::npos || reason.find(" as array-of-tables") != std::string::npos ||
+      reason.find(" as dotted") != std::string::npos)
+    return name + ": the same name stands above for another value (" + type + "); it cannot be a table as well";
+  if (type == "table")
+    return head ? "[" + name + "] stands in the file twice; put all its keys under one head"
+                : "'" + name + "' is already a table above";
+  return "the key '" + name + "' stands twice in this table; leave one of the two out";
 }
 
+/// Where the line itself shows nothing.
 std::string hint_of_place(const std::string &reason)
 {
-  return reason.find("array separator") != std::string::npos
-             ? "an array above is not closed; it begins with [, has commas between its values and ends with ]"
-             : "";
+  if (reason.find("expected comma or closing ']'") != std::string::npos)
+    return "an array above is not closed; it begins with [, has commas between its values and ends with ]";
+  if (reason.find("end-of-file") != std::string::npos)
+    return "the file ends inside an array, a table or a text; close it with ], } or its quotes";
+  return reason.substr(reason.find(": ") + 2);
+}
+
+} // namespace
+
+std::string toml_hint(const std::string &line, const std::string &reason)
+{
+  for (const std::string &hint : {hint_of_repetition(line, reason), toml_hint(line)})
+    if (!hint.empty())
+      return hint;
+  return hint_of_place(reason);
+}
+
+std::string hint_of_large_number(const std::string &reason)
+{
+  if (reason.find("could not be interpreted as a value") != std::string::npos)
+    return "a number is beyond 1.8e308, the largest that a computer takes; write a smaller one";
+  if (reason.find("not representable in 64 bits") != std::string::npos ||
+      reason.find("exceeds length limit") != std::string::npos)
+    return "a number has too many digits; write it with an exponent, as 9.2e18";
+  return "";
 }
 
 namespace

@@ -6,14 +6,13 @@
 namespace gestell::apps
 {
 
-/// Remedy for a typing error in a line that is not TOML, such as "text stands in quotes: \"bdf\""; empty if none is
-/// recognised.
+/// The remedy for a slip in a line that is not TOML, as "text stands in quotes: \"bdf\""; "": none is recognised.
 std::string toml_hint(const std::string &line);
+/// The same, or else from the reason that the TOML library gives; never empty.
+std::string toml_hint(const std::string &line, const std::string &reason);
 
-/// Cause and remedy for a message of the TOML library: a key or a table that is defined twice; else "".
-std::string hint_of_reason(const std::string &reason);
-/// The same if the line itself gives no hint: an array that is not closed; else "".
-std::string hint_of_place(const std::string &reason);
+/// The remedy for a number that the TOML library does not take because it is too large; "": that is not the reason.
+std::string hint_of_large_number(const std::string &reason);
 
 /// Error of a file before TOML parsing, with its line: the text is not UTF-8, or is CAD; else "".
 std::pair<int, std::string> hint_of_bytes(const std::string &text);

@@ -3,18 +3,17 @@
 #include "apps/scene/file/toml_hint.h"
 #include "fem/values/named_file.h"
 #include "fem/values/number_text.h"
+#include "fem/values/trimmed.h"
 
-#include <toml.hpp>
+#include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
-#include <tuple>
+#include <utility>
 
 namespace gestell::apps
 {
@@ -23,26 +22,11 @@ namespace
 
 using Type = SceneNode::Type;
 
-/// toml11 draws its message over several lines with a picture of the text; one line is enough with file and line.
-std::string first_line(const std::string &message)
-{
-  std::string line = message.substr(0, message.find('\n'));
-  for (const std::string prefix : {"[error] ", "toml::"})
-    if (line.compare(0, prefix.size(), prefix) == 0)
-      line.erase(0, prefix.size());
-  if (const auto colon = line.find(": "); colon != std::string::npos && line.find(' ') > colon)
-    line.erase(0, colon + 2); // the name of the parser's function
-  const auto note = message.rfind("^--- ");
-  if (note != std::string::npos)
-    line += ": " + message.substr(note + 5, message.find('\n', note) - note - 5);
-  return line;
-}
-
-std::string line_of(const std::string &text, std::size_t number)
+std::string line_of(const std::string &text, int number)
 {
   std::istringstream in(text);
   std::string        line;
-  for (std::size_t i = 0; i < number && std::getline(in, line); ++i)
+  for (int i = 0; i < number && std::getline(in, line); ++i)
     ;
   return line;
 }
@@ -90,97 +74,102 @@ int too_deep(const std::string &text)
   return 0;
 }
 
-/**
- * Locations of values in the text.  A location() of toml11 counts the lines before its value each time, which would
- * make reading quadratic in the length of the file; this class finds all ends of lines once and each line by bisection.
- */
-class Places
+/// Finds places of a text, which the parser gives as line and character of UTF-8; fast for places in their order.
+class PlacesInText
 {
 public:
-  explicit Places(const std::string &text) : text_(text)
+  explicit PlacesInText(const std::string &text) : text_(text)
   {
     for (std::size_t i = text.find('\n'); i != std::string::npos; i = text.find('\n', i + 1))
-      ends_.push_back(i);
+      lines_.push_back(i + 1);
   }
 
-  /// Byte of the text at which the value begins; 0 of one that is not written there.
-  std::size_t begin(const toml::value &value) const
+  /// The characters of a real number as they are written, so that no digit is lost; where they are no number to a
+  /// formula ("1_000.5"), all digits of its value.
+  std::string written_number(const toml::value<double> &value)
   {
-    const auto *written = dynamic_cast<const toml::detail::region *>(toml::detail::get_region(value));
-    return written ? std::size_t(written->first() - written->begin()) : 0;
-  }
-
-  int line(const toml::value &value) const
-  {
-    return 1 + int(std::lower_bound(ends_.begin(), ends_.end(), begin(value)) - ends_.begin());
-  }
-
-  /// The very characters of a real number, so that who passes them on loses no digit; without "_", which formulas lack.
-  std::string written_number(const toml::value &value) const
-  {
-    const auto       *written = toml::detail::get_region(value);
-    const std::string text    = written ? text_.substr(std::min(begin(value), text_.size()), written->size()) : "";
-    char             *end     = nullptr;
-    const bool        is_it   = !text.empty() && std::strtod(text.c_str(), &end) == value.as_floating() && *end == '\0';
-    return is_it ? text : exact_text(value.as_floating());
+    const std::size_t begin = byte(value.source().begin), end = byte(value.source().end);
+    const std::string text = text_.substr(begin, end - begin);
+    char             *last = nullptr;
+    const bool        same = !text.empty() && std::strtod(text.c_str(), &last) == value.get() && *last == '\0';
+    return same ? text : exact_text(value.get());
   }
 
 private:
+  std::size_t byte(const toml::source_position &place)
+  {
+    if (place.line < 1 || place.line > lines_.size())
+      return text_.size();
+    if (place.line != line_ || place.column < column_)
+    {
+      line_   = place.line;
+      column_ = 1;
+      byte_   = lines_[line_ - 1];
+    }
+    for (; column_ < place.column && byte_ < text_.size(); ++column_)
+      do
+        ++byte_;
+      while (byte_ < text_.size() && (static_cast<unsigned char>(text_[byte_]) & 0xC0) == 0x80);
+    return byte_;
+  }
+
   const std::string       &text_;
-  std::vector<std::size_t> ends_; ///< of lines
+  std::vector<std::size_t> lines_{0}; ///< bytes at which they begin
+  toml::source_index       line_ = 0, column_ = 0;
+  std::size_t              byte_ = 0; ///< of the last place
 };
 
-/// Entries in the order of the file; toml11 keeps none.
-std::vector<const toml::table::value_type *> in_order(const toml::table &table, const Places &places)
+/// Entries in the order of the file; the parser sorts them by key.
+auto in_order(const toml::table &table)
 {
-  std::vector<std::tuple<std::size_t, std::string, const toml::table::value_type *>> placed;
-  for (const auto &entry : table)
-    placed.emplace_back(places.begin(entry.second), entry.first, &entry);
-  std::sort(placed.begin(), placed.end());
-  std::vector<const toml::table::value_type *> entries;
-  for (const auto &[begin, key, entry] : placed)
-    entries.push_back(entry);
+  std::vector<std::pair<const toml::key *, const toml::node *>> entries;
+  for (const auto &[key, value] : table)
+    entries.emplace_back(&key, &value);
+  const auto place = [](const auto &entry)
+  {
+    const toml::source_position &begin = entry.first->source().begin;
+    return std::pair(begin.line, begin.column);
+  };
+  std::sort(entries.begin(), entries.end(), [&](const auto &a, const auto &b) { return place(a) < place(b); });
   return entries;
 }
 
-SceneNode converted(const toml::value &value, const Places &places, const Place &place, const std::string &folder)
+SceneNode converted(const toml::node &value, PlacesInText &places, const Place &place, const std::string &folder)
 {
   SceneNode node;
   node.place  = place;
   node.folder = folder;
   if (place.line > 0)
-    node.place.line = places.line(value);
+    node.place.line = std::max(1, int(value.source().begin.line));
 
   switch (value.type())
   {
-  case toml::value_t::table:
-    for (const auto *entry : in_order(value.as_table(), places))
-      node.entries.emplace_back(entry->first, converted(entry->second, places, place, folder));
+  case toml::node_type::table:
+    for (const auto &[key, entry] : in_order(*value.as_table()))
+      node.entries.emplace_back(key->str(), converted(*entry, places, place, folder));
     break;
-  case toml::value_t::array:
+  case toml::node_type::array:
     node.type = Type::array;
-    for (const auto &element : value.as_array())
+    for (const toml::node &element : *value.as_array())
       node.elements.push_back(converted(element, places, place, folder));
     break;
-  case toml::value_t::string:
+  case toml::node_type::string:
     node.type = Type::text;
-    node.text = value.as_string().str;
+    node.text = value.as_string()->get();
     break;
-  case toml::value_t::integer:
+  case toml::node_type::integer:
     node.type   = Type::integer;
-    node.number = static_cast<double>(value.as_integer());
-    node.text   = std::to_string(value.as_integer());
+    node.number = static_cast<double>(value.as_integer()->get());
+    node.text   = std::to_string(value.as_integer()->get());
     break;
-  case toml::value_t::floating:
+  case toml::node_type::floating_point:
     node.type   = Type::real;
-    node.number = value.as_floating();
-    node.text   = places.written_number(value);
-    if (std::abs(node.number) == std::numeric_limits<double>::max()) // what toml11 reads of 1e400
-      node.place.fail("a number is beyond 1.8e308, the largest that a computer takes; write a smaller one");
+    node.number = value.as_floating_point()->get();
+    node.text   = places.written_number(*value.as_floating_point());
     break;
-  case toml::value_t::boolean:
+  case toml::node_type::boolean:
     node.type    = Type::boolean;
-    node.boolean = value.as_boolean();
+    node.boolean = value.as_boolean()->get();
     node.text    = node.boolean ? "true" : "false";
     break;
   default:
@@ -190,47 +179,39 @@ SceneNode converted(const toml::value &value, const Places &places, const Place 
   return node;
 }
 
-toml::value parsed(const std::string &text, const std::string &file)
-{
-  std::istringstream in(text);
-  return toml::parse(in, file);
-}
-
-/// A text as nodes; toml::exception where it is not TOML.
+/// A text as nodes.
+/// @throws toml::parse_error where it is not TOML
 SceneNode node_of(const std::string &text, const Place &place, const std::string &folder)
 {
-  return converted(parsed(text, place.file), Places(text), place, folder);
+  PlacesInText places(text);
+  return converted(toml::parse(text), places, place, folder);
 }
 
 } // namespace
 
 SceneNode parse_toml_text(const std::string &text, const std::string &name, const std::string &folder)
 {
-  const auto fail = [&](int line, const std::string &what) {
-    throw std::invalid_argument(Place{name, line}.text() + ": " + what);
+  const auto complaint = [&](int line, const std::string &what) {
+    return std::invalid_argument(Place{name, line}.text() + ": " + what);
   };
   if (const int line = too_deep(text); line > 0)
-    fail(line, "tables and arrays stand in each other more than " + std::to_string(deepest) +
-                   " deep here; a scene needs six at most");
-  toml::value root;
+    throw complaint(line, "tables and arrays are nested more than " + std::to_string(deepest) +
+                              " deep here; a scene needs six at most");
   try
   {
-    root = parsed(text, name);
+    return node_of(text, Place{name, 1}, folder);
   }
-  catch (const toml::exception &e)
+  catch (const toml::parse_error &error)
   {
-    auto hint = hint_of_reason(e.what());
-    if (hint.empty())
-      hint = toml_hint(line_of(text, e.location().line()));
-    if (hint.empty())
-      hint = hint_of_place(e.what());
-    fail(e.location().line(), "is not TOML here: " + (hint.empty() ? first_line(e.what()) : hint));
+    const std::string reason(error.description());
+    int               line = int(error.source().begin.line);
+    if (const std::string hint = hint_of_large_number(reason); !hint.empty())
+      throw complaint(line, hint);
+    const auto begins_head = [&](int i) { return trimmed(line_of(text, i)).compare(0, 1, "[") == 0; };
+    if (reason.find("parsing table header") != std::string::npos && !begins_head(line) && begins_head(line - 1))
+      --line; // its end has been read
+    throw complaint(line, "is not TOML here: " + toml_hint(line_of(text, line), reason));
   }
-  catch (const std::exception &e)
-  {
-    fail(0, std::string("is not a TOML file: ") + first_line(e.what()));
-  }
-  return converted(root, Places(text), Place{name, 1}, folder);
 }
 
 SceneNode parse_toml_file(const std::string &path)
@@ -251,6 +232,8 @@ SceneNode parse_toml_file(const std::string &path)
     fail("cannot be read");
   if (text.size() > largest_text)
     fail("has more than " + std::to_string(largest_text / 1000000) + " MB; is it a scene?");
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) // a byte order mark
+    text.erase(0, 3);
   if (const auto [line, hint] = hint_of_bytes(text); !hint.empty())
     throw std::invalid_argument(Place{path, line}.text() + ": " + hint);
   return parse_toml_text(text, path, std::filesystem::absolute(path).parent_path().lexically_normal().string());

@@ -1,8 +1,7 @@
 #include "apps/session/exchange/fmu_answer.h"
 
 #include "apps/fmu/fmu_model.h"
-#include "apps/scene/file/scene_node.h"
-#include "apps/scene/file/written_text.h"
+#include "apps/scene/file/extending_scene.h"
 #include "apps/scene/read/frame/matrix_keys.h"
 #include "apps/version.h"
 #include "coupling/frame/frame_recipe.h"
@@ -26,36 +25,6 @@ namespace
 {
 
 using Type = SceneNode::Type;
-
-std::string written_real(double value)
-{
-  const std::string text = exact_text(value);
-  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-}
-
-std::string written_value(const SceneNode &value)
-{
-  std::string text;
-  switch (value.type)
-  {
-  case Type::text:
-    return written_text(value.text);
-  case Type::real:
-    return written_real(value.number);
-  case Type::boolean:
-    return value.boolean ? "true" : "false";
-  case Type::array:
-    for (const SceneNode &element : value.elements)
-      text += (text.empty() ? "" : ", ") + written_value(element);
-    return "[" + text + "]";
-  case Type::table:
-    for (const auto &[key, entry] : value.entries)
-      text += (text.empty() ? " " : ", ") + written_key(key) + " = " + written_value(entry);
-    return "{" + text + " }";
-  default:
-    return value.text;
-  }
-}
 
 /// Values first, as what follows the head of an inner table belongs to that.
 void write_table(const SceneNode &table, const std::string &path, std::string &text)
@@ -241,13 +210,13 @@ FmuDescription described(const FmuModel &model)
 
 } // namespace
 
-FmuAnswer fmu_of(const SceneNode &root, Session &session)
+FmuAnswer fmu_of(Session &session)
 {
   session.check_run();
   require_portable(session.scene());
   FmuAnswer                          answer;
   FmuResources                       resources;
-  SceneNode                          flat = root;
+  SceneNode                          flat = session.variant().root;
   std::map<std::string, std::string> files;
   keep_signals_alone(flat);
   take_frame(flat, session, resources, files, answer.notes);

@@ -2,7 +2,6 @@
 
 #include "apps/scene/build/result_window.h"
 #include "apps/scene/file/parameters.h"
-#include "apps/scene/file/scene_override.h"
 #include "apps/session/joint_opening.h"
 #include "coupling/frame/frame_recipe.h"
 #include "coupling/sensitivity/frame_derivative.h"
@@ -20,17 +19,6 @@ namespace gestell::apps
 namespace
 {
 
-/// The frame as a machine needs it, without data for pictures and reports.
-coupling::ReducedFrame without_pictures(const coupling::ReducedFrame &frame)
-{
-  coupling::ReducedFrame plain = frame;
-  plain.points                 = {};
-  plain.triangles              = {};
-  plain.displacement           = {};
-  plain.stress                 = {};
-  return plain;
-}
-
 [[noreturn]] void refuse(const VariedKey &key, const std::string &what)
 {
   throw std::invalid_argument("--sensitivities " + key.reported.key + ": " + what);
@@ -39,11 +27,6 @@ coupling::ReducedFrame without_pictures(const coupling::ReducedFrame &frame)
 bool reduces(const Scene &scene)
 {
   return frame_path(scene) == FramePath::reduce;
-}
-
-bool same_frame(const Scene &a, const Scene &b)
-{
-  return !reduces(a) || coupling::content_key(frame_origin(a).recipe) == coupling::content_key(frame_origin(b).recipe);
 }
 
 /// Whether its frames differ in what is meshed.
@@ -64,16 +47,15 @@ bool meshed_anew(const Scene &a, const Scene &b)
 class VariedScene
 {
 public:
-  VariedScene(const SceneFileAt &file, VariedKey &key) : file_(file), key_(key) {}
+  VariedScene(const Variant &file, VariedKey &key) : file_(file), key_(key) {}
 
-  /// The scene at the value of the key plus `by` steps.
-  std::unique_ptr<Scene> at(double by) const
+  /// At its value and `by` of its step.
+  Scene at(double by) const
   {
-    SceneNode varied = file_.root;
-    apply_override(varied, key_.overridden(by));
+    const Variant varied = file_.with(key_.overridden(by));
     try
     {
-      return std::make_unique<Scene>(read_scene(varied, file_.path, file_.scripts));
+      return varied.scene();
     }
     catch (const IdleParameter &)
     {
@@ -92,8 +74,8 @@ public:
   VariedKey &key() const { return key_; }
 
 private:
-  const SceneFileAt &file_;
-  VariedKey         &key_;
+  const Variant &file_;
+  VariedKey     &key_;
 };
 
 /// The frame with as many modes as another has.
@@ -112,18 +94,18 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
                                                              const coupling::ReducedFrame &frame,
                                                              const coupling::Progress &progress, std::string &warning)
 {
-  const auto near = varied.at(1.);
-  if (!reduces(scene) || same_frame(*near, scene))
+  const Scene near = varied.at(1.);
+  if (!reduces(scene) || same_frame(near, scene))
     return {};
   VariedKey       &key         = varied.key();
-  const bool       anew        = meshed_anew(*near, scene);
-  constexpr double of_matrices = 1e-3; // relative change of the parameter, for frames on equal meshes
-  constexpr double of_meshes   = 5e-2; // for remeshed frames: the scatter of the meshes is smaller
+  const bool       anew        = meshed_anew(near, scene);
+  constexpr double of_matrices = 1e-3; // of a value, by which frames on equal meshes are apart from the scene's
+  constexpr double of_meshes   = 5e-2; // of frames meshed anew: what meshes scatter is smaller beside it
   const double     steps       = (anew ? of_meshes : of_matrices) * std::abs(key.reported.value) / key.step;
   try
   {
-    const auto below = frame_with_modes_of(frame, std::move(*varied.at(-steps)), progress),
-               above = frame_with_modes_of(frame, std::move(*varied.at(steps)), progress);
+    const auto below = frame_with_modes_of(frame, varied.at(-steps), progress),
+               above = frame_with_modes_of(frame, varied.at(steps), progress);
     // a study leaves out the skin, by which modes are recognised
     auto derivative    = frame.points.empty() ? coupling::frame_derivative(reduced_frame(scene, progress).frame, below,
                                                                            above, steps * key.step)
@@ -167,27 +149,23 @@ void require_same_structure(const coupling::Machine &machine, const coupling::Ma
                     key.reported.key + "=...");
 }
 
-SceneTwin twin_of(const VariedScene &varied, const coupling::ReducedFrame *frame,
-                  const coupling::FrameDerivative *of_frame, double by)
+PreparedScene twin_of(const VariedScene &varied, const coupling::ReducedFrame *frame,
+                      const coupling::FrameDerivative *of_frame, double by)
 {
-  SceneTwin twin;
-  twin.scene = varied.at(by);
+  Scene scene = varied.at(by);
   try
   {
-    twin.prepared = std::make_unique<PreparedMachine>(
-        !frame     ? prepare_machine(*twin.scene)
-        : of_frame ? prepare_machine_on(*twin.scene, coupling::moved(*frame, *of_frame, by * varied.key().step))
-                   : prepare_machine_on(*twin.scene, *frame));
+    const auto moved = of_frame ? coupling::moved(*frame, *of_frame, by * varied.key().step) : coupling::ReducedFrame();
+    return prepared_scene(std::move(scene), of_frame ? &moved : frame);
   }
   catch (const std::invalid_argument &refused)
   {
     refuse(varied.key(), "the machine is refused at a value a millionth away, so that this entry has no derivative: " +
                              std::string(refused.what()));
   }
-  return twin;
 }
 
-coupling::MachineTwin reported(const SceneTwin &of)
+coupling::MachineTwin reported(const PreparedScene &of)
 {
   coupling::MachineTwin twin;
   twin.machine = &of.prepared->machine;
@@ -198,7 +176,7 @@ coupling::MachineTwin reported(const SceneTwin &of)
   return twin;
 }
 
-void add_twins(const SceneFileAt &file, const Scene &scene, const PreparedMachine &prepared,
+void add_twins(const Variant &file, const Scene &scene, const PreparedMachine &prepared,
                const coupling::ReducedFrame *frame, const coupling::Progress &progress, VariedKey &key,
                PerturbedScenes &made)
 {
@@ -207,9 +185,9 @@ void add_twins(const SceneFileAt &file, const Scene &scene, const PreparedMachin
   const auto        of_frame =
       frame ? derivative_of_frame(varied, scene, *prepared.machine.model().reduced_frame(), progress, warning)
                    : std::nullopt;
-  SceneTwin below = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, -1.),
-            above = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, 1.);
-  for (const SceneTwin *twin : {&below, &above})
+  PreparedScene below = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, -1.),
+                above = twin_of(varied, frame, of_frame ? &*of_frame : nullptr, 1.);
+  for (const PreparedScene *twin : {&below, &above})
     require_same_structure(prepared.machine, twin->prepared->machine, key);
   coupling::ParameterTwins twins{key.reported.key, key.reported.unit, key.reported.value,
                                  key.step,         reported(below),   reported(above)};
@@ -222,7 +200,7 @@ void add_twins(const SceneFileAt &file, const Scene &scene, const PreparedMachin
 
 } // namespace
 
-PerturbedScenes perturbed_scenes(const SceneFileAt &file, const Scene &scene, PreparedMachine &prepared,
+PerturbedScenes perturbed_scenes(const Variant &file, const Scene &scene, PreparedMachine &prepared,
                                  std::vector<VariedKey> &keys, std::vector<std::string> *left_out,
                                  const coupling::Progress &progress)
 {
@@ -234,7 +212,7 @@ PerturbedScenes perturbed_scenes(const SceneFileAt &file, const Scene &scene, Pr
                                 "\"steady\" or \"equilibrium\", or give the start");
   coupling::require_variational(prepared.machine);
   std::optional<coupling::ReducedFrame> frame;
-  if (frame_path(scene) == FramePath::reduce || frame_path(scene) == FramePath::from_file)
+  if (on_reduced_frame(scene))
     frame = without_pictures(*prepared.machine.model().reduced_frame());
   PerturbedScenes        made;
   std::vector<VariedKey> kept;

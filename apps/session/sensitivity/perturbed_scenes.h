@@ -1,46 +1,31 @@
 #pragma once
 
-#include "apps/session/prepared_machine.h"
+#include "apps/scene/variant.h"
+#include "apps/session/reduced_frame_store.h"
 #include "apps/session/sensitivity/sensitivity_keys.h"
 #include "coupling/sensitivity/parameter_twins.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace gestell::apps
 {
 
-/// The scene at a value of one key, with its machine.
-struct SceneTwin
-{
-  std::unique_ptr<Scene>           scene;
-  std::unique_ptr<PreparedMachine> prepared;
-};
-
-/// Scenes a little below and above the value of every key, for difference quotients.
+/// Scenes a little below and above the value of every key, and what is differentiated of them.
 struct PerturbedScenes
 {
-  std::vector<SceneTwin>                scenes; ///< of key k: 2k below, 2k + 1 above
+  std::vector<PreparedScene>            scenes; ///< of key k: 2k below, 2k + 1 above
   std::vector<coupling::ParameterTwins> twins;
   std::vector<std::string>              warnings;
 };
 
-/// A scene as read, with its overrides.
-struct SceneFileAt
-{
-  SceneNode    root;
-  std::string  path;
-  fem::Scripts scripts;
-};
-
-/// All scenes use the frame of `prepared`; for a key that changes the frame, the derivative of the frame, a difference
-/// quotient of two reductions, is added.
-/// @param keys      omitted keys are removed; for keys of the frame the method of its derivative is noted
-/// @param left_out  receives a sentence for each omitted key, which has no derivative; null: such a key is an error
+/// The frame of all is that of `prepared`; with entries on which it depends it is moved by its derivative, a quotient
+/// of two reductions.
+/// @param keys      without those that are left out; those of the frame are told how its derivative was found
+/// @param left_out  gets a sentence for each key that has no derivative, and is left out; null: it is refused
 /// @param progress  of reductions
-/// @throws std::invalid_argument if a scene is invalid at such a value, or its machine has another structure
-PerturbedScenes perturbed_scenes(const SceneFileAt &file, const Scene &scene, PreparedMachine &prepared,
+/// @throws std::invalid_argument where a scene is refused at such a value, or its machine is of another structure
+PerturbedScenes perturbed_scenes(const Variant &file, const Scene &scene, PreparedMachine &prepared,
                                  std::vector<VariedKey> &keys, std::vector<std::string> *left_out,
                                  const coupling::Progress &progress);
 

@@ -1,6 +1,7 @@
 #include "apps/session/sensitivity/sensitivity_keys.h"
 
 #include "apps/scene/file/parameters.h"
+#include "apps/scene/file/scene_override.h"
 #include "apps/scene/language/parse_quantity.h"
 #include "fem/values/nearest_name.h"
 #include "fem/values/number_text.h"
@@ -50,14 +51,6 @@ std::string without_quotes(const std::string &text)
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-std::vector<std::string> names_in(const SceneNode &table)
-{
-  std::vector<std::string> names;
-  for (const auto &entry : table.entries)
-    names.push_back(entry.first);
-  return names;
-}
-
 /// Tables on which no motion depends.
 void refuse_settings(const std::string &key, const std::string &table)
 {
@@ -88,7 +81,7 @@ const SceneNode &node_of(const SceneNode &root, const std::string &key)
       refuse(key, "the scene has no entry \"" + name + "\", but a parameter of that name; write parameters." + name);
     if (!next)
       refuse(key, node->place.text() + ": " + (path.empty() ? "the scene" : path) + " has no entry \"" + name + "\"" +
-                      suggestion(name, names_in(*node)));
+                      suggestion(name, names_in(node)));
     path += (path.empty() ? "" : ".") + name;
     node = next;
   }

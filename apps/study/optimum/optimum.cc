@@ -76,11 +76,9 @@ SearchTrack searched(RememberedModel &model, const OptimumTask &task, const Eige
 
   const Eigen::VectorXd values = outputs_at(end.x, Derivatives::none).values;
   SearchTrack           track{start, end.x, objective_of(task.goals, values), violation_of(task.limits, values)};
-  // of the size of a limit: searches keep limits to some 1e-9 in their own scale
-  constexpr double limit_tolerance = 1e-6;
-  track.feasible                   = track.violation <= limit_tolerance && std::isfinite(track.objective);
-  track.evaluations                = evaluations;
-  track.reason                     = end.reason;
+  track.feasible    = track.violation <= kept_limits && std::isfinite(track.objective);
+  track.evaluations = evaluations;
+  track.reason      = end.reason;
   return track;
 }
 

@@ -8,6 +8,9 @@
 namespace gestell::apps
 {
 
+/// A limit may be broken by so much of its size: searches keep limits to some 1e-9 in their own scale.
+constexpr double kept_limits = 1e-6;
+
 enum class Sense
 {
   minimise,

@@ -24,10 +24,9 @@ OutputModel model_of(std::vector<ResponseSurface> surfaces)
 
 RememberedModel::PointKey RememberedModel::key_of(const Eigen::VectorXd &xi)
 {
-  PointKey         key;
-  constexpr double remembered_point = 1e-9; // of coded values: walls that searches reach but for rounding
+  PointKey key;
   for (const double x : xi)
-    key.push_back(std::llround(x / remembered_point));
+    key.push_back(std::llround(x / same_level));
   return key;
 }
 

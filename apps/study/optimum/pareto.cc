@@ -13,8 +13,6 @@ namespace gestell::apps
 namespace
 {
 
-constexpr double kept_limits = 1e-6; ///< of the size of a limit, as find_optimum() keeps them
-
 /// Goals as values to minimise, [rows x goals].
 Eigen::MatrixXd to_minimise(Eigen::MatrixXd values, const std::vector<Sense> &senses)
 {

@@ -59,8 +59,7 @@ bool scatters(const StudyVariable &variable)
 
 double share_outside(const Eigen::MatrixXd &points)
 {
-  constexpr double inside_edge = 1. + 1e-9; // edge of the box, 1 in coded variables, but for rounding
-  return static_cast<double>((points.cwiseAbs().rowwise().maxCoeff().array() > inside_edge).count()) /
+  return static_cast<double>((points.cwiseAbs().rowwise().maxCoeff().array() > 1. + same_level).count()) /
          static_cast<double>(points.rows());
 }
 

@@ -221,7 +221,7 @@ std::string marks_svg(const Eigen::MatrixXd &runs, const SurfaceCut &cut)
   Eigen::Index          n          = 0;
   constexpr std::size_t most_rings = 80; // runs of a picture that stay apart
   for (Eigen::Index run = 0; run < runs.rows() && n < static_cast<Eigen::Index>(most_rings); ++run)
-    if (std::max(std::abs(runs(run, cut.first)), std::abs(runs(run, cut.second))) <= 1. + 1e-9)
+    if (std::max(std::abs(runs(run, cut.first)), std::abs(runs(run, cut.second))) <= 1. + same_level)
     {
       svg += "<circle class=\"line s5\" cx=\"" + coordinate(x(runs(run, cut.first))) + "\" cy=\"" +
              coordinate(y(runs(run, cut.second))) + "\" r=\"3\"/>";

@@ -224,7 +224,7 @@ double middle_of(const StudyFindings &findings, const ResponseSurface &surface)
 {
   const Eigen::MatrixXd coded = findings.table.coded();
   for (std::size_t i = 0; i < surface.runs.size(); ++i)
-    if (coded.row(surface.runs[i]).cwiseAbs().maxCoeff() < 1e-9)
+    if (coded.row(surface.runs[i]).cwiseAbs().maxCoeff() < same_level)
       return surface.computed[Eigen::Index(i)];
   if (findings.optimum && findings.optimum->nominal)
     for (std::size_t i = 0; i < findings.table.outputs.size(); ++i)

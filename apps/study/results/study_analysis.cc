@@ -55,7 +55,7 @@ std::optional<Eigen::VectorXd> middle_run(const StudyTable &table)
 {
   const Eigen::MatrixXd coded = table.coded();
   for (const int run : table.usable_runs())
-    if (coded.row(run).cwiseAbs().maxCoeff() < 1e-9)
+    if (coded.row(run).cwiseAbs().maxCoeff() < same_level)
       return table.values.row(run).transpose();
   return std::nullopt;
 }

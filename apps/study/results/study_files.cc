@@ -1,10 +1,10 @@
 #include "apps/study/results/study_files.h"
 
 #include "apps/output/folder/writing.h"
+#include "apps/scene/file/extending_scene.h"
 #include "apps/study/report/study_report.h"
 #include "apps/study/report/study_tables.h"
 #include "apps/study/results/findings_text.h"
-#include "apps/study/results/optimum_scene.h"
 
 namespace gestell::apps
 {
@@ -27,6 +27,18 @@ Eigen::VectorXd levels_of(const StudyFindings &findings)
   for (Eigen::Index i = 0; i < levels.size(); ++i)
     levels[i] = findings.table.variables[std::size_t(i)].physical(findings.optimum->found.coded[i]);
   return levels;
+}
+
+std::string optimum_scene(const StudyFile &study, const SceneVariants &variants, const Eigen::VectorXd &levels,
+                          const fs::path &folder)
+{
+  auto      changes = variants.changes_at(levels);
+  SceneNode name;
+  name.type = SceneNode::Type::text;
+  name.text = study.name + "_optimum";
+  add_change(changes, "name", name);
+  return extending_scene("The optimum of the study " + study.name + ", by gestell study.", study.scene, changes,
+                         folder);
 }
 
 void write_findings(const fs::path &folder, const StudyFile &study, const SceneVariants &variants,

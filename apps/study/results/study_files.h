@@ -13,6 +13,11 @@ namespace gestell::apps
 /// The optimum in the units of the variables.
 Eigen::VectorXd levels_of(const StudyFindings &findings);
 
+/// A scene file that extends that of the study by its settings and by these levels of the variables; its path is
+/// relative to `folder`, where it is meant to be.
+std::string optimum_scene(const StudyFile &study, const SceneVariants &variants, const Eigen::VectorXd &levels,
+                          const std::filesystem::path &folder);
+
 /// Names of the files that a study writes beside its rows, for OwnFolder::require_free().  Rows are told from those of
 /// others by what stands in them.
 const std::vector<std::string> &study_names();

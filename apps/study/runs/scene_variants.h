@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/scene/file/parameters.h"
-#include "apps/scene/scene.h"
+#include "apps/scene/variant.h"
 #include "apps/study/file/study_file.h"
 
 #include <Eigen/Core>
@@ -12,9 +12,6 @@
 namespace gestell::apps
 {
 
-/// A value as a TOML file writes it on one line; files by their whole path.
-std::string toml_value(const SceneNode &node);
-
 /// The scene of a study at any values of its variables; its files are read once.
 class SceneVariants
 {
@@ -23,16 +20,14 @@ public:
   SceneVariants(const StudyFile &study, fem::Scripts scripts);
 
   /// @param levels  one a variable, in its unit; words by their number
-  /// @throws std::invalid_argument where the scene does not accept them
-  Scene at(const Eigen::VectorXd &levels) const;
+  Variant at(const Eigen::VectorXd &levels) const;
   /// Parameters of that scene, for formulas.
   Parameters parameters_at(const Eigen::VectorXd &levels) const;
-  /// "key=value" of what the study changes in the scene file: its settings, the command line's, and the levels.
-  std::vector<std::string> overrides_at(const Eigen::VectorXd &levels) const;
-  /// The same, each key once, none inside of another's table.
+  /// All changes of the scene file: settings of the study, those of the command line, and the levels; each key once,
+  /// none inside another's table.
   std::vector<SceneNode::Entry> changes_at(const Eigen::VectorXd &levels) const;
   /// The scene with the settings of the study, before any variable.
-  const SceneNode &root() const { return root_; }
+  const SceneNode &root() const { return scene_.root; }
 
   /// Tries the ends of each variable, and the smallest and largest of its levels, the others in their middles.
   /// @param levels  of all runs [runs x variables]
@@ -48,13 +43,13 @@ public:
   Eigen::VectorXd middle() const; ///< of all ranges; of words the first
 
 private:
-  SceneNode node_at(const Eigen::VectorXd &levels) const;
-  void      check_measure(const RunParameter &measure) const;
-  void      check_key(const VariableRequest &request, const std::string &key) const;
+  void set(const std::string &key, const SceneNode &value);
+  void check_measure(const RunParameter &measure) const;
+  void check_key(const VariableRequest &request, const std::string &key) const;
 
-  StudyFile    study_;
-  fem::Scripts scripts_;
-  SceneNode    root_;
+  StudyFile                     study_;
+  Variant                       scene_;    ///< with the settings, before any variable
+  std::vector<SceneNode::Entry> settings_; ///< as changes_at()
 };
 
 } // namespace gestell::apps

@@ -10,7 +10,6 @@
 #include "apps/study/runs/output_formulas.h"
 #include "apps/study/runs/scene_variants.h"
 
-#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <stdexcept>
@@ -126,11 +125,11 @@ RunRow failed(RunRow row, const std::string &message)
 StudyRunner::StudyRunner(const StudyFile &study, const Eigen::MatrixXd &levels, fem::Scripts scripts,
                          const std::filesystem::path &kept)
     : variables_(study.variables), variants_(study, scripts), frames_(!kept.empty()),
-      outputs_((variants_.check_ranges(levels), study), variants_.at(variants_.middle()),
+      outputs_((variants_.check_ranges(levels), study), variants_.at(variants_.middle()).scene(),
                variants_.parameters_at(variants_.middle())),
       measures_(study.measures), kept_(kept)
 {
-  const Scene scene = variants_.at(variants_.middle());
+  const Scene scene = variants_.at(variants_.middle()).scene();
   for (const RunParameter &measure : measures_)
     try
     {
@@ -148,10 +147,7 @@ void StudyRunner::leave_out_unread(Scene &scene) const
   for (const RunParameter &measure : measures_)
     if (const auto segments = key_segments(measure.entry, measure.place); segments.front() == "signals")
       read.push_back(segments[1]);
-  scene.signals.erase(std::remove_if(scene.signals.begin(), scene.signals.end(),
-                                     [&](const SignalRequest &signal)
-                                     { return std::find(read.begin(), read.end(), signal.name) == read.end(); }),
-                      scene.signals.end());
+  keep_signals(scene, read);
   coupling::RunOptions &run = scene.run.options;
   run.picture_step          = 0.; // rows stay: extremes are looked for at them, too
   run.energy                = outputs_.reads("energy");
@@ -218,11 +214,12 @@ Result StudyRunner::result_of(const Eigen::VectorXd &levels, const std::atomic<b
 Result StudyRunner::single_result(const Eigen::VectorXd &levels, const std::atomic<bool> *stop,
                                   const std::string &sensitivities)
 {
-  Scene scene = variants_.at(levels);
+  Variant variant = variants_.at(levels);
+  Scene   scene   = variant.scene();
   if (kept_.empty() && sensitivities.empty()) // the scenes just beside have all signals
     leave_out_unread(scene);
   const auto frame = frames_.frame(scene, stoppable({}, stop));
-  Session    session(std::move(scene), variants_.overrides_at(levels), {{}, stop});
+  Session    session(std::move(variant), std::move(scene), {{}, stop});
   if (frame)
     session.use_frame(*frame);
   const Analyses analyses = analyses_of("run", {{"--sensitivities", {sensitivities}}});

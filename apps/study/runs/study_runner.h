@@ -1,7 +1,7 @@
 #pragma once
 
+#include "apps/session/reduced_frame_store.h"
 #include "apps/study/runs/output_formulas.h"
-#include "apps/study/runs/reduced_frame_store.h"
 #include "apps/study/runs/run_row.h"
 #include "apps/study/runs/scene_variants.h"
 

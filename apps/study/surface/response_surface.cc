@@ -38,7 +38,6 @@ std::map<std::vector<long long>, std::vector<Eigen::Index>> runs_by_point(const 
   for (Eigen::Index run = 0; run < coded.rows(); ++run)
   {
     std::vector<long long> point;
-    constexpr double       same_level = 1e-9; // coded levels nearer than this are the same
     for (Eigen::Index j = 0; j < coded.cols(); ++j)
       point.push_back(std::llround(coded(run, j) / same_level));
     points[point].push_back(run);

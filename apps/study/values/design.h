@@ -10,7 +10,8 @@
 namespace gestell::apps
 {
 
-constexpr double most_runs = 1e6; ///< of a study: twelve days at one a second
+constexpr double same_level = 1e-9; ///< coded values nearer than this differ by rounding alone
+constexpr double most_runs  = 1e6;  ///< of a study: twelve days at one a second
 
 /// The points of a study in coded values (study_variable.h).
 struct Design

@@ -42,18 +42,16 @@ def root_copy(folder, gestell):
     (folder / "build/release/bin").symlink_to(gestell.parent)
 
 
-def environment(gestell, commands, folder):
-    """Frames in the cache cost next to nothing, which changes what `gestell size` can afford: it starts without any."""
+def environment(gestell):
     path = f"{gestell.parent}{os.pathsep}{os.environ['PATH']}"
-    cold = {"GESTELL_CACHE": f"{folder}/cold_cache"} if "gestell size " in commands else {}
-    return {**os.environ, "PATH": path, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", **cold}
+    return {**os.environ, "PATH": path, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 
 
 def answer_of(commands, folder, gestell):
     """Exit code and all that is printed by commands of a shell that stops at the first that fails."""
     done = subprocess.run(
         ["bash", "-e", "-o", "pipefail", "-c", commands],
-        cwd=folder, env=environment(gestell, commands, folder), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+        cwd=folder, env=environment(gestell), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
     )  # fmt: skip
     return done.returncode, done.stdout
 

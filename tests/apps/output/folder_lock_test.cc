@@ -27,15 +27,15 @@ public:
     process_ = fork();
     if (process_ == 0)
       hold(file, delay_ms, taken[1]);
-    char answer = 0;
-    EXPECT_EQ(read(taken[0], &answer, 1), 1);
-    close(taken[0]);
     close(taken[1]);
+    char answer = 0;
+    EXPECT_EQ(read(taken[0], &answer, 1), 1); // 0: the child ended without the lock
+    close(taken[0]);
   }
   ~SlowHolder()
   {
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
+    if (process_ > 0 && kill(process_, SIGKILL) == 0)
+      waitpid(process_, nullptr, 0);
   }
   std::string process() const { return std::to_string(process_); }
 
@@ -45,8 +45,9 @@ private:
     const int    opened = open(file.c_str(), O_CREAT | O_RDWR, 0644);
     struct flock lock   = {};
     lock.l_type         = F_WRLCK;
-    if (fcntl(opened, F_SETLK, &lock) == 0 && write(taken, "t", 1) == 1)
-      usleep(1000 * delay_ms);
+    if (fcntl(opened, F_SETLK, &lock) != 0 || write(taken, "t", 1) != 1)
+      _exit(1);
+    usleep(1000 * delay_ms);
     const std::string words = std::to_string(getpid()) + "\ncomputer\nis busy\n";
     if (pwrite(opened, words.data(), words.size(), 0) > 0)
       pause();

@@ -106,13 +106,31 @@ TEST(Messages, SaysWhatALineThatIsNoTomlShouldBe)
   expect("x = .5", "a number has digits on both sides of its point");
   expect("method = bdf", "text stands in quotes: \"bdf\"");
   expect("on = True", "write true or false");
-  expect("name = “abc”", "quotes are \" or ', not “");
+  expect("method = “abc”", "quotes are \" or ', not “");
   expect("k : 3", "a key and its value have = between them");
   expect("k = ", "a value is missing");
   expect("[element.crank pin]",
          "a name with more than letters, digits, _ and - stands in quotes: [element.\"crank pin\"]");
   expect("crank pin = 3", "a key with more than letters, digits, _ and - stands in quotes: \"crank pin\"");
   expect("k = \"abc", "a quote is opened here and not closed");
+}
+
+TEST(Messages, NamesWhatIsDefinedTwice)
+{
+  const auto expect = [](const std::string &text, int line, const std::string &hint)
+  { expect_complaint(text, "scene.toml:" + std::to_string(line) + ": is not TOML here: " + hint); };
+  expect("[element.\"crank pin\"]\nk = 1\n[element.\"crank pin\"]\nk = 2\n", 3,
+         "[element.\"crank pin\"] stands in the file twice");
+  expect("[body]\n\"x y\" = 1\n\"x y\" = 2\n", 3, "the key '\"x y\"' stands twice in this table");
+  expect("frame = \"a\"\n[frame.mesh]\nsize = 1\n", 2, "frame.mesh: the same name stands above for another value");
+  expect("[body.slide]\nmass = 1\n[body]\nslide = 3\n", 4, "'slide' is already a table above");
+  expect("a = [1, 2", 1, "the file ends inside an array");
+}
+
+TEST(Messages, SayHowALargeNumberIsWritten)
+{
+  expect_complaint("x = 1e400\n", "scene.toml:1: a number is beyond 1.8e308");
+  expect_complaint("x = 99999999999999999999\n", "scene.toml:1: a number has too many digits");
 }
 
 TEST(Messages, ProposeTheInterfaceWhoseNameIsGivenAlone)

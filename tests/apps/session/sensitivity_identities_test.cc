@@ -107,9 +107,8 @@ const char *const keys = "parameters.r,parameters.mu,parameters.x_C0,body.crank.
 
 std::map<std::string, SensitivityOutput> derivatives(const SceneNode &tree)
 {
-  apps::Session session(apps::read_scene(tree, shipped(scene), fem::Scripts::harmless), {}, {});
-  session.take_entries(tree);
-  const auto found = sensitivities_of(differentiated(std::move(session), keys));
+  apps::Session session(apps::Variant{tree, shipped(scene)});
+  const auto    found = sensitivities_of(differentiated(std::move(session), keys));
   EXPECT_EQ(found.failure, "");
   std::map<std::string, SensitivityOutput> outputs;
   for (const SensitivityOutput &output : found.outputs)

@@ -33,7 +33,7 @@ std::string row_of_sliders(int n, const std::string &more = "")
 
 Session session_of(const std::string &text, const std::vector<std::string> &overrides = {})
 {
-  return Session(test::scene_of(text, overrides), overrides, {});
+  return Session({}, test::scene_of(text, overrides), {});
 }
 
 } // namespace

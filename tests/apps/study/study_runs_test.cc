@@ -1,7 +1,7 @@
 #include "apps/scene/file/scene_file.h"
 #include "apps/session/session.h"
 #include "apps/study/file/event_kinds.h"
-#include "apps/study/results/optimum_scene.h"
+#include "apps/study/results/study_files.h"
 #include "apps/study/runs/study_answer.h"
 #include "tests/support/program.h"
 #include "tests/support/reference_table.h"

@@ -1,5 +1,6 @@
 #include "coupling/frame/cache_folder.h"
 #include "coupling/frame/frame_cache.h"
+#include "fem/process/cpu_time.h"
 
 #include "tests/support/frame_folder.h"
 #include "tests/support/test.h"
@@ -70,6 +71,61 @@ TEST_F(FrameCache, MakesAFrameOnceAndAnewWhereTheKeptOneIsDamaged)
   const auto fail = []() -> coupling::ReducedFrame { throw std::runtime_error("no frame"); };
   EXPECT_THROW(coupling::cached_or_made(coarse, fail), std::runtime_error);
   EXPECT_FALSE(fs::exists(cache_file(content_key(coarse.recipe))));
+}
+
+namespace
+{
+
+/// Takes this much processor time, at least.
+coupling::ReducedFrame after_work(double seconds)
+{
+  const double begin = fem::cpu_time();
+  while (fem::cpu_time() - begin < seconds)
+  {
+  }
+  return some_frame();
+}
+
+} // namespace
+
+TEST_F(FrameCache, KeepsTheProcessorTimeOfTheMaking)
+{
+  constexpr double work  = 0.1; // [s] long beside the ticks of the system's clock
+  const auto       make  = [&] { return after_work(work); };
+  const double     spent = coupling::cpu_time_without_cache() - fem::cpu_time();
+  const auto       made  = coupling::cached_or_made(fine, make);
+  EXPECT_GE(made.cpu, work);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(coupling::cached_or_made(fine, make).cpu, made.cpu);
+  const double saved = coupling::cpu_time_without_cache() - fem::cpu_time() - spent;
+  EXPECT_LT(saved, work) << "made by this process: nothing is saved";
+}
+
+TEST_F(FrameCache, CountsAFrameOfAnotherProcessOnceWithItsProcessorTime)
+{
+  coupling::FrameOrigin origin = fine;
+  origin.recipe.push_back({"by", "another process"});
+  origin.cpu = 1000.;
+  ASSERT_EQ(coupling::keep_in_cache(some_frame(), origin), "");
+  const auto   make   = []() -> coupling::ReducedFrame { throw std::logic_error("it is there"); };
+  const auto   saved  = [] { return coupling::cpu_time_without_cache() - fem::cpu_time(); };
+  const double before = saved();
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(coupling::cached_or_made(origin, make).cpu, origin.cpu);
+    EXPECT_NEAR(saved() - before, origin.cpu, 1.); // two clocks are read one after the other
+  }
+
+  origin.recipe.push_back({"of", "parts"});
+  const auto of_parts = [&]
+  {
+    coupling::FrameOrigin part = fine;
+    part.recipe.push_back({"part", "found"});
+    part.cpu = 500.;
+    EXPECT_EQ(coupling::keep_in_cache(some_frame(), part), "");
+    return coupling::cached_or_made(part, make).frame;
+  };
+  EXPECT_NEAR(coupling::cached_or_made(origin, of_parts).cpu, 500., 1.) << "a part that was found costs what it cost";
 }
 
 TEST_F(FrameCache, ThatCannotBeWrittenIsToldAndDoesNoHarm)

@@ -1,7 +1,5 @@
-#include "apps/study/runs/reduced_frame_store.h"
+#include "apps/session/reduced_frame_store.h"
 
-#include "apps/scene/build/build_machine.h"
-#include "apps/session/prepared_machine.h"
 #include "coupling/frame/frame_cache.h"
 #include "coupling/frame/frame_recipe.h"
 
@@ -62,51 +60,59 @@ std::string key_of_file(const std::string &path)
   return key;
 }
 
-/// What a machine needs of its frame, without what is only drawn unless that is wanted.
-std::shared_ptr<const coupling::ReducedFrame> shared(coupling::ReducedFrame frame, bool drawn)
+std::string key_of_frame(const Scene &scene)
 {
-  if (!drawn)
-  {
-    frame.points       = {};
-    frame.triangles    = {};
-    frame.displacement = {};
-    frame.stress       = {};
-  }
-  return std::make_shared<const coupling::ReducedFrame>(std::move(frame));
+  return coupling::content_key(frame_origin(scene).recipe);
 }
 
 } // namespace
 
-bool ReducedFrameStore::serves(const Scene &scene)
+bool on_reduced_frame(const Scene &scene)
 {
   const FramePath path = frame_path(scene);
   return !scene.reduction.superposition && (path == FramePath::reduce || path == FramePath::from_file);
 }
 
+bool same_frame(const Scene &a, const Scene &b)
+{
+  return frame_path(a) != FramePath::reduce || key_of_frame(a) == key_of_frame(b);
+}
+
+coupling::ReducedFrame without_pictures(coupling::ReducedFrame frame)
+{
+  frame.points       = {};
+  frame.triangles    = {};
+  frame.displacement = {};
+  frame.stress       = {};
+  return frame;
+}
+
+PreparedScene prepared_scene(Scene scene, const coupling::ReducedFrame *frame)
+{
+  auto own      = std::make_unique<Scene>(std::move(scene));
+  auto prepared = std::make_unique<PreparedMachine>(prepare_machine(*own, {}, frame));
+  return {std::move(own), std::move(prepared)};
+}
+
 std::shared_ptr<const coupling::ReducedFrame> ReducedFrameStore::frame(const Scene              &scene,
                                                                        const coupling::Progress &progress)
 {
-  if (!serves(scene))
+  if (!on_reduced_frame(scene))
     return nullptr;
-  const bool        drawn = drawn_ || scene.stress.given;
-  const bool        made  = frame_path(scene) == FramePath::reduce;
-  const std::string key =
-      made ? coupling::content_key(frame_origin(scene).recipe) : key_of_file(scene.frame.reduced_file);
+  const bool        made = frame_path(scene) == FramePath::reduce;
+  const std::string key  = made ? key_of_frame(scene) : key_of_file(scene.frame.reduced_file);
   const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept &kept) { return kept.first == key; });
   if (found != kept_.end())
   {
     kept_.splice(kept_.begin(), kept_, found);
     return kept_.front().second;
   }
-  if (!made)
-    kept_.emplace_front(key, shared(coupling::read_reduced_frame(scene.frame.reduced_file), drawn));
-  else
-  {
-    const FileLock alone(lock_file(key));
-    auto [frame, from_cache] = reduced_frame(scene, progress);
-    kept_.emplace_front(key, shared(std::move(frame), drawn));
-    n_reduced_ += !from_cache;
-  }
+  const FileLock         alone(made ? lock_file(key) : "");
+  coupling::ReducedFrame frame =
+      made ? reduced_frame(scene, progress).frame : coupling::read_reduced_frame(scene.frame.reduced_file);
+  if (!drawn_ && !scene.stress.given)
+    frame = without_pictures(std::move(frame));
+  kept_.emplace_front(key, std::make_shared<const coupling::ReducedFrame>(std::move(frame)));
   constexpr std::size_t most_kept = 3; // frames: studies vary few, and each keeps its memory
   if (kept_.size() > most_kept)
     kept_.pop_back();
