@@ -191,7 +191,7 @@ bool FolderLock::is_still_there() const
 void FolderLock::take(const std::string &doing, const std::string &way_out)
 {
   const short   type       = kind_ == Kind::alone ? F_WRLCK : F_RDLCK;
-  constexpr int most_tries = 1000; // while others make and remove the same folder
+  constexpr int most_tries = 1000; // while other processes create and remove the folder
   constexpr int most_waits = 200;  // [ms] to wait for the name of a new holder; on a full disk it never comes
   int           waits      = 0;
   for (int tries = 0; tries < most_tries; ++tries)

@@ -49,8 +49,8 @@ struct PreparedMachine
   Eigen::VectorXd project(const Eigen::VectorXd &state) const;
 };
 
-/// Makes the frame the scene asks for (or takes the reduced one from the cache) and builds the machine on it.
-/// @param on  a given reduced frame; null: none
+/// Makes the frame of the scene (or reads the reduced one from the cache) and builds the machine on it.
+/// @param on  reduced frame to use; null: that of the scene
 PreparedMachine prepare_machine(const Scene &scene, const coupling::Progress &progress = {},
                                 const coupling::ReducedFrame *on = nullptr);
 

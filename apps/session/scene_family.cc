@@ -31,7 +31,7 @@ double split(const std::string &option, const std::string &text, std::string &un
   return value;
 }
 
-/// Of the loads on the frame and on bodies [rad/s]; infinite where none oscillates.
+/// Lowest frequency of the loads on the frame and on bodies [rad/s]; infinite if none oscillates.
 double lowest_frequency(const Scene &scene)
 {
   double lowest = std::numeric_limits<double>::infinity();

@@ -12,23 +12,23 @@
 namespace gestell::apps
 {
 
-/// A machine at one value of an entry of its scene.
+/// A machine at one value of a scene key.
 struct MachineMember : PreparedScene
 {
   coupling::PeriodicProblem problem;
 };
 
-/// Refuses to follow a parameter that the scene does not have: an override would make a new one, that nothing reads;
-/// and entries that do not change the equations of motion, such as those of [run] and [output].
-/// @throws std::invalid_argument: which entry, what it is, and which serve
+/// Rejects a parameter that the scene does not have, because an override would only create an unused key, and keys that
+/// do not change the equations of motion, such as those of [run] and [output].
+/// @throws std::invalid_argument with the key, its role, and suitable keys
 void require_parameter(const Variant &file, const std::string &key);
 
 /// A scene at varying values of one key, on a frame that is reduced only once.
 class SceneFamily
 {
 public:
-  /// @throws std::invalid_argument where the ends are no numbers of one unit, the key is unknown, or the entry changes
-  /// the frame itself, with what that would cost
+  /// @throws std::invalid_argument if the limits are not numbers of one unit, the key is unknown, or the key changes
+  ///   the frame itself (with the cost of that)
   SceneFamily(Variant file, PreparedMachine &machine, const PeriodicRequest &request,
               const coupling::PeriodicProblem &like);
 

@@ -281,7 +281,7 @@ Result Session::periodic(const PeriodicRequest &request)
         "--along: a branch follows coordinates, and the modes of method = \"modal\" change with " + request.along +
         "; take reduction.method = \"craig-bampton\"");
   require_parameter(variant_, request.along);
-  // Branches begin where the parameter does.
+  // Branches start at the first value of the parameter.
   begin_ = std::make_unique<Session>(variant_.with(request.along + '=' + request.from), watch_);
   return begin_->periodic_here(request);
 }

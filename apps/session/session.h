@@ -18,7 +18,7 @@
 namespace gestell::apps
 {
 
-/// Receives the progress of a session, and may interrupt it.
+/// Callback for the progress of a session, and a flag to interrupt it.
 struct Watch
 {
   coupling::Progress       progress{};             ///< phase, and its completed share; negative: unknown
@@ -48,11 +48,11 @@ public:
   explicit Session(const std::string &path, const std::vector<std::string> &overrides = {},
                    fem::Scripts scripts = fem::Scripts::harmless, const Watch &watch = {});
   explicit Session(Variant variant, const Watch &watch = {});
-  /// @param scene  that of the variant, which may compute less
+  /// @param scene  scene of the variant, possibly with fewer outputs
   Session(Variant variant, Scene scene, const Watch &watch);
 
   const Scene             &scene() const { return scene_; }
-  const Variant           &variant() const { return variant_; } ///< to vary its entries further
+  const Variant           &variant() const { return variant_; } ///< to vary its keys further
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
   /// Another scene, read from its file, with the progress and the interruption flag of this session, which must outlive
   /// it.

@@ -220,7 +220,7 @@ Comparison BudgetMaker::coarser_cells()
     return not_known("the mesh comes from a file and cannot be made coarser");
   ModelVariant variant = finest_;
   variant.mesh *= ratio_of_meshes;
-  if (scene_.frame.source != FrameSource::parts) // whose second reduction stays as it is
+  if (scene_.frame.source != FrameSource::parts) // the second reduction of parts stays unchanged
     variant.modes = modes_asked(scene_, run_);
   Comparison comparison;
   comparison.first        = models_.of(finest_);

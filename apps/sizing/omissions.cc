@@ -44,7 +44,7 @@ public:
   }
 
 private:
-  /// Of another scene; null where it cannot be run: others rest on what it lacks.
+  /// Change with another scene; null if it cannot be run: other parts depend on the omitted one.
   std::optional<Change> change(Scene other, const ModelAnswer &than) const;
   void                  may_be_left_out(const std::string &what, const Scene &without);
   bool                  may_ask(const std::string &what, double cpu);
@@ -86,7 +86,7 @@ bool Questions::may_ask(const std::string &what, double cpu)
 
 std::optional<Change> Questions::change(Scene other, const ModelAnswer &than) const
 {
-  keep_signals(other, signals_of(model_.outputs)); // others may read what is left out
+  keep_signals(other, signals_of(model_.outputs)); // others may read an omitted part
   try
   {
     const ModelAnswer answer = answer_of(other, {}, model_.outputs, stop_);

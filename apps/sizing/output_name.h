@@ -28,10 +28,10 @@ OutputName output_named(const std::string &given, const std::vector<std::string>
 /// Outputs of a comma-separated list; for an empty list the largest and smallest value of every signal.
 std::vector<OutputName> outputs_named(const std::string &list, const std::vector<std::string> &signals, int modes);
 
-/// Names of the signals that they are of.
+/// Names of the signals of these outputs.
 std::vector<std::string> signals_of(const std::vector<OutputName> &outputs);
 
-/// Of a signal over a run.
+/// Value of an output from the summary of its signal.
 double      value_of(const OutputName &output, const coupling::SignalSummary &signal);
 std::string unit_of(const OutputName &output, const coupling::SignalSummary &signal);
 /// Time [s] after which the run does not change the value.

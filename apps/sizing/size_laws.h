@@ -6,10 +6,11 @@
 namespace gestell::apps
 {
 
-/// Of cell sizes that are compared: the coarser mesh has a third of the coordinates in solids, so it costs little.
+/// Ratio of the element sizes of two compared meshes. In solids the coarser mesh has a third of the DOFs, so it costs
+/// little.
 constexpr double ratio_of_meshes = 1.5;
 
-/// Errors of an output by their cause, of what is allowed; infinite: not known.
+/// Errors of an output by their cause, relative to the allowed error; infinite: unknown.
 struct Shares
 {
   double sides = 0., degree = 0., modes = 0., time = 0.;

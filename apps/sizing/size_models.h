@@ -7,7 +7,7 @@
 namespace gestell::apps
 {
 
-constexpr double coarsest_mesh = ratio_of_meshes * ratio_of_meshes; ///< of the scene's size: the search begins there
+constexpr double coarsest_mesh = ratio_of_meshes * ratio_of_meshes; ///< of the scene's size: start of the search
 
 /// Peak memory [byte] of the program; 0: the system does not report it.
 double memory_taken();

@@ -25,8 +25,8 @@ std::string keep_in_cache(const ReducedFrame &frame, const FrameOrigin &origin);
 struct CachedFrame
 {
   ReducedFrame frame;
-  bool         from_cache = false; ///< found, not made now
-  double       cpu        = 0.;    ///< [s] CPU time of its reduction, now or as its process stored it; 0: not known
+  bool         from_cache = false; ///< read from the cache, not computed now
+  double       cpu        = 0.;    ///< [s] CPU time of its reduction, now or as stored; 0: unknown
 };
 
 /// The frame of a recipe from the cache, otherwise from `make`, which is then stored.
@@ -35,8 +35,8 @@ struct CachedFrame
 /// @throws the exceptions of `make`; nothing is stored then
 CachedFrame cached_or_made(const FrameOrigin &origin, const std::function<ReducedFrame()> &make);
 
-/// [s] CPU time of this process as if the cache had been empty: fem::cpu_time() and, once per frame found, the CPU time
-/// of its reduction.
+/// CPU time [s] that this process would have needed with an empty cache: fem::cpu_time() plus, once for each frame read
+/// from the cache, the stored CPU time of its reduction.
 double cpu_time_without_cache();
 
 /// Path of the frame of this key in cache_folder(); "": none.

@@ -12,9 +12,9 @@ namespace gestell::coupling
 struct FrameOrigin
 {
   Recipe      recipe;   ///< its inputs, which determine its key
-  std::string scene;    ///< file of the scene that requested it first
+  std::string scene;    ///< file of the scene that first requested it
   std::string source;   ///< CAD file or matrix; for people
-  double      cpu = 0.; ///< [s] CPU time of its reduction, written for the cache only; 0: not known
+  double      cpu = 0.; ///< [s] CPU time of its reduction, written for the cache only; 0: unknown
 };
 
 /**

@@ -22,7 +22,8 @@ struct FmuAnswer
  * The scene with its frame, reduced if that is possible, as the resources of an FMU.  The machine is initialised once
  * from them as a test.
  *
- * @throws std::invalid_argument for what an FMU cannot carry, with the way out; ConvergenceFailure if it does not start
+ * @throws std::invalid_argument for parts that an FMU does not support, with the remedy; ConvergenceFailure if the
+ *   initialisation fails
  */
 FmuAnswer fmu_of(Session &session);
 

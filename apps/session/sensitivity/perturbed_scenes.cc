@@ -49,7 +49,7 @@ class VariedScene
 public:
   VariedScene(const Variant &file, VariedKey &key) : file_(file), key_(key) {}
 
-  /// At its value and `by` of its step.
+  /// The scene at the value of the key plus `by` steps.
   Scene at(double by) const
   {
     const Variant varied = file_.with(key_.overridden(by));
@@ -99,8 +99,8 @@ std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &
     return {};
   VariedKey       &key         = varied.key();
   const bool       anew        = meshed_anew(near, scene);
-  constexpr double of_matrices = 1e-3; // of a value, by which frames on equal meshes are apart from the scene's
-  constexpr double of_meshes   = 5e-2; // of frames meshed anew: what meshes scatter is smaller beside it
+  constexpr double of_matrices = 1e-3; // relative change of the parameter, for frames on equal meshes
+  constexpr double of_meshes   = 5e-2; // for remeshed frames: the scatter of the meshes is smaller
   const double     steps       = (anew ? of_meshes : of_matrices) * std::abs(key.reported.value) / key.step;
   try
   {
