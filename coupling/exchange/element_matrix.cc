@@ -11,7 +11,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Between commas; blanks removed, an empty one at the end left out.
+/// The fields between commas, without blanks and without an empty last field.
 std::vector<std::string_view> fields_of(std::string_view line)
 {
   std::vector<std::string_view> fields;
@@ -26,7 +26,7 @@ std::vector<std::string_view> fields_of(std::string_view line)
   return fields;
 }
 
-/// "STIFFNESS" of "*MATRIX, TYPE=STIFFNESS".
+/// The value of a key, such as "STIFFNESS" in "*MATRIX, TYPE=STIFFNESS".
 std::string value_of(std::string_view line, const std::string &key)
 {
   for (const std::string_view field : fields_of(line))

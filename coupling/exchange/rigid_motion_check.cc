@@ -82,7 +82,7 @@ MatrixXd residuals(const Sparse &C, const MatrixXd &R)
   return (cancels.array() > 0.).select(force.cwiseAbs().cwiseQuotient(cancels), 0.);
 }
 
-/// Nodes that feel a support: a row of them answers to a translation.
+/// Nodes with a support: at least one of their rows has a force under a translation.
 std::set<long> supported_nodes(const MatrixXd &share, const std::vector<RowLabel> &rows)
 {
   std::set<long> nodes;
@@ -115,7 +115,7 @@ void compare_rows(const Sparse &C, const std::vector<RowLabel> &rows, RigidMotio
   }
 }
 
-/// Eigenvalues below next to nothing, by Sylvester's law of C - sigma M.
+/// Number of eigenvalues below a negligible value sigma, by Sylvester's law of C - sigma M.
 int count_free_motions(const Sparse &M, const Sparse &C)
 {
   const double  mass = M.diagonal().mean(), stiffness = C.diagonal().mean();

@@ -61,7 +61,7 @@ FaceBox box_between(const Vector3d &low, const Vector3d &high)
 
 FaceReach reach_of(const FaceBox &box, const Vector3d &point, const Matrix3d &free)
 {
-  // Alternates between the box and the points that are free, two convex sets: it closes in on where they are nearest.
+  // Alternating projections on two convex sets, the box and the free points: they converge to the nearest points.
   constexpr int projections = 100;
   if (box.half.isZero(0.))
     return {};

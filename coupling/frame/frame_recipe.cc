@@ -27,8 +27,8 @@ std::string text_of(double value)
   return {digits, std::to_chars(digits, digits + sizeof digits, value == 0. ? 0. : value).ptr}; // no minus zero
 }
 
-/// Collects ingredients.  Every value below is taken apart by a structured binding that names all its members: a member
-/// that is added later does not compile until it is added here, or named and left out on purpose.
+/// Collects ingredients.  A structured binding below names all members of every value: a new member does not compile
+/// until it is added here or deliberately left out.
 class Collector
 {
 public:
@@ -318,7 +318,7 @@ std::size_t parse_length(const std::string &text, std::size_t &at)
   return length;
 }
 
-/// Reads `length` letters and the one that ends them.
+/// Reads `length` letters and the following separator.
 std::string parse_word(const std::string &text, std::size_t &at, std::size_t length, char end)
 {
   if (length >= text.size() - at || text[at + length] != end)

@@ -216,9 +216,9 @@ void read_array(MatrixMarketReader &reader, int rows, int columns, bool symmetri
     }
 }
 
-/// The file once more, up to the entry whose row and column an earlier line has already: the format gives each entry
-/// by its own row and column, and is silent on what a second one would mean (Boisvert, Pozo and Remington, The Matrix
-/// Market Exchange Formats: Initial Design, NISTIR 5935, 1996).
+/// Reads the file again up to the first repeated entry and refuses it. The format gives each entry by row and column
+/// and does not define the meaning of a second one (Boisvert, Pozo and Remington, The Matrix Market Exchange Formats:
+/// Initial Design, NISTIR 5935, 1996).
 [[noreturn]] void refuse_repeated(const std::string &file)
 {
   MatrixMarketReader reader(file);

@@ -53,7 +53,7 @@ double correction_of(const std::vector<MeshValue> &meshes, std::size_t last, dou
   return (before.value - meshes[last].value) * r / (1. - r);
 }
 
-/// The meshes that are distinctly finer than the one before, the last one among them.
+/// The meshes that are distinctly finer than the previous one, including the last one.
 std::vector<MeshValue> distinct_ones(const std::vector<MeshValue> &meshes)
 {
   std::vector<MeshValue> kept = {meshes.back()};
@@ -63,7 +63,7 @@ std::vector<MeshValue> distinct_ones(const std::vector<MeshValue> &meshes)
   return {kept.rbegin(), kept.rend()};
 }
 
-/// How far the last two steps at most led away from the side of the limit.
+/// Largest change of the last two steps away from the limit.
 double largest_step_back(const std::vector<MeshValue> &meshes, double side)
 {
   double largest = 0.;
@@ -72,7 +72,7 @@ double largest_step_back(const std::vector<MeshValue> &meshes, double side)
   return largest > rounding * std::abs(meshes.back().value) ? largest : 0.;
 }
 
-/// How much nearer to the limit than the last one another mesh came.
+/// Distance by which another mesh was nearer to the limit than the last one.
 double overtaken(const std::vector<MeshValue> &meshes, double side)
 {
   double most = 0.;
@@ -95,12 +95,12 @@ struct Rest
   double order      = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// For at least two meshes whose values move in one direction.
+/// Remaining error of at least two meshes whose values change in one direction.
 Rest regular_rest(const std::vector<MeshValue> &meshes)
 {
   const MeshValue &last = meshes.back(), &before = meshes[meshes.size() - 2];
   const double     step = before.value - last.value;
-  // of the estimate from mesh to mesh: beyond, two meshes show no order
+  // ratio of estimates from mesh to mesh: outside, two meshes show no order
   constexpr double least_fall = 0.05, greatest_fall = 0.9;
   const double     fall        = std::clamp(last.estimate / before.estimate, least_fall, greatest_fall);
   const double     r           = std::isfinite(fall) ? fall : greatest_fall;
