@@ -78,7 +78,7 @@ private:
       if (!std::isfinite(size))
         return false;
       constexpr double seated = 1e-9; // correction, against the size of q: the equilibrium is found later
-      // of the size of q: where corrections so small fall no more, rounding is left
+      // relative to q: below it corrections that no longer decrease are rounding
       constexpr double near_rounding = 1e-6;
       if (size <= seated * scale || (size <= near_rounding * scale && size > 0.3 * before))
         return true;
@@ -120,7 +120,7 @@ private:
     return change.head(n).cwiseQuotient(sizes_).cwiseAbs().maxCoeff();
   }
 
-  /// Stiffnesses and cosines in one matrix: to columns, then rows, of equal size.
+  /// Solves with rows and columns scaled to equal size, since the matrix mixes stiffnesses and cosines.
   static VectorXd scaled_solution(const MatrixXd &A, const VectorXd &b)
   {
     const auto     inverse = [](double size) { return size > 0. ? 1. / size : 1.; };
@@ -137,7 +137,7 @@ private:
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       const double force = seats_[i].force.norm();
-      // of a play, against all forces: rounding, as in the equilibrium of static starts
+      // relative to all forces: rounding, as in the equilibrium of static starts
       constexpr double no_force = 1e-9;
       if (force > no_force * balance_.forces().sum())
         seats_[i].target = -(own[i].play.gap + own[i].structure->yielding(force)) / force * seats_[i].force;

@@ -94,7 +94,7 @@ void StaticBalance::evaluate(const VectorXd &q, const VectorXd &lambda, double s
   }
 }
 
-/// Rows of the fixed coordinates, after those of the joints.
+/// Adds the rows of the fixed coordinates after those of the joints.
 void StaticBalance::hold(const VectorXd &q, MatrixXd &A, VectorXd &open)
 {
   for (const auto &[row, shift] : held_->shifts)

@@ -28,7 +28,7 @@ constexpr double stays     = 1e-6; ///< an initial position this close to an equ
 constexpr double soft      = 1e-8; ///< smallest stiffness of a coordinate relative to the stiffest
 constexpr double long_way  = 0.5;  ///< a correction beyond is gone in parts
 
-// Motions and positions count in coordinate_sizes().
+// Motions and positions are measured in coordinate_sizes().
 
 // Relaxation.  Steps count in the time in which the machine's forces move its masses by its size: about 0.3 s of a
 // metre under its weight.
@@ -76,7 +76,7 @@ public:
     inertia_ = M_ * floating_;
   }
 
-  /// Tells the acceleration of a machine that floats.
+  /// States the acceleration of an unsupported machine.
   void tell_relief()
   {
     if (floating_.cols() == 0)
@@ -154,7 +154,7 @@ public:
   }
 
 private:
-  /// For a motion or a position.
+  /// Largest entry of a motion or position, relative to the sizes of the coordinates.
   double largest(const VectorXd &x) const { return n_ > 0 ? x.cwiseQuotient(sizes_).cwiseAbs().maxCoeff() : 0.; }
 
   SmallMotions admissible()
@@ -347,7 +347,7 @@ private:
     return way.cwiseAbs().cwiseQuotient(most).maxCoeff();
   }
 
-  /// @return iterations, most_of_step + 1 if there were not enough
+  /// @return number of iterations; most_of_step + 1 if they were not sufficient
   int implicit_step(const VectorXd &before, double h)
   {
     MatrixXd saddle;

@@ -29,7 +29,7 @@ struct Demands
   MatrixXd b; ///< [k x number of motions]
 };
 
-/// Satisfies demands one after the other: later ones can use only the remaining DOFs.
+/// Satisfies demands one after the other: each can use only the DOFs that the previous ones leave.
 class Freedom
 {
 public:
@@ -84,7 +84,7 @@ VectorXd motion_scale(const Machine &machine)
   return scale;
 }
 
-/// Columns of right-hand sides: v, a, then S.
+/// Right-hand sides as columns: v, a, S.
 MatrixXd sides(const VectorXd &rate, const VectorXd &acceleration, Eigen::Index n_held)
 {
   MatrixXd b = MatrixXd::Zero(rate.size(), 2 + n_held);
@@ -103,7 +103,7 @@ Demands joint_demands(const Machine &machine, const LocalState &local, Eigen::In
   return {joint_jacobian(machine, G), sides(-rate, -bias, n_held)};
 }
 
-/// Rows of what has a given speed; its acceleration is zero, and a unit one in S.
+/// Rows of coordinates with a given speed; their acceleration is zero, with a unit column in S.
 Demands given_demands(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v)
 {
   const int             n = machine.size();
@@ -136,7 +136,7 @@ Demands given_demands(const Machine &machine, const KnownStart &known, const Vec
   return result;
 }
 
-/// Compliant joints as if they were ideal.
+/// Demands of compliant joints, treated as ideal joints.
 Demands compliant_demands(const Machine &machine, const LocalState &local, Eigen::Index n_held)
 {
   std::vector<VectorXd> rows;
@@ -171,7 +171,7 @@ struct SatisfiedPlays
   std::vector<PlacedPlay> determined;
 };
 
-/// Both sides of plays move together, and what presses on a stop stays there.
+/// Closes plays: both sides move together, and a play that presses on its stop stays there.
 SatisfiedPlays satisfy_plays(const Machine &machine, const VectorXd &q, const VectorXd &v, const VectorXd &scale,
                              Freedom &freedom, Eigen::Index n_held)
 {
@@ -241,7 +241,7 @@ void require_agreement(const Machine &machine, const SatisfiedPlays &plays, cons
   }
 }
 
-/// One pass: v is right whatever `v_before`, a and its curvatures if that was v.
+/// One pass: v does not depend on `v_before`; a and its curvatures are correct if `v_before` equals v.
 SteadyMotion motion_with(const Machine &machine, const KnownStart &known, const VectorXd &q, const VectorXd &v_before)
 {
   LocalState local;

@@ -22,7 +22,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Positions given by angles, and the state that follows by kinematics.
+/// Positions that angles determine, and the state that follows by kinematics.
 struct Kinematics
 {
   std::vector<bool> given; ///< coordinates whose value is not unknown
@@ -66,7 +66,7 @@ Kinematics kinematics_of(const Machine &machine, const SteadyStart &start)
   return result;
 }
 
-/// DrivenEquilibrium of the machine in the coordinates that are not given, with the balances of all but the driver.
+/// Equilibrium in the coordinates that are not given, with the balance of all coordinates except the driver.
 class DrivenEquilibrium
 {
 public:
@@ -104,7 +104,7 @@ public:
   /// Largest force in the last evaluation of residual().
   double size_of_forces() const { return size_of_forces_; }
 
-  /// One Newton step for the residual at q; the step of a singular matrix is the shortest that helps most.
+  /// One Newton step for the residual at q; if the matrix is singular, the shortest step with the least residual.
   Eigen::VectorXd step(const Eigen::VectorXd &q, const Eigen::VectorXd &balance)
   {
     Eigen::MatrixXd dp(p_.size(), p_.size());
@@ -113,7 +113,7 @@ public:
     decompose(stiffness_ - Eigen::MatrixXd(W * dp * W.transpose()));
     if (solver_.rank() < static_cast<Eigen::Index>(unknown_.size()))
     {
-      // Open play gives no stiffness: closed elements show the way through it.
+      // Open play has no stiffness; the stiffness of closed elements gives the direction.
       Eigen::MatrixXd closed, damping;
       engaged_matrices(machine_, q, {}, closed, damping);
       decompose(stiffness_ + closed);
@@ -145,7 +145,7 @@ public:
   }
 
 private:
-  /// Scaled to unit diagonal, so that metres and radians compare.
+  /// Decomposes the tangent, scaled to unit diagonal to make metres and radians comparable.
   void decompose(const Eigen::MatrixXd &tangent)
   {
     const auto inverse_root = [&](int i) { return 1. / std::sqrt(std::max(std::abs(tangent(i, i)), 1e-300)); };
@@ -227,7 +227,7 @@ InitialState steady_start(Machine &machine, const SteadyStart &start)
     if (!balance.allFinite())
       break;
     const double unbalanced = balance.cwiseAbs().maxCoeff();
-    // Rounding ends the decrease.
+    // Rounding prevents a further decrease.
     if (unbalanced <= 1e-10 * equilibrium.size_of_forces() && (balance.norm() >= 0.3 * before || unbalanced == 0.))
       return state;
   }

@@ -78,7 +78,7 @@ int MachineModel::add_slider(const std::string &name, const Vector3 &axis, doubl
   const auto sideways = across(base.translation, a);
   for (int d = 0; d < 3; ++d)
     own.translation[d] = sideways[d] + a[d] * Measure{{x, 1.}};
-  // Along a and across it do not couple: added apart, so that no rounding does it either.
+  // Directions along a and across it are uncoupled; adding them separately keeps rounding from coupling them.
   parts_->add_dyad(parts_->M, mass, {{x, 1.}});
   for (int d = 0; d < 3; ++d)
     parts_->add_dyad(parts_->M, mass, sideways[d]);

@@ -13,7 +13,7 @@ namespace
 class Span
 {
 public:
-  /// False: the row is in the span already.
+  /// Returns false if the span already contains the row.
   bool add(const Eigen::VectorXd &row)
   {
     const Eigen::VectorXd rest = rest_of(row);
@@ -39,7 +39,7 @@ private:
   std::vector<Eigen::VectorXd> rows_;
 };
 
-/// Rows of velocities over the coordinates that joints and what sticks move.
+/// Rows of velocities over the coordinates that joints and sticking measures move.
 class MotionRows
 {
 public:

@@ -85,7 +85,7 @@ bool MachineLinear::dense_matrices(Eigen::MatrixXd &M, Eigen::MatrixXd &B, Eigen
   C = sparse->stiffness();
   return true;
 }
-/// Not for an unreduced frame: its factor is computed once per step size and stored.
+/// Not for an unreduced frame, whose factor is computed once per step size and stored.
 bool MachineLinear::sparse_matrices(Eigen::SparseMatrix<double> &M, Eigen::SparseMatrix<double> &B,
                                     Eigen::SparseMatrix<double> &C) const
 {

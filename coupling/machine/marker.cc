@@ -12,8 +12,8 @@ namespace gestell::coupling
 namespace
 {
 
-/// Weights that cancel leave nothing: along the axis of a rotor in a tilted plane, a_d - a_d (a.a) is 1e-17, and a
-/// joint across its plane would take that for a motion.
+/// a + sign b without weights that cancel: along the axis of a rotor in a tilted plane, a_d - a_d (a.a) is 1e-17, which
+/// a joint across its plane would treat as a motion.
 Measure combine(const Measure &a, const Measure &b, double sign)
 {
   std::map<int, double> sum(a.begin(), a.end());

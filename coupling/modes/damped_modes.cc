@@ -17,7 +17,7 @@ namespace
 
 using Complex = std::complex<double>;
 
-/// omega^2, negative for a motion that is driven away.
+/// omega^2, negative for an unstable mode.
 Eigen::VectorXd squares(const DenseModes &modes)
 {
   return modes.omega.cwiseAbs2() - modes.growth.cwiseAbs2();
@@ -65,7 +65,7 @@ std::array<Complex, 2> roots(double b, double square)
   return {-0.5 * b + root, -0.5 * b - root};
 }
 
-/// Joins mode j with those whose coupling may not be left out.
+/// Joins mode j with the modes to which its coupling cannot be neglected.
 void join_coupled(Eigen::Index j, const Eigen::MatrixXd &B, const Eigen::VectorXd &square,
                   const CouplingTolerance &tolerance, std::vector<Share> &shares, Groups &groups)
 {

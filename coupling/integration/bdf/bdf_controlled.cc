@@ -224,7 +224,7 @@ void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
   keep_forces(z);
 }
 
-/// u'', p, lambda of the present instant.
+/// Stores u'', p and lambda of the present instant.
 void BdfControlled::keep_forces(Eigen::VectorXd &z) const
 {
   z.segment(2 * n_ + 2 * n_u_, n_u_) = local_.a;
@@ -232,7 +232,7 @@ void BdfControlled::keep_forces(Eigen::VectorXd &z) const
   z.tail(n_c_)                       = local_.lambda;
 }
 
-/// z_ and the present instant onto g = 0, g' = 0, with the forces that belong to them.
+/// Projects z_ and the present instant onto g = 0, g' = 0, and computes the forces there.
 void BdfControlled::close_joints()
 {
   h_q_ = z_.head(n_);
@@ -245,7 +245,7 @@ void BdfControlled::close_joints()
   consistent_->solve(h_q_, h_v_, product_, local_, work_);
 }
 
-/// In the measure of ErrorScale.
+/// Error in the norm of ErrorScale.
 double BdfControlled::error_of(const Eigen::Ref<const Eigen::VectorXd> &z) const
 {
   if (n_c_ > 0)
@@ -328,7 +328,7 @@ void BdfControlled::interpolate(double t, LocalState &state) const
     return solve_inside(t, state);
   if (!finds_held())
     return;
-  // Only from values: q'' of modes that the step does not resolve would be that of the cubic.
+  // Interpolates values only: q'' of modes that the step does not resolve would be that of the cubic.
   differences_.at(s, degree, 0, q_inside_);
   differences_.at(s, degree, n_, v_inside_);
   consistent_->hold(q_inside_, v_inside_, state, work_);

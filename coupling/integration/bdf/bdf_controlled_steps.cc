@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-// Steps that are tried, and what follows from their errors.
+// Trial steps, and the choice of the next step from their errors.
 
 namespace gestell::coupling
 {
@@ -41,7 +41,7 @@ void BdfControlled::advance()
   present(z_, t_end_);
 }
 
-/// Diverged iterates have increased the excursions that scale Newton's tolerance: these are restored.
+/// Diverged iterates have increased the excursions that scale Newton's tolerance; the old excursions are restored.
 void BdfControlled::newton_failed(const ConvergenceFailure &failure)
 {
   reason_       = failure.what();
@@ -173,7 +173,7 @@ void BdfControlled::choose()
     return;
   }
   double best = 0., gain_here = 0.;
-  // Order 2 too: it is the way out where a higher one may not be used with longer steps.
+  // Order 2 is always included: it remains if a higher order is not allowed with longer steps.
   for (const int order : {order_, order_ - 1, order_ + 1, order_ > 3 ? 2 : 0})
   {
     if (order < options_.min_order || order > options_.max_order || order + 1 > differences_.known() || order == 0 ||

@@ -19,7 +19,7 @@ namespace
 /// share of a step at which guards are evaluated first: off the middle, where a symmetric curve would be missed
 constexpr double off_middle = 0.38;
 
-/// To what an event at t in a step of length h is located: far below what any step's error does to its time.
+/// Accuracy of the instant of an event at t in a step of length h: far better than the errors of steps.
 double resolution(double t, double h)
 {
   return std::max(1e-11 * h, 4. * std::numeric_limits<double>::epsilon() * std::abs(t));
@@ -151,7 +151,8 @@ void EventDriver::step_over()
   anew_ = false;
 }
 
-/// False: the integrator rejected the step instead, and continues from its start with a smaller one.
+/// Cuts the last step at the end of the run. Returns false if the integrator rejected the step instead, and continues
+/// from its start with a smaller one.
 bool EventDriver::cut_at_end()
 {
   if (!(integrator_.time() > options_.end))

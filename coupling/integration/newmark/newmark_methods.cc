@@ -35,7 +35,7 @@ public:
 
 protected:
   virtual Newmark::Options weights(const MethodOptions &options) const = 0;
-  /// For the balance at one instant, without weights of forces.
+  /// Weights for the balance at one instant, without weights of forces.
   static StepWeights balance(const Newmark::Options &o, double r)
   {
     const double d = r - 1., mean = 1. - o.gamma + o.gamma * r;

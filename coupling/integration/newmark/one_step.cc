@@ -173,7 +173,7 @@ void OneStep::interpolate(double t, LocalState &state) const
   state.lambda              = L[0] * a.lambda + L[1] * b.lambda;
   if (system_.forces().held().empty())
     return;
-  // Only from values: q'' of modes that the step does not resolve would be that of the cubic.
+  // Interpolates values only: q'' of modes that the step does not resolve would be that of the cubic.
   q_inside_ = L[0] * begin_.motion.q + L[1] * end_.motion.q;
   v_inside_ = L[0] * begin_.motion.v + L[1] * end_.motion.v;
   start_.hold(q_inside_, v_inside_, state, work_);

@@ -136,7 +136,7 @@ void CollocationStep::finish(const StepTable &table, LocalState &end)
   grow_scale(end.u, end.v, table.h);
   estimate(table);
   constexpr int steps_of_way = 16; // between two calls of way(), each a few products
-  // way() costs a pass over the modes: it is evaluated if it may save the step, else from time to time.
+  // way() costs a pass over the modes: it is evaluated if it may prevent a rejection, otherwise only sometimes.
   if (context_.error_tolerance == 0. || (error_ <= context_.error_tolerance && age_of_way_++ % steps_of_way != 0))
     return;
   reached_.way = context_.way(x_end_);

@@ -224,7 +224,7 @@ void ConsistentStart::iterate(LocalState &local, IntegrationWork &work)
       require_law_values(system_, local);
     ++work.newton;
     ++work.evaluations;
-    // No force depends on u'' or multipliers: one step finds all.
+    // If no force depends on u'' or multipliers, one step is sufficient.
     const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     linear_           = linear_ && linear;
     if (joints)

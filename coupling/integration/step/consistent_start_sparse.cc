@@ -73,7 +73,7 @@ void ConsistentStart::iterate_sparse(Eigen::VectorXd &a, LocalState &local, Inte
     G_.set_forces(local.lambda, local.p);
     ++work.newton;
     ++work.evaluations;
-    // No force depends on u'' or multipliers: one step finds all.
+    // If no force depends on u'' or multipliers, one step is sufficient.
     const bool linear = tangent_.isZero(0.) && !system_.forces().need_multipliers();
     factorise_sparse(local.t);
     ++work.factorisations;

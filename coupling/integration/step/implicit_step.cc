@@ -108,7 +108,8 @@ void ImplicitStep::forget_contraction()
   unseen_                           = 0;
 }
 
-/// Newton contracts less in a longer step, and a prediction over another length errs by another amount.
+/// Resets the contraction for another form: Newton converges more slowly in a longer step, and predictions have another
+/// error.
 void ImplicitStep::note_form(const StepForm &form)
 {
   if (form.time == form_time_)

@@ -9,7 +9,7 @@ namespace gestell::coupling
 
 namespace
 {
-/// Gauss and Legendre, four points on (0, 1).
+/// Gauss-Legendre quadrature, four points on (0, 1).
 constexpr double gauss_points[]  = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263};
 constexpr double gauss_weights[] = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
 

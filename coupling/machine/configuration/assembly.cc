@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  /// Takes compliant joints for ideal ones, or if that leads to no end lets them open.
+  /// Treats compliant joints as ideal, or lets them open if the assembly fails.
   template <class Closing>
   void with_yielding(const Closing &closing)
   {
@@ -82,7 +82,8 @@ private:
     closing();
   }
 
-  /// Given values may tear bodies out of plays in which the scene describes them: these follow, if joints let them.
+  /// Given values may separate bodies that are in contact or within a play in the scene; these bodies follow if joints
+  /// permit it.
   void close_plays()
   {
     const InitialState joined = state_;
@@ -333,7 +334,7 @@ private:
     return is_closed(residual, rates_, "m/s or rad/s", "velocities");
   }
 
-  /// Size of the terms of each row of evaluate() [m, rad]: rounding leaves so much of them.
+  /// Size of the terms of each row of evaluate() [m, rad], for their rounding.
   Eigen::VectorXd terms(const std::vector<Demand> &demands) const
   {
     std::vector<double> sizes;
@@ -350,7 +351,8 @@ private:
     return terms.unaryExpr([](double size) { return size > 0. ? size : 1.; }); // 0: only angles
   }
 
-  /// false: compliant joints or plays have to open.  @throws std::invalid_argument if without them others stay open
+  /// Returns false if compliant joints or plays must open.
+  /// @throws std::invalid_argument if other joints stay open without them
   bool is_closed(const Eigen::VectorXd &residual, const std::vector<Demand> &demands, const std::string &unit,
                  const std::string &what) const
   {

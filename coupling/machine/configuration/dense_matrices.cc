@@ -82,7 +82,7 @@ void add_up(const Machine &machine, const Eigen::VectorXd &q, Eigen::MatrixXd &s
               });
 }
 
-/// Matrices of engaged elements; those in `open` are open.
+/// Matrices of engaged elements, except for those in `open`.
 class Engaged
 {
 public:
