@@ -25,8 +25,8 @@ struct Geometric
   bool            circulatory = false; ///< K is not symmetric
 };
 
-/// Geometric stiffness of the forces that act when the machine starts from rest.  It is zero if these are not found: a
-/// run that cannot start reports that itself.
+/// Geometric stiffness of the forces when the machine starts from rest; zero if these cannot be computed, since a run
+/// reports a failed start itself.
 Geometric geometric_at_rest(const Machine &machine, const InitialState &start, LocalState &local)
 {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(machine.size());

@@ -23,7 +23,7 @@ Eigen::MatrixXd shapes(const std::vector<Mode> &modes, std::size_t count)
 
 bool same(const Mode &a, const Mode &b)
 {
-  // relative difference up to which shapes are any mixture: the root of rounding
+  // relative difference of frequencies below which shapes are an arbitrary mixture: the root of rounding
   constexpr double same_frequency = 1e-8;
   return std::abs(a.frequency_hz - b.frequency_hz) <= same_frequency * std::max(a.frequency_hz, b.frequency_hz);
 }
@@ -65,7 +65,7 @@ void turn_mixtures(const Eigen::MatrixXd &before, const Eigen::MatrixXd &M, std:
   }
 }
 
-/// Takes the modes of `next`, ascending, into the order of the lines before.
+/// Sorts the modes of `next`, ascending, in the order of the lines of `before`.
 void assign(const TrackedModes &before, TrackedModes &next, const Eigen::MatrixXd &M, std::size_t lines)
 {
   const Eigen::MatrixXd V = shapes(before.modes, lines);

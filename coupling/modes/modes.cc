@@ -40,8 +40,8 @@ struct InModes
   Eigen::MatrixXd stiffness, damping;
 };
 
-/// How well a solution s, in which a mode has the share `own`, matches the mode; of a flutter and its counterpart,
-/// which have the same shares, the one with the closer s.
+/// How well a solution s, in which a mode has the share `own`, matches the mode. A flutter and its counterpart have the
+/// same shares; the one with the closer s matches better.
 double fit(const Mode &mode, const std::complex<double> &s, double own)
 {
   if (mode.growth == 0.)
@@ -182,7 +182,7 @@ std::vector<Mode> frame_modes(const Machine &machine, int n_modes)
 namespace
 {
 
-/// M, B, K [p x p] of the motions Z [n x p] that are left free; with dampers and stiffness engaged.
+/// M, B, K [p x p] of the free motions Z [n x p], with engaged dampers and stiffness.
 struct Linear
 {
   Eigen::MatrixXd M, B, K, Z;
@@ -205,7 +205,7 @@ void settle_free_motions(const Eigen::VectorXd &terms, std::vector<Mode> &modes)
   }
 }
 
-/// Matrices with overflowed sums of masses and forces are rejected.
+/// Refuses matrices in which sums of masses or forces overflow.
 void require_finite(const Machine &machine, const Linear &linear)
 {
   const auto check = [&](const Eigen::MatrixXd &A, const char *what, const char *reason)
@@ -328,7 +328,7 @@ Drives add_drives(const Machine &machine, const LocalState &local, Eigen::Matrix
   return found;
 }
 
-/// Some element feeds the machine, or has a virtual coordinate: others add nothing to its modes.
+/// Whether an element drives the machine or has a virtual coordinate; only these affect its modes.
 bool may_have_drives(const Machine &machine)
 {
   const auto &elements = machine.model().elements();

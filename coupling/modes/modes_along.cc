@@ -182,7 +182,7 @@ private:
     }
   }
 
-  /// Without joints nothing rotates the other rotors: flywheel and crank rotate together.
+  /// Without joints nothing rotates the other rotors with the crank: all rotate by the same angle.
   void turn_along(double angle, InitialState &state) const
   {
     const auto is_rotor = [](const Body &body) { return body.kind == BodyKind::rotor; };

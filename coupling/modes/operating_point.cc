@@ -67,8 +67,8 @@ void for_contacts(const Machine &machine, const LocalState &local, const Look &l
   }
 }
 
-/// Sorts the names of the elements that may be open: dp/du is between that of the open and that of the closed branch,
-/// and closer to one of them.
+/// Sorts the elements that may be open: their dp/du is between those of the open and the closed branch, and closer to
+/// one of them.
 void tell_contacts(const Machine &machine, MachinePoint &at)
 {
   for_contacts(machine, at.point.local,
@@ -246,7 +246,7 @@ void add_quantity(const Machine &machine, const Signal &signal, const MachinePoi
   answer.q += W * slopes.find(local.u, first, first_way, sizes);
   answer.v += W * slopes.find(local.v, first, 10. * first_way, sizes);
   answer.a += W * slopes.find(local.a, first, 100. * first_way, sizes);
-  // Quantities are linear in forces, of whatever size.
+  // Quantities are linear in forces of any size.
   answer.p      = slopes.find(local.p, first, first_way, Eigen::VectorXd::Ones(k));
   answer.lambda = slopes.find(local.lambda, 0, first_way, Eigen::VectorXd::Ones(local.lambda.size()));
 }
@@ -306,7 +306,7 @@ MachinePoint machine_point(Machine &machine, const InitialState &state)
   }
   catch (const std::invalid_argument &)
   {
-    // something has no mass: nothing is known of its acceleration
+    // a coordinate has no mass: its acceleration is unknown
   }
   if (start)
   {

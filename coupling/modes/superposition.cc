@@ -233,8 +233,8 @@ public:
 
   int first() const { return options_.n_modes > 0 ? options_.n_modes : std::min(first_search, n_); }
 
-  /// @param requested  how many were searched for
-  /// @return 0: not known from these
+  /// @param requested  number of modes searched for.
+  /// @return 0: cannot be determined from these
   int of(const DenseModes &modes, int requested)
   {
     const int found = int(modes.omega.size());
@@ -276,7 +276,7 @@ public:
   }
 
 private:
-  /// found + 1 where all that were found do not suffice.
+  /// The number found + 1 if these are not sufficient.
   int enough_for_statics(const DenseModes &modes) const
   {
     const VectorXd left  = shortfall_.of(modes, elements_alone_);
@@ -329,7 +329,7 @@ void tell(const SuperpositionOptions &options, const std::string &rule, Superpos
                            std::to_string(int(std::lround(100. * result.static_residual))) +
                            " % too small without the truncated modes; use more modes, or method = \"craig-bampton\", "
                            "whose statics are exact");
-  // of damping between two modes, worth a note: of weak damping it moves roots by its square, 1 %
+  // of damping between two modes, for a note: it moves roots by its square, 1 %
   constexpr double considerable_share = 0.1;
   if (options.diagonal_damping && result.coupling > considerable_share)
     result.notes.push_back("modal superposition: damping = \"diagonal\" ignores coupling of modes by up to " +

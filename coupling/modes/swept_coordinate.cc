@@ -140,7 +140,7 @@ KnownStart position_at(Machine &machine, const SweptCoordinate &coordinate, cons
     known.measures.emplace_back(coordinate.measure, x);
   else
   {
-    // s - f(t) at the start of the law, and how far it is from x.
+    // s - f(t) at the start of the law, and its distance from x.
     LocalState local;
     local.resize(machine);
     machine.gather(state.t, state.q, known.state.v, known.state.v, local);

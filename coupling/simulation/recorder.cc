@@ -17,7 +17,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// share of the grid's step within which an instant is a point of it: rounding of sums of steps
+/// share of the grid's step within which an instant is a grid point: rounding of sums of steps
 constexpr double on_grid = 1e-9;
 
 /// @throws ConvergenceFailure

@@ -18,7 +18,7 @@ void ResumableSteps::begin_with(const Eigen::VectorXd &history, bool located)
   located_      = located;
 }
 
-/// Whoever drives it has started a history, which is replaced.
+/// The driver has started a history, which is replaced here.
 void ResumableSteps::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   partly_ = false;

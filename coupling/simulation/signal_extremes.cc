@@ -134,7 +134,7 @@ void SignalExtremes::append(double t)
 
 void SignalExtremes::divide(double begin, double end)
 {
-  // Not evenly spaced: a motion whose period is a quarter of the step would not be seen.
+  // Not evenly spaced: equal pieces would miss a motion whose period is a quarter of the step.
   constexpr double pieces[] = {0.23, 0.52, 0.74};
   for (const double piece : pieces)
     append(begin + piece * (end - begin));
@@ -213,7 +213,7 @@ bool SignalExtremes::rough(int first) const
     double difference = 0.;
     for (int j = 0; j < window; ++j)
       difference += weight[j] * s[j].values[i];
-    // epsilon: an extreme is met to 5e-5 of the range, a digit more than reports have
+    // epsilon: extremes are found to 5e-5 of the range, one digit more than reports print
     constexpr double missed  = 5e-5;
     const double     missing = std::abs(difference) / missed;
     if (counts(i) && missing > summaries_[i].max - summaries_[i].min && missing > range(i))
@@ -245,7 +245,7 @@ void SignalExtremes::see(std::size_t signal, double t, double value)
   }
 }
 
-/// Looks for extremes beyond those seen about three successive samples, inside the last step.
+/// Searches extremes beyond the known ones around three successive samples, inside the last step.
 void SignalExtremes::turn(int middle)
 {
   for (std::size_t i = 0; i < signals_.size(); ++i)
@@ -269,7 +269,7 @@ void SignalExtremes::turn(const Sought &sought, int middle)
     search(sought, middle);
 }
 
-/// Towards zero on one side of it, by half and more.
+/// Whether the signal approaches zero on one side of it, by half or more.
 bool SignalExtremes::nears_zero(const Sought &sought, int middle) const
 {
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.;

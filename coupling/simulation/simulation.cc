@@ -157,7 +157,7 @@ void try_start(Machine &machine, const InitialState &initial, const RunOptions &
 namespace
 {
 
-/// Gives a motion to what is computed along it afterwards.
+/// Stores the motion for computations along it afterwards.
 class TrajectoryKeeper : public RunObserver
 {
 public:

@@ -38,7 +38,7 @@ LoadedMotion loaded(Machine &machine, const InitialState &initial, const RunOpti
   return load_breakpoints(machine, at, options.end);
 }
 
-/// Nothing is kept of a run that others follow.
+/// Options without a limit of size, because a stepped run stores no history.
 RunOptions without_history(RunOptions options)
 {
   options.allow_large = true;
@@ -73,7 +73,7 @@ SteppedRun::SteppedRun(Machine &machine, const InitialState &initial, const RunO
   checks_new_ = checks_now();
 }
 
-/// Its end is not known.
+/// Begins a run whose end is unknown.
 void SteppedRun::begin(double t, const Eigen::VectorXd &q, const Eigen::VectorXd &v)
 {
   motion_.begin(t, q, v, {options_.events, std::numeric_limits<double>::infinity(), still_});

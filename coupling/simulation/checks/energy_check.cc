@@ -25,7 +25,7 @@ std::string method_and_step(const MethodOptions &method)
   return text.str();
 }
 
-/// How to conserve energy better than with this method.
+/// Remedy for a method that conserves energy badly.
 std::string remedy(const MethodOptions &method, EnergyGuard::Verdict verdict)
 {
   if (method.tolerance > 0.)

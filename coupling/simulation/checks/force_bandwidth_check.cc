@@ -31,7 +31,7 @@ std::string percent_of(double share)
   return text.str();
 }
 
-/// omega' [rad/s]: modes with unknown errors are treated as if they were above the known ones, or above the range.
+/// omega' [rad/s]: modes with unknown errors are assumed to be above the known ones, or above the range.
 VectorXd refined(const ReducedFrame &frame, const VectorXd &omega)
 {
   VectorXd result(omega.size());
@@ -266,7 +266,7 @@ void ForceBandwidthCheck::finish(RunOutcome &outcome)
   const ArrayXd            work   = (most_ - least_) * deflection_;
   for (std::size_t i = 0; i < places_.size(); ++i)
   {
-    // Part of a deflection from which a doubt is worth a word: five times what the reduction leaves by default.
+    // Share of a deflection above which a note is printed: five times the default error of the reduction.
     constexpr double worth_a_word = 0.05;
     // Share of the largest work of a force above which its deflection is included: a tenth of the size for deflections
     // of one kind.

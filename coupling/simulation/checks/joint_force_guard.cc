@@ -56,7 +56,7 @@ void JointForceGuard::find_inertias()
   }
 }
 
-/// Loads, elements, inertia, and what rounding leaves.
+/// Size of loads, element forces, inertia forces and rounding.
 double JointForceGuard::known_forces()
 {
   const LocalState &now = integrator_.local();

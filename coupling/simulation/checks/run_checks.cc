@@ -27,7 +27,7 @@ namespace gestell::coupling
 namespace
 {
 
-/// Switches that were thrown at the start, or never.
+/// Reports switches that acted at the start, or never.
 class SwitchCheck : public RunObserver
 {
 public:
@@ -48,7 +48,7 @@ private:
   std::vector<Event> thrown_; ///< the first time of each
 };
 
-/// Steps that were divided, and those with more events than are located.
+/// Reports steps that were divided, and steps with more events than are located.
 class WorkCheck : public RunObserver
 {
 public:

@@ -86,7 +86,7 @@ bool stable_at_every_step(const MethodOptions &options)
 
 // --- motions of all modes together, for methods with IntegrationMethod::step_weights()
 
-/// omega^2, negative for motions that are driven away.
+/// omega^2, negative for unstable motions.
 Eigen::VectorXd stiffness_of(const LinearMachine &machine)
 {
   return machine.modes.omega.cwiseAbs2() - machine.modes.growth.cwiseAbs2();
@@ -100,7 +100,7 @@ Eigen::MatrixXd balance(const LinearMachine &machine, const StepWeights &w, doub
   return S;
 }
 
-/// No motion x r^k: the balance is positive definite.
+/// Whether no motion x r^k exists because the balance is positive definite.
 bool balanced(const LinearMachine &machine, const MethodOptions &options, double h, double r)
 {
   const StepWeights w        = *method_of(options).step_weights(options, r);
@@ -339,7 +339,7 @@ bool StabilityGuard::mode_grows(double h) const
                      });
 }
 
-/// Every step a little shorter, since modes pass through islands of growth.
+/// Tries slightly shorter steps one after the other, because modes pass through islands of growth.
 double StabilityGuard::by_ladder() const
 {
   constexpr double ladder = 0.97; // a mode that grows within 3 % of a step only is not met; bisection follows

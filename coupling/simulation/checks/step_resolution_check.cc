@@ -17,7 +17,7 @@ namespace
 using Eigen::ArrayXd;
 using Eigen::VectorXd;
 
-/// below which it is worth a word: linear interpolation misses 5 % of a sine of ten points
+/// below it a note is printed: linear interpolation misses 5 % of a sine with ten points
 constexpr double  steps_of_period = 10.;
 constexpr double  negligible      = 1e-9; ///< R, of the largest force: rounding
 const char *const resolution      = "step-resolution";
@@ -101,7 +101,7 @@ Steps steps_of(double begin, double end, double h, Eigen::Index n)
   return {begin, h, number, std::min(number, std::clamp(most_forces / double(n), least_looks, most_looks))};
 }
 
-/// Forces at a motion that stays as it is, at any time.
+/// Forces for a constant motion, at any time.
 class AtTime
 {
 public:

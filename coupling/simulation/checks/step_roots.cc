@@ -34,7 +34,7 @@ Eigen::Matrix<double, most_degree + 1, 3> coefficients(const MethodOptions &opti
   return powers.inverse() * values;
 }
 
-/// max Re s of the machine, 0 where nothing grows.
+/// max Re s of the machine; 0 if nothing grows.
 double own_growth(const LinearMachine &machine)
 {
   return std::max(0., damped_roots(machine.modes, machine.C, machine.B).real().maxCoeff());
