@@ -21,9 +21,9 @@ public:
   /// F, and dF/dz if requested.  @throws ConvergenceFailure
   virtual void evaluate(const Eigen::VectorXd &z, double lambda, bool jacobian) = 0;
 
-  virtual const Eigen::VectorXd &residual() const = 0;
-  virtual const Eigen::MatrixXd &jacobian() const = 0;
-  virtual double                 closing() const  = 0; ///< size of F, relative
+  const Eigen::VectorXd &residual() const { return residual_; }
+  const Eigen::MatrixXd &jacobian() const { return jacobian_; }
+  double                 closing() const { return closing_; } ///< size of F, relative
   /// Of the last evaluation; with multipliers where it had a jacobian.
   virtual PeriodicSolution solution() = 0;
   /// Updates data taken from the motion of the last evaluation, such as mesh points at its events; z becomes its
@@ -32,6 +32,11 @@ public:
   /// Changes to unknowns better suited to the motion of the last evaluation, such as those of a refined mesh: columns
   /// of Z [m x 2], z and a tangent, are converted. False: not needed.
   virtual bool refit(const PeriodicSolution &, Eigen::MatrixXd &) { return false; }
+
+protected:
+  Eigen::VectorXd residual_; ///< of the last evaluation, as the two below
+  Eigen::MatrixXd jacobian_;
+  double          closing_ = 0.;
 };
 
 } // namespace gestell::coupling

@@ -67,11 +67,11 @@ public:
       lambda_    = lambda;
     }
     equations_->evaluate(z, jacobian);
+    residual_ = equations_->residual();
+    jacobian_ = equations_->jacobian();
+    closing_  = equations_->closing();
   }
 
-  const VectorXd  &residual() const override { return equations_->residual(); }
-  const MatrixXd  &jacobian() const override { return equations_->jacobian(); }
-  double           closing() const override { return equations_->closing(); }
   PeriodicSolution solution() override { return equations_->solution("shooting"); }
 
 private:
@@ -113,15 +113,9 @@ public:
         z.size() == 0 ? 0. : residual_.cwiseQuotient(balance_->scales(z)).cwiseAbs().maxCoeff(); // 0: linear machine
   }
 
-  const VectorXd  &residual() const override { return residual_; }
-  const MatrixXd  &jacobian() const override { return jacobian_; }
-  double           closing() const override { return closing_; }
   PeriodicSolution solution() override
   {
-    HarmonicNewton newton;
-    newton.converged          = true;
-    newton.residual           = closing_;
-    PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, newton, options_);
+    PeriodicSolution solution = finished_balance(member_.problem, *balance_, z_, closing_, options_);
     const auto       left     = left_out();
     solution.notes.push_back(
         left ? note_of_harmonics(*balance_, *left, left_out_of_branch, harmonics_of(options_) > 0)
@@ -191,11 +185,10 @@ private:
   ProblemFamily                    family_;
   PeriodicOptions                  options_;
   int                              harmonics_, points_to_rest_ = 0;
-  double                           lambda_ = 0., closing_ = 0.;
+  double                           lambda_ = 0.;
   FamilyMember                     member_;
   std::unique_ptr<HarmonicBalance> balance_;
-  VectorXd                         z_, residual_;
-  MatrixXd                         jacobian_;
+  VectorXd                         z_;
 };
 
 } // namespace

@@ -62,17 +62,11 @@ double slowest_period(const SecondOrderSystem &system)
   return omega > 0. ? 2. * M_PI / omega : 2. * M_PI;
 }
 
-/// Coordinate and rate at a passage between samples k and k + 1, linear between them.
-struct Passage
+/// Passages of a coordinate through a value, linear between samples.
+std::vector<OrbitState> passages_through(const Window &window, Index coordinate, double value, bool falls)
 {
-  double   t;
-  VectorXd q, v;
-};
-
-std::vector<Passage> passages_through(const Window &window, Index coordinate, double value, bool falls)
-{
-  const double         direction = falls ? -1. : 1.;
-  std::vector<Passage> passages;
+  const double            direction = falls ? -1. : 1.;
+  std::vector<OrbitState> passages;
   for (Index k = 0; k + 1 < window.times.size(); ++k)
   {
     const double a = direction * (window.q(coordinate, k) - value),
@@ -88,15 +82,15 @@ std::vector<Passage> passages_through(const Window &window, Index coordinate, do
 }
 
 /// Passages after which the state comes back; of a motion that does not, 1.
-std::size_t passages_of_a_period(const std::vector<Passage> &passages, const VectorXd &excursion,
+std::size_t passages_of_a_period(const std::vector<OrbitState> &passages, const VectorXd &excursion,
                                  const VectorXd &fastest)
 {
   const double  q_size = excursion.norm(), v_size = fastest.norm();
   constexpr int most_passages = 16; // of a coordinate through its middle in one period
   for (std::size_t m = 1; m <= most_passages && m < passages.size(); ++m)
   {
-    const Passage   &last = passages.back(), &before = passages[passages.size() - 1 - m];
-    constexpr double comes_back = 0.02; // distance of two states, of the largest excursions
+    const OrbitState &last = passages.back(), &before = passages[passages.size() - 1 - m];
+    constexpr double  comes_back = 0.02; // distance of two states, of the largest excursions
     if ((last.q - before.q).norm() <= comes_back * q_size && (last.v - before.v).norm() <= comes_back * v_size)
       return m;
   }
@@ -257,7 +251,7 @@ bool FreeMotion::is_oscillation(FreeOscillation &found) const
   if (passages.size() < 2)
     return false;
   const std::size_t m    = passages_of_a_period(passages, excursion(), window_.v.rowwise().lpNorm<Eigen::Infinity>());
-  const Passage    &last = passages.back();
+  const OrbitState &last = passages.back();
   found = {{last.q, last.v, last.t - passages[passages.size() - 1 - m].t}, int(phase), middle, falls, pushed_};
   found.at.q[phase] = middle;
   return true;

@@ -2,10 +2,10 @@
 
 #include "coupling/integration/system/dense_solvers.h"
 #include "coupling/integration/system/turning_forces.h"
+#include "coupling/periodic/newton.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace gestell::coupling
 {
@@ -286,9 +286,9 @@ void PeriodicCollocation::add_forces(const VectorXd &y, VectorXd &r, MatrixXd *J
 
 int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
 {
-  VectorXd r, next_r;
-  MatrixXd J;
-  for (int k = 1; k <= options.iterations; ++k)
+  VectorXd   r;
+  MatrixXd   J;
+  const auto step = [&](NewtonResult &newton) -> NewtonStep
   {
     if (problem_.interrupted())
       throw SearchInterrupted();
@@ -298,27 +298,29 @@ int PeriodicCollocation::solve(VectorXd &P, const PeriodicOptions &options)
       throw NoPeriodicMotion("collocation: the motion is undetermined: no element acts at the points of the mesh; "
                              "begin closer to the motion (--lead-in), or use shooting");
     const Index n    = u_0_.size(); // forces; free states and the period follow them
-    const bool  done = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
-                      (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
-    double           part           = 1.;
-    constexpr double longest_change = 0.5; // of T in a Newton step: T stays above zero
-    if (problem_.period_is_unknown())
-      part = std::min(1., longest_change * period_ / std::abs(dP.tail(1)[0]));
-    bool nearer = done;
-    for (; !nearer && part > 1e-4; part *= nearer ? 1. : 0.5)
+    newton.converged = (dP.head(n).norm() <= options.tolerance * P.head(n).norm() || P.head(n).isZero(0.)) &&
+                       (!problem_.period_is_unknown() || std::abs(dP.tail(1)[0]) <= options.tolerance * P.tail(1)[0]);
+    if (newton.converged)
     {
-      evaluate(P + part * dP, next_r, nullptr);
-      nearer = next_r.norm() < (1. - 0.1 * part) * r.norm();
+      P += dP;
+      ++newton.iterations;
+      return {};
     }
-    if (!nearer)
-      break;
-    P += part * dP;
-    if (done)
-      return k;
-  }
-  std::ostringstream text;
-  text << "collocation: Newton's method does not converge; begin closer to the motion (--lead-in), or use shooting";
-  throw NoPeriodicMotion(text.str());
+    constexpr double longest_change = 0.5; // of T in a Newton step: T stays above zero
+    const double     share =
+        problem_.period_is_unknown() ? std::min(1., longest_change * period_ / std::abs(dP.tail(1)[0])) : 1.;
+    return {dP, r.norm(), 0.1, share, 1e-4 / share};
+  };
+  const auto length = [&](const VectorXd &next)
+  {
+    evaluate(next, r, nullptr);
+    return r.norm();
+  };
+  const NewtonResult newton = solve_by_newton(P, options.iterations, step, length);
+  if (newton.converged)
+    return newton.iterations;
+  throw NoPeriodicMotion(
+      "collocation: Newton's method does not converge; begin closer to the motion (--lead-in), or use shooting");
 }
 
 VectorXd PeriodicCollocation::carried_over(const std::vector<double> &mesh, const VectorXd &P) const

@@ -96,9 +96,6 @@ public:
     tangents_           = jacobian;
   }
 
-  const VectorXd  &residual() const override { return residual_; }
-  const MatrixXd  &jacobian() const override { return jacobian_; }
-  double           closing() const override { return closing_; }
   PeriodicSolution solution() override
   {
     const PeriodicGuess start = start_of_motion();
@@ -156,15 +153,14 @@ private:
   ProblemFamily                        family_;
   PeriodicOptions                      options_;
   int                                  ratio_;
-  double                               lambda_ = 0., closing_ = 0., event_scale_ = 0.;
+  double                               lambda_ = 0., event_scale_ = 0.;
   bool                                 tangents_ = false;
   FamilyMember                         member_;
   std::unique_ptr<PeriodFlow>          flow_;
   std::unique_ptr<PeriodicCollocation> collocation_;
   std::vector<double>                  mesh_, events_; ///< events_: those among the points of the mesh
   std::vector<Index>                   free_;
-  VectorXd                             weights_, y_, residual_;
-  MatrixXd                             jacobian_;
+  VectorXd                             weights_, y_;
 };
 
 void CollocationBranch::form(double lambda, double period)

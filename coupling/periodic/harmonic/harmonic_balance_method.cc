@@ -20,33 +20,9 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int first_harmonics = 8; ///< laws that are nearly linear need no more
-
 double largest_share(const VectorXd &r, const VectorXd &scale)
 {
   return r.size() > 0 ? r.cwiseQuotient(scale).cwiseAbs().maxCoeff() : 0.;
-}
-
-/// Takes the share of the step that lowers the residual; false: none does.
-bool search_line(HarmonicBalance &balance, const VectorXd &step, const VectorXd &scale, bool period_unknown,
-                 VectorXd &z, double norm)
-{
-  VectorXd         r;
-  constexpr double shortest_share = 1. / 256.; // of a Newton step: a direction helps by then, or nowhere
-  for (double share = 1.; share >= shortest_share; share *= 0.5)
-  {
-    const VectorXd next = z + share * step;
-    if (period_unknown &&
-        !(next[next.size() - 1] > 0.5 * z[z.size() - 1] && next[next.size() - 1] < 2. * z[z.size() - 1]))
-      continue;
-    balance.residual(next, r);
-    if (r.allFinite() && r.cwiseQuotient(scale).norm() <= (1. - 1e-4 * share) * norm)
-    {
-      z = next;
-      return true;
-    }
-  }
-  return false;
 }
 } // namespace
 
@@ -61,50 +37,38 @@ PeriodicOptions with_harmonics(PeriodicOptions options, int harmonics)
   return options;
 }
 
-HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
+NewtonResult solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, VectorXd &z)
 {
-  HarmonicNewton newton;
-  VectorXd       r;
-  MatrixXd       J;
-  bool           polished = false;
-  for (; newton.iterations < options.iterations && !balance.interrupted(); ++newton.iterations)
+  VectorXd   r, scale;
+  MatrixXd   J;
+  const auto step = [&](NewtonResult &newton) -> NewtonStep
   {
+    if (balance.interrupted())
+      return {};
+    const bool polished = newton.converged; // by a last step of quadratic convergence
     balance.linearise(z, r, J);
-    const VectorXd scale = balance.scales_of_rounding(z);
-    newton.residual      = largest_share(r, scale);
-    newton.converged     = newton.residual <= options.tolerance;
+    scale            = balance.scales_of_rounding(z);
+    newton.residual  = largest_share(r, scale);
+    newton.converged = newton.residual <= options.tolerance;
     if (!r.allFinite() || polished)
-      break;
-    polished            = newton.converged; // a last step of quadratic convergence
-    const VectorXd step = -lu_solution(J, r);
-    if (!step.allFinite())
-      break;
+      return {};
+    const VectorXd   dz             = -lu_solution(J, r);
     constexpr double floor_of_steps = 1e-13; // a Newton step that is rounding, relative
-    const bool       rounding       = largest_share(step, scale) <= floor_of_steps;
-    if (rounding || !search_line(balance, step, scale, balance.period_is_unknown(), z, r.cwiseQuotient(scale).norm()))
+    if (dz.allFinite() && largest_share(dz, scale) <= floor_of_steps)
     {
-      newton.converged = newton.converged || rounding;
-      break;
+      newton.converged = true;
+      return {};
     }
-  }
-  return newton;
-}
-
-PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalance &balance, const VectorXd &z,
-                                   const HarmonicNewton &newton)
-{
-  PeriodicSolution solution;
-  balance.state_at_begin(z, solution.q, solution.v);
-  solution.begin              = problem.begin;
-  solution.period             = balance.period();
-  solution.ratio              = problem.ratio;
-  solution.turn               = problem.turn;
-  solution.residual           = newton.residual;
-  solution.series             = balance.series(z);
-  solution.method             = "harmonic-balance";
-  solution.work.iterations    = newton.iterations;
-  solution.trivial_multiplier = problem.period_is_unknown();
-  return solution;
+    return {dz, r.cwiseQuotient(scale).norm(), 1e-4, 1., 1. / 512};
+  };
+  const auto length = [&](const VectorXd &next)
+  {
+    if (const auto T = z.size() - 1; balance.period_is_unknown() && !(next[T] > 0.5 * z[T] && next[T] < 2. * z[T]))
+      return std::numeric_limits<double>::infinity();
+    balance.residual(next, r);
+    return r.cwiseQuotient(scale).norm();
+  };
+  return solve_by_newton(z, options.iterations, step, length);
 }
 
 namespace
@@ -179,10 +143,19 @@ void find_multipliers(const PeriodicProblem &problem, HarmonicBalance &balance, 
 } // namespace
 
 PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const VectorXd &z,
-                                  const HarmonicNewton &newton, const PeriodicOptions &options)
+                                  double residual, const PeriodicOptions &options)
 {
-  PeriodicSolution solution = balanced_solution(problem, balance, z, newton);
-  solution.integration      = options.integration;
+  PeriodicSolution solution;
+  balance.state_at_begin(z, solution.q, solution.v);
+  solution.begin              = problem.begin;
+  solution.period             = balance.period();
+  solution.ratio              = problem.ratio;
+  solution.turn               = problem.turn;
+  solution.residual           = residual;
+  solution.series             = balance.series(z);
+  solution.method             = "harmonic-balance";
+  solution.trivial_multiplier = problem.period_is_unknown();
+  solution.integration        = options.integration;
   find_multipliers(problem, balance, z, solution);
   return solution;
 }
@@ -274,11 +247,13 @@ private:
   bool solve_from_orbit(PeriodicGuess guess, bool leads);
   void check_memory();
 
+  static constexpr int first_harmonics = 8; ///< laws that are nearly linear need no more
+
   const PeriodicProblem   &problem_;
   const PeriodicOptions   &options_;
   HarmonicBalance          balance_;
   VectorXd                 z_;
-  HarmonicNewton           newton_;
+  NewtonResult             newton_;
   int                      iterations_ = 0;
   PeriodicGuess            guess_;
   HarmonicBalance::LeftOut left_out_;
@@ -357,10 +332,10 @@ void BalanceSearch::grow()
     tried = more_harmonics(problem_, tried);
     if (tried == 0)
       return;
-    const int            before = balance_.harmonics();
-    const VectorXd       z      = z_;
-    const HarmonicNewton newton = newton_;
-    const FourierSeries  motion = balance_.series(z_);
+    const int           before = balance_.harmonics();
+    const VectorXd      z      = z_;
+    const NewtonResult  newton = newton_;
+    const FourierSeries motion = balance_.series(z_);
     balance_.set_harmonics(tried);
     const VectorXd start = balance_.pack(motion);
     if (!solve_from(start) && (problem_.interrupted() || !solve_from_orbit(guess_, true)))
@@ -414,7 +389,7 @@ void BalanceSearch::check_memory()
 PeriodicSolution BalanceSearch::solution()
 {
   check_memory();
-  PeriodicSolution solution = finished_balance(problem_, balance_, z_, newton_, options_);
+  PeriodicSolution solution = finished_balance(problem_, balance_, z_, newton_.residual, options_);
   solution.work.iterations  = iterations_;
   solution.notes.push_back(note_of_harmonics(balance_, left_out_, options_.tolerance, harmonics_of(options_) > 0));
   if (!failed_.empty())

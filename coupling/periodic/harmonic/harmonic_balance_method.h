@@ -1,6 +1,7 @@
 #pragma once
 
 #include "coupling/periodic/harmonic/harmonic_balance.h"
+#include "coupling/periodic/newton.h"
 #include "coupling/periodic/periodic_method.h"
 
 namespace gestell::coupling
@@ -10,24 +11,13 @@ namespace gestell::coupling
 int             harmonics_of(const PeriodicOptions &options);
 PeriodicOptions with_harmonics(PeriodicOptions options, int harmonics);
 
-/// How Newton's method came to r(z) = 0.
-struct HarmonicNewton
-{
-  bool   converged  = false;
-  int    iterations = 0;
-  double residual   = 0.; ///< largest |r_i| against the amplitude of its measure
-};
+/// Newton's method from z, which becomes the last point; the residual is the largest |r_i| against the amplitude of its
+/// measure.
+NewtonResult solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, Eigen::VectorXd &z);
 
-/// Newton's method with a line search, from z on; z is the last one.
-HarmonicNewton solve_balance(HarmonicBalance &balance, const PeriodicOptions &options, Eigen::VectorXd &z);
-
-/// The PeriodicSolution at z, without its multipliers.
-PeriodicSolution balanced_solution(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
-                                   const HarmonicNewton &newton);
-
-/// The same with its multipliers.
+/// The PeriodicSolution at z with its multipliers.
 PeriodicSolution finished_balance(const PeriodicProblem &problem, HarmonicBalance &balance, const Eigen::VectorXd &z,
-                                  const HarmonicNewton &newton, const PeriodicOptions &options);
+                                  double residual, const PeriodicOptions &options);
 
 /// The next number of harmonics to try above `harmonics`; 0: there are as many as there may be.
 int more_harmonics(const PeriodicProblem &problem, int harmonics);

@@ -1,9 +1,11 @@
 #include "coupling/periodic/shooting/multiple_shooting.h"
 
+#include "coupling/periodic/newton.h"
 #include "coupling/periodic/shooting/shooting.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 namespace gestell::coupling
@@ -238,37 +240,6 @@ double length(const PeriodicProblem &problem, double speed, VectorXd dz)
   return dz.norm();
 }
 
-/// z - part dz with the largest part of 1, 1/2, 1/4 ... behind which the same matrix gives a shorter step.
-bool step_nearer(SegmentEquations &equations, const PeriodicProblem &problem, VectorXd &z, double tolerance)
-{
-  const CyclicSystem matrix = equations.matrix();
-  const VectorXd     dz     = matrix.solve(equations.residual());
-  const double       speed  = equations.fastest();
-  const double       before = length(problem, speed, dz);
-  // mean step of a state, of the fastest speed: from one end of a swing to the other
-  constexpr double longest_step_of_states = 2.;
-  const double     most                   = longest_step_of_states * std::sqrt(equations.segments()) * speed;
-  double           part                   = dz.allFinite() ? std::min(1., most / before) : 0.;
-  constexpr int    most_halved            = 12; // 2^-12: a direction that does not help by then helps nowhere
-  for (int k = 0; k < most_halved && part > 0.; ++k, part *= 0.5)
-    try
-    {
-      const VectorXd next = z - part * dz;
-      equations.evaluate(next);
-      const double     after   = length(problem, speed, matrix.solve(equations.residual()));
-      constexpr double shorter = 0.25; // the next step must be, by this share of the part taken
-      if (equations.closing() <= tolerance || after <= (1. - shorter * part) * before)
-      {
-        z = next;
-        return true;
-      }
-    }
-    catch (const ConvergenceFailure &)
-    {
-    }
-  return false;
-}
-
 /// What a user should know of a motion that is closed in segments only.
 std::string note_of(SegmentEquations &equations, const VectorXd &z)
 {
@@ -297,29 +268,43 @@ PeriodicSolution shoot_in_segments(SegmentEquations &equations, const PeriodicPr
 {
   equations.evaluate(z);
   equations.expect_no_more();
-  int iteration = 0;
-  for (; iteration < options.iterations && equations.closing() > options.tolerance; ++iteration)
+  std::optional<CyclicSystem> matrix;
+  double                      speed = 0.;
+  const auto                  step  = [&](NewtonResult &) -> NewtonStep
+  {
+    if (equations.closing() <= options.tolerance)
+      return {};
     if (problem.interrupted())
       throw SearchInterrupted();
-    else if (!step_nearer(equations, problem, z, options.tolerance))
-    {
-      equations.evaluate(z);
-      break;
-    }
+    matrix              = equations.matrix();
+    speed               = equations.fastest();
+    const VectorXd dz   = -matrix->solve(equations.residual());
+    const double   size = length(problem, speed, dz);
+    // mean step of a state, of the fastest speed: from one end of a swing to the other
+    constexpr double longest_step_of_states = 2.;
+    const double     share   = std::min(1., longest_step_of_states * std::sqrt(equations.segments()) * speed / size);
+    constexpr double shorter = 0.25; // the next step must be, by this share of the part taken
+    return {dz, size, shorter, share};
+  };
+  const auto size_of_next_step = [&](const VectorXd &next)
+  {
+    equations.evaluate(next);
+    return equations.closing() <= options.tolerance ? 0. : length(problem, speed, matrix->solve(equations.residual()));
+  };
+  const int        iterations    = solve_by_newton(z, options.iterations, step, size_of_next_step).iterations;
   constexpr double left_by_steps = 1e-7; // gaps that rounding and the steps' tolerance may leave at worst
   if (!(equations.closing() <= std::max(options.tolerance, left_by_steps)))
   {
     std::ostringstream text;
-    text << equations.segments() << " segments still miss by " << equations.closing() << " after " << iteration
+    text << equations.segments() << " segments still miss by " << equations.closing() << " after " << iterations
          << " Newton steps";
     throw NoPeriodicMotion(text.str());
   }
   PeriodicSolution solution = equations.solution();
-  if (const std::string note = closing_note(solution.residual, options.tolerance); !note.empty())
-    solution.notes.push_back(note);
+  note_residual(solution, options.tolerance);
   solution.notes.push_back(note_of(equations, z));
   solution.work            = equations.solution().work;
-  solution.work.iterations = iteration;
+  solution.work.iterations = iterations;
   return solution;
 }
 

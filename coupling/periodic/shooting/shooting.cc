@@ -1,6 +1,7 @@
 #include "coupling/periodic/shooting/shooting.h"
 
 #include "coupling/integration/system/dense_solvers.h"
+#include "coupling/periodic/newton.h"
 
 #include <Eigen/LU>
 
@@ -136,14 +137,14 @@ void refuse_rest(const PeriodicProblem &problem, const PeriodicGuess &guess, con
         "the search converged to rest, which has no period; begin closer to the intended motion (--lead-in)");
 }
 
-std::string closing_note(double closing, double tolerance)
+void note_residual(PeriodicSolution &solution, double tolerance)
 {
-  if (!(closing > tolerance))
-    return "";
+  if (!(solution.residual > tolerance))
+    return;
   std::ostringstream text;
-  text << "the periodicity residual is " << closing << " of its speed, not to " << tolerance
+  text << "the periodicity residual is " << solution.residual << " of its speed, not to " << tolerance
        << ", because of the integration error; use a smaller tolerance";
-  return text.str();
+  solution.notes.push_back(text.str());
 }
 
 namespace
@@ -178,57 +179,33 @@ std::string free_motion(const MatrixXd &jacobian, const LinearSystem &linear)
   throw NoPeriodicMotion(text.str());
 }
 
-/// z - damping dz with the least damping that closes better.
-bool step_closer(ShootingEquations &equations, VectorXd &z, const VectorXd &dz)
-{
-  const double  before        = equations.residual().norm();
-  double        part          = 1.;
-  constexpr int most_halvings = 12; // 2^-12: a direction that does not help by then helps nowhere
-  for (int k = 0; k < most_halvings; ++k, part *= 0.5)
-  {
-    const VectorXd next = z - part * dz;
-    try
-    {
-      equations.evaluate(next, true);
-      if (equations.residual().norm() < (1. - 0.1 * part) * before)
-      {
-        z = next;
-        return true;
-      }
-    }
-    catch (const ConvergenceFailure &)
-    {
-    }
-  }
-  return false;
-}
-
 } // namespace
 
 PeriodicSolution shoot(ShootingEquations &equations, const PeriodicProblem &problem, VectorXd z,
                        const PeriodicOptions &options)
 {
-  equations.evaluate(z, true);
-  int iteration = 0;
-  for (; iteration < options.iterations && equations.closing() > options.tolerance && !problem.interrupted();
-       ++iteration)
+  const auto length = [&](const VectorXd &next)
   {
-    const VectorXd dz = equations.jacobian().partialPivLu().solve(equations.residual());
+    equations.evaluate(next, true);
+    return equations.residual().norm();
+  };
+  const auto step = [&](NewtonResult &newton) -> NewtonStep
+  {
+    if (equations.closing() <= options.tolerance || problem.interrupted())
+      return {};
+    const VectorXd dz = -equations.jacobian().partialPivLu().solve(equations.residual());
     if (!dz.allFinite())
-      give_up(equations, problem, iteration);
-    if (!step_closer(equations, z, dz))
-    {
-      equations.evaluate(z, true);
-      break;
-    }
-  }
+      give_up(equations, problem, newton.iterations);
+    return {dz, equations.residual().norm()};
+  };
+  length(z);
+  const int        iterations    = solve_by_newton(z, options.iterations, step, length).iterations;
   constexpr double as_integrated = 1e-7; // closing error that rounding and the steps' tolerance may leave at worst
   if (!(equations.closing() <= std::max(options.tolerance, as_integrated)))
-    give_up(equations, problem, iteration);
+    give_up(equations, problem, iterations);
   PeriodicSolution solution = equations.solution("shooting");
-  solution.work.iterations  = iteration;
-  if (const std::string note = closing_note(equations.closing(), options.tolerance); !note.empty())
-    solution.notes.push_back(note);
+  solution.work.iterations  = iterations;
+  note_residual(solution, options.tolerance);
   return solution;
 }
 

@@ -65,8 +65,8 @@ struct UndeterminedMotion : NoPeriodicMotion
   using NoPeriodicMotion::NoPeriodicMotion;
 };
 
-/// A note for users if the residual `closing` is above the tolerance; else empty.
-std::string closing_note(double closing, double tolerance);
+/// Adds a note for users if the residual is above the tolerance.
+void note_residual(PeriodicSolution &solution, double tolerance);
 
 /// The motion of a passage with the residual `closing`, with the multipliers of its monodromy matrix if it has one.
 PeriodicSolution solution_of(const PeriodicProblem &problem, const MethodOptions &integration,

@@ -1,9 +1,11 @@
 #include "coupling/periodic/shooting/shooting_method.h"
 
+#include "coupling/periodic/newton.h"
 #include "coupling/periodic/settling.h"
 #include "coupling/periodic/shooting/multiple_shooting.h"
 #include "coupling/periodic/shooting/shooting.h"
 
+#include <functional>
 #include <sstream>
 
 namespace gestell::coupling
@@ -13,105 +15,52 @@ namespace
 {
 using Eigen::VectorXd;
 
-/// Newton's method on steps of one fineness, its matrix kept while the motion closes well.
-class ChordNewton
+/// The matrix at z.
+void form(ShootingEquations &equations, DominantSubspace &slow, const VectorXd &z)
 {
-public:
-  ChordNewton(const PeriodicProblem &problem, const MethodOptions &integration, DominantSubspace &slow, double omega)
-      : problem_(problem), slow_(slow), equations_(problem, integration, omega)
-  {
-  }
-
-  ShootingEquations &equations() { return equations_; }
-  int                iterations() const { return iterations_; }
-  /// Every evaluation improves them from now on.
-  void watch(LargestMultipliers &multipliers) { multipliers_ = &multipliers; }
-  /// From z until the motion closes to `goal`; whether it does.  A matrix that is not formed yet is formed at once.
-  bool close(VectorXd &z, double goal, int most);
-  void evaluate(const VectorXd &z);
-
-  void form(const VectorXd &z);
-
-private:
-  double step(VectorXd &z, bool formed_here);
-
-  const PeriodicProblem &problem_;
-  DominantSubspace      &slow_;
-  ShootingEquations      equations_;
-  LargestMultipliers    *multipliers_ = nullptr;
-  int                    iterations_  = 0;
-};
-
-void ChordNewton::evaluate(const VectorXd &z)
-{
-  if (multipliers_)
-    multipliers_->take(equations_.evaluate_with(z, multipliers_->dq(), multipliers_->dv()).monodromy);
-  else
-    equations_.evaluate(z, false);
+  const PeriodPassage &passage = equations.evaluate_with(z, slow.dq(), slow.dv());
+  slow.take(passage.monodromy, equations.rate_at_end());
 }
 
-void ChordNewton::form(const VectorXd &z)
+/// Newton's method from z until the motion closes to `goal`, on the steps of `equations`. Its matrix is reused while
+/// the motion closes well; of a step by an earlier matrix the whole alone is tried. Iterations are the steps tried.
+NewtonResult close(ShootingEquations &equations, const std::function<void(const VectorXd &)> &evaluate,
+                   DominantSubspace &slow, const PeriodicProblem &problem, VectorXd &z, double goal, int most)
 {
-  const PeriodPassage &passage = equations_.evaluate_with(z, slow_.dq(), slow_.dv());
-  slow_.take(passage.monodromy, equations_.rate_at_end());
-}
-
-/// z - part dz with the largest part of 1, 1/2, 1/4 ... that closes better, the whole alone if the matrix is an old
-/// one; residual behind, of that before.
-double ChordNewton::step(VectorXd &z, bool formed_here)
-{
-  const double     before        = equations_.residual().norm();
-  const VectorXd   dz            = slow_.correction(equations_.residual());
-  constexpr double smallest_part = 1e-3; // of a step that is halved ten times: then the direction does not help
-  for (double part = 1.; part > smallest_part; part *= 0.5)
+  int        tried  = 0;
+  bool       here   = false; // the matrix is that of z
+  double     before = 0., after = 0.;
+  const auto step = [&](NewtonResult &) -> NewtonStep
   {
-    const VectorXd next = z - part * dz;
-    try
-    {
-      evaluate(next);
-      const double after = equations_.residual().norm();
-      if (after < (1. - 0.1 * part) * before)
-      {
-        z = next;
-        return after / before;
-      }
-    }
-    catch (const ConvergenceFailure &)
-    {
-    }
-    if (!formed_here)
-      break;
-  }
-  evaluate(z);
-  return 1.;
-}
-
-bool ChordNewton::close(VectorXd &z, double goal, int most)
-{
-  evaluate(z);
-  bool here = !slow_.formed() && equations_.closing() > goal;
-  if (here)
-    form(z);
-  while (equations_.closing() > goal && iterations_ < most && !problem_.interrupted())
-  {
-    ++iterations_;
-    const double     left = step(z, here);
-    constexpr double good = 0.3; // residual behind a step, of that before, with which its matrix is kept
-    if (left < good || equations_.closing() <= goal)
-    {
-      here = false;
-      continue;
-    }
-    if (here && slow_.all() && left >= 1.)
-      return false;
+    if (equations.closing() <= goal || tried == most || problem.interrupted())
+      return {};
+    constexpr double good        = 0.3;  // residual after a step, of that before, with which its matrix is kept
     constexpr double fewer       = 0.1;  // of the share, where the motion does not close well
     constexpr double least_share = 1e-4; // below it all motions are slow
-    if (here && !slow_.all())
-      slow_.choose(slow_.share() > least_share ? fewer * slow_.share() : 0., problem_.period);
-    form(z);
-    here = true;
-  }
-  return equations_.closing() <= goal;
+    const bool       kept        = tried == 0 ? slow.formed() : after / before < good;
+    if (!kept && here && !slow.all())
+      slow.choose(slow.share() > least_share ? fewer * slow.share() : 0., problem.period);
+    if (!kept)
+      form(equations, slow, z);
+    here = !kept;
+    ++tried;
+    before                         = equations.residual().norm();
+    constexpr double smallest_part = 1e-3; // of a step that is halved ten times: then the direction does not help
+    return {-slow.correction(equations.residual()), before, 0.1, 1., here ? smallest_part : 0.5};
+  };
+  const auto length = [&](const VectorXd &next)
+  {
+    evaluate(next);
+    return after = equations.residual().norm();
+  };
+  evaluate(z);
+  NewtonResult newton;
+  do
+    newton = solve_by_newton(z, most, step, length);
+  while (newton.stalled && !(here && slow.all()));
+  newton.converged  = equations.closing() <= goal;
+  newton.iterations = tried;
+  return newton;
 }
 
 } // namespace
@@ -122,29 +71,33 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &sl
   MethodOptions    coarse       = options.integration;
   constexpr double coarse_steps = 1e-6; // tolerance of the steps at first: as far as the motion then closes
   coarse.tolerance              = std::max(coarse.tolerance, coarse_steps);
-  const double omega            = 2. * M_PI / problem.period;
-  ChordNewton  roughly(problem, coarse, slow, omega), finely(problem, options.integration, slow, omega);
-  lead_in(roughly.equations().flow(), problem, options, near);
-  VectorXd z = roughly.equations().unknowns(near.q, near.v, near.period);
-  // closing error at which the fine steps begin: the coarse ones err by as much
-  constexpr double coarse_goal = 1e-6;
-  const bool       closes      = roughly.close(z, coarse_goal, options.iterations);
+  const double      omega       = 2. * M_PI / problem.period;
+  ShootingEquations roughly(problem, coarse, omega), finely(problem, options.integration, omega);
+  lead_in(roughly.flow(), problem, options, near);
+  VectorXd z = roughly.unknowns(near.q, near.v, near.period);
+  // residual at which the fine steps begin: the coarse ones err by as much
+  constexpr double   coarse_goal      = 1e-6;
+  const auto         evaluate_roughly = [&](const VectorXd &next) { roughly.evaluate(next, false); };
+  const NewtonResult first = close(roughly, evaluate_roughly, slow, problem, z, coarse_goal, options.iterations);
   if (!slow.formed())
-    roughly.form(z);
+    form(roughly, slow, z);
   LargestMultipliers multipliers(slow.dominant(), omega);
-  finely.watch(multipliers);
-  if (!closes || !finely.close(z, options.tolerance, options.iterations))
+  const auto         evaluate = [&](const VectorXd &next)
+  { multipliers.take(finely.evaluate_with(next, multipliers.dq(), multipliers.dv()).monodromy); };
+  const NewtonResult last =
+      first.converged ? close(finely, evaluate, slow, problem, z, options.tolerance, options.iterations) : first;
+  if (!last.converged)
   {
     ShootingEquations all(problem, options.integration);
     return shoot(all, problem, all.unknowns(near.q, near.v, near.period), options);
   }
   constexpr int ritz_rounds = 6; // of iteration: a share of 0.1 falls to 1e-6
   for (int round = 0; round < ritz_rounds && !multipliers.converged(); ++round)
-    finely.evaluate(z);
-  PeriodicSolution solution = finely.equations().solution("shooting");
+    evaluate(z);
+  PeriodicSolution solution = finely.solution("shooting");
   solution.multipliers      = multipliers.values();
-  solution.work.add(roughly.equations().solution("shooting").work);
-  solution.work.iterations = roughly.iterations() + finely.iterations();
+  solution.work.add(roughly.solution("shooting").work);
+  solution.work.iterations = first.iterations + last.iterations;
   std::ostringstream note;
   note << "the " << solution.multipliers.size() << " largest multipliers are listed; motions that decay by more than "
        << 100. * (1. - slow.share()) << " % in a period have smaller ones";
@@ -157,28 +110,11 @@ PeriodicSolution shoot_slow(const PeriodicProblem &problem, DominantSubspace &sl
 namespace
 {
 
-/// In segments, where `failure` is why one passage does not do.
-PeriodicSolution shoot_again(const PeriodicProblem &problem, const PeriodicGuess &near, const PeriodicOptions &options,
-                             const std::string &failure)
-{
-  try
-  {
-    return shoot_in_segments(problem, near, options);
-  }
-  catch (const SearchInterrupted &)
-  {
-    throw;
-  }
-  catch (const NoPeriodicMotion &again)
-  {
-    throw NoPeriodicMotion(failure + "; " + again.what());
-  }
-}
-
-/// From a state behind the lead-in over the period in one passage, else in segments.
+/// From a state at the end of the lead-in over the period in one passage, else in segments.
 PeriodicSolution shoot_any_way(const PeriodicProblem &problem, const PeriodicGuess &near,
                                const PeriodicOptions &options)
 {
+  std::string failure;
   try
   {
     ShootingEquations equations(problem, options.integration);
@@ -194,13 +130,25 @@ PeriodicSolution shoot_any_way(const PeriodicProblem &problem, const PeriodicGue
   {
     throw;
   }
-  catch (const NoPeriodicMotion &failure)
+  catch (const NoPeriodicMotion &reason)
   {
-    return shoot_again(problem, near, options, failure.what());
+    failure = reason.what();
   }
-  catch (const ConvergenceFailure &failure)
+  catch (const ConvergenceFailure &reason)
   {
-    return shoot_again(problem, near, options, failure.what());
+    failure = reason.what();
+  }
+  try
+  {
+    return shoot_in_segments(problem, near, options);
+  }
+  catch (const SearchInterrupted &)
+  {
+    throw;
+  }
+  catch (const NoPeriodicMotion &again)
+  {
+    throw NoPeriodicMotion(failure + "; " + again.what());
   }
 }
 
