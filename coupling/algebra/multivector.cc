@@ -22,7 +22,7 @@ int panels_for(int columns, int lanes)
   return (columns + lanes - 1) / lanes;
 }
 
-/// Columns `panel * lanes` and on of A by rows, filled up with zeros.
+/// Copies the columns of A from `panel * lanes` on, row by row, padded with zeros.
 std::vector<double> by_rows(const MatrixXd &A, int panel, int lanes)
 {
   const int           first = panel * lanes, columns = std::min<int>(lanes, int(A.cols()) - first);

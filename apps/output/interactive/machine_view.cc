@@ -222,7 +222,7 @@ Json shows_json(const MachineAnimation &machine, const Result &result)
   Json shows = Json::array();
   if (result.run && !result.run->picture_states.empty())
     shows.push_back(motion_json(machine, result));
-  // of the machine's size: large enough to see, small enough that walls do not cross
+  // relative to the size of the machine: large enough to see, small enough that walls do not cross
   constexpr double      mode_size  = 0.05;
   const double          size       = mode_size * machine.size();
   constexpr std::size_t most_modes = 9; // buttons of one row

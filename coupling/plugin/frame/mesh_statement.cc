@@ -134,7 +134,7 @@ MeshStatement mesh_statement(const ReducedModel &reduced, const fem::FrameMatric
               rounded(1000. * walls.thinnest, 3) + " mm)" +
               (raised ? "" : ", whose bending error the stresses do not show");
     constexpr double coarse = 0.02; // error from which it is a warning, with a way out
-    // elements over thickness, above which stresses miss much of what bending errs
+    // element size over thickness above which stresses miss much of the error in bending
     constexpr double long_beside_wall = 2.;
     warns = !(high < coarse) || (!raised && thin_walls && walls.median_ratio > long_beside_wall);
     if (warns)

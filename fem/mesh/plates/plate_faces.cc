@@ -21,7 +21,7 @@ constexpr int    points_of_curves = 64;   // that bound a face
 
 using Axes = std::array<Vector3, 3>;
 
-/// All faces of the solids, those between two of them, too.
+/// All faces of the solids, including those between two solids.
 std::vector<Face> all_faces(const CadModel &model)
 {
   std::vector<Face> faces = model.faces;
