@@ -32,8 +32,7 @@ struct FrameAnswer : coupling::CachedFrame
 };
 
 /**
- * A scene that has been read, and the computations with it.  Results are values: nothing is printed or written to
- * files.
+ * A scene that has been read, and the computations with it. Results are values: nothing is printed or written to files.
  *
  *     Session session("press.toml", {"run.step=1e-5"});
  *     const Result run = session.run();

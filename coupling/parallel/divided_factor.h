@@ -61,8 +61,7 @@ public:
   /// The same of C, unless it was passed as given_C.
   fem::SparseMatrix own_C() const;
 
-  /// Computes the factor if needed.  @returns -1, or the coordinate of a pivot that is not positive, on rank
-  /// 0.
+  /// Computes the factor if needed. @returns -1, or the coordinate of a pivot that is not positive, on rank 0.
   int    factorise();
   void   release();
   double pivot_ratio() const; ///< (smallest / largest diagonal entry of L)^2

@@ -49,10 +49,9 @@ struct Moving
 };
 
 /**
- * Signals of a run along a motion, and their derivatives.  Derivatives by parameters at a fixed time follow from the
- * two machines of each parameter, at the motion changed by its derivative times the step.  Time derivatives are
- * quotients of order 4 over a short interval of the smooth motion about an instant, on the branches that are active
- * there.
+ * Signals of a run along a motion, and their derivatives. Derivatives by parameters at a fixed time follow from the two
+ * machines of each parameter, at the motion changed by its derivative times the step. Time derivatives are quotients of
+ * order 4 over a short interval of the smooth motion about an instant, on the branches that are active there.
  *
  * A shorter increment has less truncation error and more rounding. turn() tries increments of 1/3 to 1/50000 of a step
  * and uses the first of two neighbours with the best agreement of y''; their difference is the error. At a corner y''

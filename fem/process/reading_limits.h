@@ -21,8 +21,7 @@ enum class FileContent
 
 /**
  * Limits from the size S of the file: 300 s + 60 s per MB of processor time and 2 GB + 400 S of memory; for programs at
- * least 1200 s and all available memory; never below 0.5 GB.  A STEP file of 0.5 MB takes less than a second and 0.1
- * GB.
+ * least 1200 s and all available memory; never below 0.5 GB. A STEP file of 0.5 MB takes less than a second and 0.1 GB.
  *
  * The environment variable GESTELL_READING_SECONDS sets another time, 0 for no limit.
  *

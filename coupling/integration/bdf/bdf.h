@@ -23,10 +23,9 @@ namespace gestell::coupling
  *     q'_k  = (q_k - h^q)/h_beta,     w_k = h_beta (f_t + W p - C q_k) + h^w                    (5.5.2/6, 10)
  *
  * Self-starting: the first p - 1 points come from implicit Euler steps h/1, h/2, ... extrapolated to order p, so the
- * order is kept from the start.  Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not. Ideal joints
- * enter as g = 0 at the new point (index 3): the order is kept in q and q'.  The multipliers of the formula are
- * accurate only after as many points as it has; after every start they are therefore computed from g'' = 0
- * (ConsistentStart).
+ * order is kept from the start. Orders 1 and 2 are stable for every damped mode; orders 3 to 6 are not. Ideal joints
+ * enter as g = 0 at the new point (index 3): the order is kept in q and q'. The multipliers of the formula are accurate
+ * only after as many points as it has; after every start they are therefore computed from g'' = 0 (ConsistentStart).
  *
  * The force of a sticking measure follows from the equation of motion at q and q', at ends of steps and inside
  * (ConsistentStart::hold()).

@@ -17,22 +17,20 @@ namespace gestell::coupling
  * BDF with variable step and order, with the equations and the condensed step of Bdf.
  *
  * Steps are h_max / 2^rung and change only by powers of two, so that a factorisation, one per level and order, is
- * reused whenever a step length returns.  Between changes the step is constant: BDF in backward differences of q, q'
- * and of the measures, which a change of step multiplies by a small triangular matrix (BackwardDifferences).  With q'
- * in place of w = M q' + B q, and with the change x = h_b^2 q'' as the unknown, the equation of the step (5.5.2/12)
- * reads
+ * reused whenever a step length returns. Between changes the step is constant: BDF in backward differences of q, q' and
+ * of the measures, which a change of step multiplies by a small triangular matrix (BackwardDifferences). With q' in
+ * place of w = M q' + B q, and with the change x = h_b^2 q'' as the unknown, the equation of the step (5.5.2/12) reads
  *
  *     (M + h_b B + h_b^2 C) x = h_b^2 (f_t + W p - B h^{q'} - C (h^q + h_b h^{q'})),
  *     q = h^q + h_b h^{q'} + x,     q' = h^{q'} + x / h_b,
  *
  * which has no cancellation if h_b^2 C is small compared with M, and which gives the error of velocities.
  *
- * Error.  The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the norm of ErrorScale, must
- * not exceed the tolerance.  Otherwise, or if Newton's method fails, the step is rejected; the state before it is
- * restored (but see ErrorScale::refuse()), and the step is repeated with half the length or less.  Two rejections
- * reduce the order to 2, three cause a restart.  The step grows, by up to three levels at once, after k + 1 steps of
- * equal length, and only if the predicted error is below 0.3 of the tolerance, so that it is not reduced again
- * immediately.
+ * Error. The local error of order k, nabla^{k+1} / (gamma_k (k + 1)) of q, q', u, u', in the norm of ErrorScale, must
+ * not exceed the tolerance. Otherwise, or if Newton's method fails, the step is rejected; the state before it is
+ * restored (but see ErrorScale::refuse()), and the step is repeated with half the length or less. Two rejections reduce
+ * the order to 2, three cause a restart. The step grows, by up to three levels at once, after k + 1 steps of equal
+ * length, and only if the predicted error is below 0.3 of the tolerance, so that it is not reduced again immediately.
  *
  * Order.  Whenever the step grows, orders k - 1, k + 1 and 2 are also examined.  BDF of order 3 and above makes lightly
  * damped modes grow if omega h is neither small nor very large.  Therefore at each level only orders are used for which

@@ -51,12 +51,11 @@ struct ReceptanceGoal
  *     r^T Z22^-1 r,    Z22^-1 ~ sum_j v_j v_j^T / ((1 + 2 i zeta) omega_0j^2 - omega^2)
  *                               + (C22^-1 - sum_j v_j v_j^T / omega_0j^2) / ((1 + 2 i zeta) (1 - omega^2 / omega_0^2))
  *
- * with the known modes j and omega_0 a lower bound of the others.  This is an upper bound for the inertia of the
- * unknown modes; dampers in Z22, which would reduce it, are neglected.  It includes the errors of truncated modes and
- * of dampers.  At the frequency with the largest resulting error of the receptance, principal directions of C22^-1 r
- * are added as shapes; this is repeated until the error is within the tolerance or `most` shapes are reached.
- * Therefore dampers may be arbitrarily strong: shapes of second order, C22^-1 B C22^-1 B Psi, are added in the second
- * round.
+ * with the known modes j and omega_0 a lower bound of the others. This is an upper bound for the inertia of the unknown
+ * modes; dampers in Z22, which would reduce it, are neglected. It includes the errors of truncated modes and of
+ * dampers. At the frequency with the largest resulting error of the receptance, principal directions of C22^-1 r are
+ * added as shapes; this is repeated until the error is within the tolerance or `most` shapes are reached. Therefore
+ * dampers may be arbitrarily strong: shapes of second order, C22^-1 B C22^-1 B Psi, are added in the second round.
  *
  * @param held  with its factor.
  * Source: docs/theory/reduction.md (16e).

@@ -33,12 +33,11 @@ struct FrameNodes
  *
  *     name, x [mm], y [mm], z [mm], ux, uy, uz, rx, ry, rz          or          name, node, x [mm], y [mm], z [mm]
  *
- * x, y, z have a unit of length in brackets (without one that of `file_units`, m by default).  ux ... rz are the row of
- * q, from 1, that is this motion; negative if it is opposite to the axis, empty if there is none.  `node` is its
- * number, if rows are identified by node numbers.  `name` and motions are optional.  If rows are known, the file may
- * also be the model of another program (read_model_nodes()).  Axes of nodes, and without the key `nodes` their
- * positions, are read from the files of the matrices, if these contain nodes; a node in two files must have the same
- * position in both.
+ * x, y, z have a unit of length in brackets (without one that of `file_units`, m by default). ux ... rz are the row of
+ * q, from 1, that is this motion; negative if it is opposite to the axis, empty if there is none. `node` is its number,
+ * if rows are identified by node numbers. `name` and motions are optional. If rows are known, the file may also be the
+ * model of another program (read_model_nodes()). Axes of nodes, and without the key `nodes` their positions, are read
+ * from the files of the matrices, if these contain nodes; a node in two files must have the same position in both.
  *
  * @param n  number of rows of the matrices.
  */
