@@ -14,8 +14,7 @@ namespace gestell::apps
 void require_writable(const std::filesystem::path &folder);
 
 /**
- * Like require_writable(); also checks that no result would replace a file that is not ours, or an input of the
- * command.
+ * Like require_writable(); also checks that no result would replace a file that is not ours, or an input.
  *
  * @param more    names that are written in addition to those of write_results(), see OwnFolder::require_free()
  * @param inputs  files that the command reads

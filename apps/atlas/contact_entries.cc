@@ -343,8 +343,7 @@ AtlasEntry chatter()
         ++i;
       most = std::max(most, j - i);
     }
-    // Within one step's length at most: the last of one count of 20 events, the step past the limit, 20 events of the
-    // next count.
+    // Within one step's length at most: one event of a count of 20, the step past the limit, 20 of the next.
     entry.comparisons.push_back(
         {std::to_string(n) + " masses, at most 42 parts of a step (1: yes)", 1., most <= 42 ? 1. : 0., 0.});
     entry.table.push_back({std::to_string(n), short_text(double(motion.driver().events().size()) / n_steps),

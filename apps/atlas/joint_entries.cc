@@ -1,5 +1,4 @@
-// Ideal joints: with constraints on accelerations they drift apart; with index 3 the first multiplier has half of its
-// value.
+// Ideal joints: with constraints on accelerations they drift apart; with index 3 the first multiplier is halved.
 
 #include "apps/atlas/atlas.h"
 #include "coupling/integration/integration_methods.h"

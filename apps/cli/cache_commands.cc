@@ -93,8 +93,7 @@ bool begins(const std::string &text, const std::string &part)
   return text.compare(0, part.size(), part) == 0;
 }
 
-/// "interface.2.coupling": a choice stored as a number in a recipe is shown by its name in scenes; others are
-/// unchanged.
+/// "interface.2.coupling": a choice stored as a number in a recipe is shown by its name in scenes.
 std::string choice_text(const std::string &name, const std::string &value)
 {
   struct Choice

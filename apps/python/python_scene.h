@@ -56,8 +56,7 @@ public:
 
   /// Sets one key, "parameters.c_P".  @throws std::invalid_argument for a parameter that the scene does not have
   void set(const std::string &key, pybind11::handle value);
-  /// Sets several keys of a table, "body.crank", which is created if necessary; as if they had been in the original
-  /// scene.
+  /// Sets several keys of a table, "body.crank", which is created if necessary; as if the original scene had them.
   void                     add(const std::string &table, const pybind11::dict &entries);
   pybind11::object         get(const std::string &key) const; ///< @throws pybind11::key_error
   pybind11::object         values() const;                    ///< all, as a dict

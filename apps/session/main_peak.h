@@ -5,8 +5,7 @@
 namespace gestell::apps
 {
 
-/// Index of the signal whose extreme a picture of the run shows: the first force, else the first requested signal; -1:
-/// none.
+/// Index of the signal whose extreme a picture shows: the first force, else the first requested one; -1: none.
 int main_signal(const std::vector<coupling::Signal> &signals);
 
 /// Adds to the requested states, after all other extremes, those at the largest and the smallest value of that signal.

@@ -44,8 +44,7 @@ struct PreparedMachine
   /// For a machine in modes, null otherwise.
   std::shared_ptr<const MachineInModes> in_modes{};
 
-  /// A state of the unreduced frame in the companion's coordinates: interfaces and bodies; its modal coordinates are
-  /// zero.
+  /// A state of the unreduced frame in the companion's coordinates: interfaces and bodies; modal coordinates are zero.
   Eigen::VectorXd project(const Eigen::VectorXd &state) const;
 };
 

@@ -53,8 +53,7 @@ public:
   const Scene             &scene() const { return scene_; }
   const Variant           &variant() const { return variant_; } ///< to vary its keys further
   const std::atomic<bool> *interruption() const { return watch_.interruption; }
-  /// Another scene, read from its file, with the progress and the interruption flag of this session, which must outlive
-  /// it.
+  /// Another scene, read from its file, with the progress and the interruption flag of this session (must outlive it).
   std::unique_ptr<Session> beside(const std::string &file) const;
 
   void check();     ///< checks that need no computation

@@ -6,8 +6,7 @@
 namespace gestell::apps
 {
 
-/// Ratio of the element sizes of two compared meshes. In solids the coarser mesh has a third of the DOFs, so it costs
-/// little.
+/// Ratio of the element sizes of two compared meshes. In solids the coarser mesh has a third of the DOFs.
 constexpr double ratio_of_meshes = 1.5;
 
 /// Errors of an output by their cause, relative to the allowed error; infinite: unknown.

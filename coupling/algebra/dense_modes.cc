@@ -136,8 +136,7 @@ DenseModes modes_of(const MatrixXd &C, const MatrixXd &M, const Shifted &shifted
   return modes;
 }
 
-/// Highest omega^2 of several modes that cannot be distinguished because their omega^2 is far below s; 0 if there are
-/// none.
+/// Highest omega^2 of several modes that cannot be distinguished because s is far above them; 0 if there are none.
 double alike_beside(double s, const DenseModes &modes)
 {
   constexpr double near = 1e-8; // omega^2 over s: below it s is too large to distinguish modes

@@ -58,8 +58,7 @@ Eigen::MatrixXd gram(const MultiVector &X, const MultiVector &Y);
 class ReorderedMatrix
 {
 public:
-  /// A(order, order), A symmetric with both triangles stored; rows and columns of `held` (ascending) are treated as
-  /// zero.
+  /// A(order, order), A symmetric with both triangles stored; rows and columns of `held` (ascending) count as zero.
   ReorderedMatrix(const Eigen::SparseMatrix<double> &A, const std::vector<int> &order, const std::vector<int> &held);
 
   /// Y <- A X; Y has the size of X.

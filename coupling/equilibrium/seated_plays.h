@@ -9,8 +9,7 @@ namespace gestell::coupling
  * Seating of clearances that a motion closes but that are open at a state: on the side loaded by weight and inertia,
  * docs/theory/start.md (16).  A clearance without force remains centred; for one in tension the law decides.
  *
- * The position satisfies the joints and keeps the fixed coordinates; the search for the equilibrium (15) starts from
- * it.
+ * The position satisfies the joints and keeps the fixed coordinates; the equilibrium search (15) starts there.
  *
  * @param held    fixed coordinates, as for held_equilibrium()
  * @param motion  of the machine

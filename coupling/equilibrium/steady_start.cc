@@ -158,8 +158,7 @@ private:
           tangent(equations_[i], equations_[i]) == 0. ? 1. : inverse_root(equations_[i]);
     const Eigen::MatrixXd part = tangent(equations_, unknown_);
     matrix_                    = row_scale_.asDiagonal() * part * scale_.asDiagonal();
-    // Stiffness of a motion relative to that of its coordinates, below which it is unconstrained: reduction leaves up
-    // to 1e-10.
+    // Stiffness of a motion relative to that of its coordinates, if unconstrained: reduction leaves 1e-10.
     constexpr double least_singular = 1e-9;
     solver_                         = LeastSquaresSolver(matrix_, least_singular);
   }

@@ -48,8 +48,7 @@ private:
   long             number_ = 0;
 };
 
-/// A number in the notation of C, of Fortran or in Nastran's short form, infinite if it exceeds double precision; none:
-/// not a number.
+/// A number in the notation of C, of Fortran or in Nastran's short form, infinite beyond double; none: not a number.
 std::optional<double> real_of(std::string_view field);
 std::optional<long>   whole_of(std::string_view field); ///< none: not an integer
 

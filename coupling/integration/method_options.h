@@ -29,8 +29,7 @@ struct MethodOptions
   /// ignored.
   std::map<std::string, MethodValue> own{};
 
-  /// Modes of the base system, shared between systems with the same matrices by methods that use modes; null: each
-  /// computes them.
+  /// Modes of the base system, shared between systems with the same matrices by methods with modes; null: not shared.
   std::shared_ptr<SharedModes> modes{};
 
   void set(const std::string &parameter, double value) { own[parameter] = value; }

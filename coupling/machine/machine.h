@@ -40,8 +40,7 @@ public:
   /// Adds a rotor of inertia J [kg m^2] about `axis`, carried by `carrier` ("ground", "frame.crown"), with its mass
   /// [kg] at the carrier.
   int add_rotor(const std::string &name, const Vector3 &axis, double inertia, double mass, const std::string &carrier);
-  /// Adds a slider of mass m [kg] that moves along `axis`; in the other directions it moves with `guide`, to which its
-  /// mass is added.
+  /// Adds a slider of mass m [kg] that moves along `axis`; otherwise it moves with `guide`, which gets its mass.
   int add_slider(const std::string &name, const Vector3 &axis, double mass, const std::string &guide);
   /// Adds a point mass m [kg] that moves freely in space.
   int add_point(const std::string &name, double mass, const Vector3 &position);

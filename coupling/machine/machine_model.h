@@ -63,8 +63,7 @@ struct Body
 /// Two unit vectors normal to the unit vector n: if n is a global axis the other two, in their order.
 std::pair<Vector3, Vector3> plane_across(const Vector3 &n);
 
-/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" for a global axis as normal, else
-/// "rod.s1" ...
+/// Names of the coordinates of a planar body: "rod.ux", "rod.uz", "rod.angle" for a global normal, else "rod.s1" ...
 /// @param normal  unit vector
 std::array<std::string, 3> planar_coordinates(const std::string &name, const Vector3 &normal);
 

@@ -124,8 +124,7 @@ Eigen::MatrixXd stacked(const std::vector<Eigen::RowVectorXd> &rows, Eigen::Inde
 
 constexpr double not_defined = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether the mode flutters: its energy changes while it vibrates, and springs and masses store theirs at different
-/// times.
+/// Whether the mode flutters: its energy changes while it vibrates, springs and masses store it at different times.
 bool flutters(const Mode &mode)
 {
   return mode.frequency_hz > 0. && mode.growth != 0.;

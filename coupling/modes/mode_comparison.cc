@@ -35,8 +35,7 @@ double quotient(double x, double y)
   return y > 0. ? x / y : 0.;
 }
 
-/// For each row of `value` [a x b] one column, no column twice, with the largest sum; -1 for rows without a column if a
-/// > b.
+/// For each row of `value` [a x b] one column, no column twice, with the largest sum; -1 for rows without one.
 std::vector<int> partners(const Eigen::MatrixXd &value)
 {
   if (value.rows() <= value.cols())

@@ -17,8 +17,7 @@ class MeshService
 public:
   virtual ~MeshService() = default;
 
-  /// Reads the geometry and finds its surfaces without a mesh, see fem::inspect_geometry(); returns a description for
-  /// people.
+  /// Reads the geometry and finds its surfaces without a mesh, see fem::inspect_geometry(); returns a description.
   struct Inspection
   {
     std::string              found; ///< "2 solids, 0.00088 m^3; surfaces: base 1 face, bore 2 faces"

@@ -58,8 +58,7 @@ bool is_diagonal(const MatrixXd &A)
   return (A - MatrixXd(A.diagonal().asDiagonal())).cwiseAbs().maxCoeff() == 0.;
 }
 
-/// Whether the coordinates after the first n_1 are modal: M_LL = E, C_LL diagonal, C_LN = 0, as in the files of
-/// reductions.
+/// Whether the coordinates after the first n_1 are modal: M_LL = E, C_LL diagonal, C_LN = 0, as reductions write.
 bool is_modal(const ReducedFrame &frame)
 {
   const auto n_1 = frame.n_interface, m = int(frame.M.rows()) - n_1;

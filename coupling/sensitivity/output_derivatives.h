@@ -9,8 +9,7 @@ namespace gestell::coupling
 
 constexpr double one_percent = 0.01; ///< of a parameter, reference of reported changes
 
-/// A scalar result of a run, with its derivatives by the parameters [K]; nan: there is none, and `note` gives the
-/// reason.
+/// A scalar result of a run, with its derivatives by the parameters [K]; nan: none, see `note`.
 struct OutputDerivatives
 {
   std::string     output; ///< "F_P.max", "F_P.t_max", "F_P.final", "events.3.t"

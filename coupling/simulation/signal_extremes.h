@@ -63,8 +63,7 @@ public:
 
   /// Signals that are monitored after that event start at the next restart().
   void on_event(const std::string &event);
-  /// The motion continues from here independently of the samples before: at the start, or after the last of several
-  /// events.
+  /// The motion continues from here independently of the samples before: at the start, or after events.
   void restart(const SignalSample &at);
   /// A step from the last sample to `end`.
   void step(double end);

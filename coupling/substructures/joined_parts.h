@@ -47,8 +47,7 @@ struct JoinedParts
  */
 JoinedParts join_parts(const std::vector<ReducedFrame> &parts, const FrameOfParts &description);
 
-/// Options for the reduction of the joined frame to the retained interfaces: by the options of its parts, or with all
-/// modes.
+/// Options for the reduction of the joined frame to the retained interfaces: those of its parts, or all modes.
 ReductionOptions joined_options(const FrameOfParts &frame, const JoinedParts &joined, ReductionOptions options);
 
 /// The joined frame after its reduction, with the known facts about its parts.

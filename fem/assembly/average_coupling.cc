@@ -170,8 +170,7 @@ std::vector<Group> make_groups(const CoupledPatch &coupled, const QuadraticMesh 
   return groups;
 }
 
-/// The inner coordinates m of all groups as combinations of values; the six eliminated ones are  m_e = W_e^-1 (p - W_r
-/// m_r).
+/// The inner coordinates m of all groups as combinations of values; six are eliminated: m_e = W_e^-1 (p - W_r m_r).
 std::vector<Combination> inner_coordinates(const std::vector<Group> &groups, const CoupledPatch &coupled, int first,
                                            int first_inner)
 {

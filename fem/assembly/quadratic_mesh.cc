@@ -89,8 +89,7 @@ int *nodes_of(QuadraticMesh &mesh, int cell)
   return const_cast<int *>(mesh.nodes(cell));
 }
 
-/// On a face between a prism and a hexahedron, get_dof_indices() of deal.II 9.4 gives the right node for the hexahedron
-/// only.
+/// On a face between a prism and a hexahedron, get_dof_indices() of deal.II 9.4 is right for the hexahedron only.
 void take_from_hexahedra(const Cell &cell, QuadraticMesh &mesh)
 {
   constexpr int first_quad_face = 2, of_prism = 15, of_hexahedron = 20; // first middle nodes of faces
@@ -161,8 +160,7 @@ void bend_edges(const Mesh &mesh, QuadraticMesh &result)
     }
 }
 
-/// Nodes of the outer faces, found by the corners between which they lie: two for an edge, those of the diagonal for a
-/// quadrilateral.
+/// Nodes of the outer faces, found by the corners between which they lie: two per edge, or of a diagonal.
 class OuterNodes
 {
 public:

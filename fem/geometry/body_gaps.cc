@@ -153,8 +153,7 @@ BodyGap gap_between(const ShapeSolid &a, const ShapeSolid &b, const CadModel &mo
   return best;
 }
 
-/// Pairs of solids of different bodies, nearest first; the distance is that of their boxes until the exact one is
-/// computed.
+/// Pairs of solids of different bodies, nearest first; at first the distance of their boxes.
 struct Candidate
 {
   double  distance;

@@ -189,8 +189,7 @@ private:
     return blocks;
   }
 
-  /// Adds to the number found. A smaller number than announced is valid: gmsh announces more where parts of a mesh
-  /// share nodes.
+  /// Adds to the number found. A smaller number than announced is valid: gmsh may announce more.
   static void add(Blocks &blocks, Count n, const std::string &things)
   {
     if ((blocks.found += n) > blocks.in_all)

@@ -8,8 +8,7 @@
 namespace gestell::fem
 {
 
-/// Configures OpenCASCADE's reader, which gmsh uses, to keep the names of faces (ADVANCED_FACE) of STEP files read
-/// later.
+/// Configures OpenCASCADE's reader, which gmsh uses, to keep the names of faces (ADVANCED_FACE) of later STEP files.
 void name_faces_of_step();
 
 /**

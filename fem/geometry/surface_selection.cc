@@ -236,8 +236,7 @@ std::vector<const Face *> pieces_at(const std::vector<const Face *> &faces, cons
   return result;
 }
 
-/// Refuses a number that is both the number of faces at the point of the selector and the number of all matching
-/// pieces.
+/// Refuses a number that fits both the faces at the point of the selector and all matching pieces.
 [[noreturn]] void refuse_two_meanings(const SurfaceSelector &selector, const std::vector<const Face *> &here,
                                       const std::vector<const Face *> &all)
 {

@@ -51,8 +51,7 @@ std::vector<CellFace> join_cells(const std::vector<CellFace> &faces, std::vector
   return skin;
 }
 
-/// Adds a note to the mesh for a surface with some elements that are faces of cells and others that are not: it has
-/// lost cells.
+/// Adds a note for a surface with some elements that are faces of cells and others that are not: it has lost cells.
 /// @param surface_of  tags of surfaces by the sorted corners of their elements, -1 for a node of no cell
 /// @param is_face     whether such corners are those of a face
 template <class Key, class IsFace>

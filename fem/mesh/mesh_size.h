@@ -17,8 +17,7 @@ using Selection = std::map<std::string, std::vector<int>>;
 /// Growth of the element size per distance, from the size on a named surface to the global size.
 constexpr double size_growth = 0.3;
 
-/// Smallest number of elements around a full circle, independent of the size: its area is then 4.5 % too small, with 6
-/// elements 17 %.
+/// Smallest number of elements around a full circle, independent of the size: its area is then 4.5 % too small.
 constexpr int elements_around_circle = 12;
 
 /// [m^2]
@@ -37,8 +36,7 @@ double expected_cells(const CadModel &model, double size, const std::map<std::st
 /// The size [m], rounded up to two digits, for which about `n_cells` tetrahedra are expected.
 double size_for_cells(const CadModel &model, double n_cells);
 
-/// Sizes by name of surface, with the patterns ("crown bearing *") of options.surface_size resolved; the smallest is
-/// used.
+/// Sizes by name of surface, with the patterns ("crown bearing *") of options.surface_size resolved (smallest).
 std::map<std::string, double> resolve_surface_sizes(const MeshOptions &options, const Selection &selection);
 
 /**

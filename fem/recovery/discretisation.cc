@@ -116,8 +116,7 @@ std::vector<Interface> make_interfaces(const std::vector<CoupledPatch> &coupled,
   return result;
 }
 
-/// Nodes with coordinates: those of masses with surfaces of their own, followed by those of interfaces, which are thus
-/// last in q.
+/// Nodes with coordinates: those of masses with surfaces of their own, then those of interfaces, which are last in q.
 std::vector<InterfaceSpecification> coupled_nodes(const FrameSpecification &specification)
 {
   require_valid(specification.masses, specification.interfaces);

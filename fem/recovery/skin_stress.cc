@@ -31,8 +31,7 @@ Triple sorted(Triple corners)
   return corners;
 }
 
-/// Corners of the triangles that may represent a face of a cell, as local nodes; for a quadrilateral along both
-/// diagonals.
+/// Corners of the triangles that may represent a face of a cell, as local nodes; both diagonals of quadrilaterals.
 std::vector<Triple> face_triangles(CellKind kind)
 {
   std::vector<Triple> triangles;

@@ -63,8 +63,7 @@ int slip(const std::string &name, const std::string &meant)
   return 3 * distance <= static_cast<int>(std::max(name.size(), meant.size())) + 1 ? distance : another_word;
 }
 
-/// The same for a path of which a name without dots may be one part: "guide" for "frame.guide". A whole name ranks
-/// before a part.
+/// The same for a path of which a name without dots may be one part: "guide" for "frame.guide". Whole names rank first.
 int slip_of_path(const std::string &name, const std::string &path)
 {
   int smallest = 2 * slip(name, path);

@@ -21,8 +21,7 @@ private:
   std::filesystem::path path_;
 };
 
-/// Shell commands that remove all temporary folders of this process, for a process that ends without running
-/// destructors.
+/// Shell commands that remove all temporary folders of this process, if it ends without destructors.
 std::string words_of_removal();
 
 } // namespace gestell::fem

@@ -45,8 +45,7 @@ public:
       p[i] = -(lever(i) * lever(i)) * factor * m.v[i];
   }
 
-  /// "friction", for a single motion with its sign; a torque if all motions are rotations, else the force on the
-  /// surface.
+  /// "friction", for a single motion with its sign; a torque if all are rotations, else the force.
   std::vector<Quantity> quantities() const override;
   double                quantity(int i, const LocalMotion &motion, const double *history) const override;
 

@@ -70,8 +70,7 @@ struct NamedSvg
   std::string name, svg; ///< file name without extension
 };
 
-/// For one damping ratio: spectral radius, period error, numerical damping, overshoot; `modes` are marked in the
-/// charts.
+/// For one damping ratio: spectral radius, period error, numerical damping, overshoot; `modes` are marked.
 std::vector<NamedSvg> stability_charts(const std::vector<MethodFamily> &families, const std::vector<StabilityMap> &maps,
                                        double zeta, const std::vector<coupling::ModeAccuracy> &modes);
 

@@ -35,8 +35,7 @@ class MachineAnimation
 public:
   explicit MachineAnimation(const Result &result);
 
-  /// The frame, if it has a skin, then the bodies, in the rest position: at Result::modes_at, or else at the first
-  /// saved state.
+  /// The frame, if it has a skin, then the bodies, in the rest position: at Result::modes_at, or the first saved state.
   const std::vector<Shape> &parts() const { return parts_; }
   bool                      has_frame() const { return !chosen_.empty(); }
   /// Indices of the frame's points in the whole skin.

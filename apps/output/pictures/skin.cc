@@ -40,8 +40,7 @@ std::vector<std::set<Plane>> planes_of(const Skin &skin, double tolerance)
   return planes;
 }
 
-/// Group number of every point, in order of first occurrence: points in one cell of a grid and on the same planes form
-/// a group.
+/// Group number of every point, in order of first occurrence: one group has one grid cell and the same planes.
 std::vector<int> groups_of(const Skin &skin, double edge)
 {
   using Key         = std::pair<std::array<long, 3>, std::set<Plane>>;

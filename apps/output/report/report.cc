@@ -247,8 +247,7 @@ std::string modes_section(const Result &result, bool has_view, Pictures &picture
   return section("modes", "Natural frequencies and modes", html);
 }
 
-/// Numerical damping and period error of each mode, the lowest first; modes above them only follow the motion of the
-/// drives.
+/// Numerical damping and period error of each mode, the lowest first; modes above only follow the drives.
 std::string accuracy_table(const coupling::RunResult &run)
 {
   if (run.accuracy.empty())

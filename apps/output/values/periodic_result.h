@@ -12,8 +12,7 @@
 namespace gestell::apps
 {
 
-/// A signal over one period: mean + sum_k amplitude_k cos(k Omega t + phase_k), where Omega is the frequency of the
-/// drive.
+/// A signal over one period: mean + sum_k amplitude_k cos(k Omega t + phase_k), with the drive's frequency Omega.
 struct SignalOrbit
 {
   std::string         name, unit;

@@ -143,8 +143,7 @@ coupling::Measure moved_along(const Vector3 &e, const coupling::Marker &marker, 
   return u;
 }
 
-/// Points away from the axis of a carrier with large rotations move along circles, which small motions cannot
-/// represent.
+/// Points away from the axis of a carrier with large rotations move along circles, not straight lines.
 void refuse_carried_round(const coupling::MachineModel &machine, const BodyRequest &rotor, const Vector3 &arm)
 {
   for (const coupling::Body &body : machine.bodies())

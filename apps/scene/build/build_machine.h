@@ -55,8 +55,7 @@ coupling::KnownStart modes_position(const Scene &scene, coupling::Machine &machi
 /// places_known(): a body rotates about its interface.  @return all warnings, including those of read_scene()
 std::vector<std::string> check_scene(const Scene &scene);
 
-/// Whether the scene contains the positions of all interfaces of its frame; centroids of surfaces are known only from
-/// the CAD file.
+/// Whether the scene contains the positions of all interfaces of its frame; centroids need the CAD file.
 bool places_known(const Scene &scene);
 
 /// Rejects names in [start] and [modes] that the machine does not have.

@@ -18,8 +18,7 @@ namespace gestell::apps
  */
 void check_carrier(const coupling::MachineModel &machine, const BodyRequest &body);
 
-/// Warnings of masses that act at the reference point of a rotating interface, although the scene places them far from
-/// it.
+/// Warnings of masses that act at the reference point of a rotating interface, although they are placed far from it.
 std::vector<std::string> carried_warnings(const Scene &scene, const coupling::MachineModel &machine);
 
 } // namespace gestell::apps

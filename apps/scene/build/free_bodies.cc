@@ -32,8 +32,7 @@ std::set<int> coordinates_in_use(const Scene &scene, const coupling::MachineMode
   return used;
 }
 
-/// Whether the coordinate belongs to the body itself; the marker of the body also moves with the coordinates of its
-/// carrier.
+/// Whether the coordinate belongs to the body itself; the marker also moves with the carrier.
 bool is_own(int coordinate, const coupling::Body &body)
 {
   using coupling::BodyKind;

@@ -209,8 +209,7 @@ coupling::KnownStart modes_position(const Scene &scene, coupling::Machine &machi
 
 Eigen::VectorXd modes_configuration(const Scene &scene, coupling::Machine &machine)
 {
-  // With joints the initial position must be assembled: the position given as the start, or the closest one with the
-  // given values.
+  // With joints the initial position must be assembled: at the start, or closest to it.
   if (coupling::has_joints(machine) && scene.modes.at.empty())
     return initial_state(scene, machine).q;
   const bool measured =

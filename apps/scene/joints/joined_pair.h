@@ -41,8 +41,7 @@ struct Pair
 /// Largest possible gradient of an equation with measure i: of a length by the lever, of an angle by the rotation.
 double largest_gradient(const Pair &pair, const mechanism::RelativeMeasure &measure, int i);
 
-/// Motion k of three random ones, as large as the bodies: an equation that none of them changes is not changed by any
-/// motion.
+/// Motion k of three random ones, as large as the bodies: an equation that none changes is not changed by any motion.
 void sample_motion(int k, const Pair &pair, double *u);
 
 /// Gradient below which no motion of the two bodies changes an equation, relative to the largest possible one: motions

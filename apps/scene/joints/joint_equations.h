@@ -11,8 +11,7 @@
 namespace gestell::apps
 {
 
-/// Rotation of body 2 about a minus `factor` times that of body 1: for bodies that rotate about one axis, or by small
-/// angles.
+/// Rotation of body 2 about a minus `factor` times that of body 1: for rotation about one axis, or small angles.
 mechanism::RelativeMeasure rotation_about(const Pair &pair, const mechanism::Vector3d &a, double factor);
 /// Angle of body 2 relative to body 1 about a, which is fixed to both, in (-pi, pi]: for free spatial bodies.
 mechanism::RelativeMeasure angle_about(const mechanism::Vector3d &a);

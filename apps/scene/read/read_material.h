@@ -28,8 +28,7 @@ double read_plausible_density(const SceneTable &table);
 /// Why a density [kg/m^3] is implausible, with the unit that was probably intended; empty in the range of solids.
 std::string suspect_density(double density);
 
-/// Warns if a measured mass and a volume [m^3] give a density outside the range of solids: the unit of one of them is
-/// wrong.
+/// Warns if a measured mass and a volume [m^3] give a density outside the range of solids: a unit is wrong.
 void warn_of_density(const SceneTable &table, double mass, double volume);
 
 /// Reads `materials` of a frame, by name of the solid.

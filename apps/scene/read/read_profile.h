@@ -45,8 +45,7 @@ mechanism::CommandedProfile read_free_course(const SceneTable &table, const std:
 
 /// The key of a profile that may also be an input.
 Key or_input(Key course);
-/// Reads { input = "NAME" } of a profile, whose value is `from` until it is set from outside; null if it is not an
-/// input.
+/// Reads { input = "NAME" } of a profile, whose value is `from` until it is set from outside; null: not an input.
 std::shared_ptr<mechanism::InputValue> read_input(const SceneTable &table, const std::string &key, double from);
 
 } // namespace gestell::apps

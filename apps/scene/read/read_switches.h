@@ -6,8 +6,7 @@
 namespace gestell::apps
 {
 
-/// A load as an element, instead of a term of the system's excitation: for a load that accepts commands, or acts on a
-/// measure.
+/// A load as an element, instead of a term of the system's excitation: if it accepts commands or acts on a measure.
 ElementRequest element_of(const LoadRequest &load);
 
 /// Makes the element that was read from `table` initially switched off.

@@ -87,8 +87,7 @@ bool may_be_file(const Key &key)
          std::find(key.others.begin(), key.others.end(), Key::Form::file) != key.others.end();
 }
 
-/// Adds the files that keys of a table name to the archive, and makes the keys name them there. Other text is not
-/// changed.
+/// Adds the files that keys of a table name to the archive, and makes the keys name them there.
 void take_files(SceneNode &table, const std::vector<Key> &keys, std::map<std::string, std::string> &files)
 {
   for (auto &[name, value] : table.entries)

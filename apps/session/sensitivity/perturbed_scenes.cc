@@ -88,8 +88,7 @@ coupling::ReducedFrame frame_with_modes_of(const coupling::ReducedFrame &other, 
   return reduced_frame(scene, progress).frame;
 }
 
-/// Derivative of the frame with respect to a key that changes it: a quotient of two frames, each reduced once and
-/// cached.
+/// Derivative of the frame with respect to a key that changes it: a quotient of two cached frames.
 std::optional<coupling::FrameDerivative> derivative_of_frame(const VariedScene &varied, const Scene &scene,
                                                              const coupling::ReducedFrame &frame,
                                                              const coupling::Progress &progress, std::string &warning)

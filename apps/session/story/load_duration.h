@@ -22,8 +22,7 @@ namespace gestell::apps
  */
 std::optional<LoadDuration> load_duration(const std::vector<double> &t, const std::vector<double> &F);
 
-/// Whether it has zero stiffness and damping in the configuration of the modes: tools and loads, not springs or closed
-/// contacts.
+/// Whether it has zero stiffness and damping in the configuration of the modes: a tool or load.
 bool is_tool(const mechanism::Element &element);
 
 /**

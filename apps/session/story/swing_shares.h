@@ -18,8 +18,7 @@ std::vector<coupling::SignalExtreme> swing_extremes(const std::vector<coupling::
 /// The state at that instant, or the nearest one within `reach` [s]; null: none.
 const coupling::KeptState *state_near(const std::vector<coupling::KeptState> &states, double t, double reach);
 
-/// The states from one turning point to the other, in that order, at most about thirty; empty if they were not all
-/// kept.
+/// The states from one turning point to the other, in that order, at most about thirty; empty if some were not kept.
 std::vector<const coupling::KeptState *> states_of_swing(const std::vector<coupling::KeptState> &states, double from,
                                                          double to, double reach);
 

@@ -208,8 +208,7 @@ bool BdfControlled::finds_held() const
   return consistent_ && !system_.forces().held().empty();
 }
 
-/// Forces of sticking measures and joints at an instant are not values of a law, but follow from the equation of
-/// motion.
+/// Forces of sticking measures and joints at an instant follow from the equation of motion, not from a law.
 void BdfControlled::find_implied(Eigen::VectorXd &z, double t)
 {
   if (!has_consistent())

@@ -312,8 +312,7 @@ void BdfControlled::resolve_stiffness()
 }
 
 /// Takes half of the displacement of a start from the velocities, which are known to second order there: one order
-/// better than the extrapolation of two chains, and after a break-away (q ~ t^3) the first value that is correct at
-/// all.
+/// better than the extrapolation of two chains, and after a break-away (q ~ t^3) the first correct value.
 void BdfControlled::improve_middle()
 {
   const double part   = 2. * step_of(rung_) / 24.;

@@ -24,8 +24,7 @@ public:
   Motion(const Motion &)            = delete;
   Motion &operator=(const Motion &) = delete;
 
-  /// Adds an observer, which must outlive the motion.  It is called for all later steps, and at once for the start if
-  /// there was one.
+  /// Adds an observer, which must outlive the motion.  It is called for all later steps, and at once for a past start.
   void watch(RunObserver &observer);
 
   /// Starts, or restarts.

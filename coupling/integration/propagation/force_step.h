@@ -33,8 +33,7 @@ struct PropagationContext
 
   /// Starts a motion at x, u.
   void begin(const Eigen::VectorXd &x, const Eigen::VectorXd &u);
-  /// Distance of the motion at x: min(|q - q_begin|, |q' - q'_begin|/omega_1), where |q|^2 is the sum of q^T M q of all
-  /// states.
+  /// Distance of the motion at x: min(|q - q_begin|, |q' - q'_begin|/omega_1), where |q|^2 sums q^T M q of all states.
   double way(const Eigen::VectorXd &x) const;
 
   /// Updates the largest excursion; lower bounds: the distance in one step, and the rounding of u.

@@ -14,8 +14,7 @@ namespace gestell::coupling
 {
 
 /**
- * Exact propagation of the linear base system (5.5.2/1) in its modes, with the forces of the elements interpolated in
- * time.
+ * Exact propagation of the linear base system (5.5.2/1) in its modes, with element forces interpolated in time.
  *
  *     x' = Lambda x + G (f_t + W p),     x(t + h) = e^(Lambda h) x + int_0^h e^(Lambda (h - s)) G (f_t + W p) ds
  *

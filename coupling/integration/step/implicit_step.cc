@@ -108,8 +108,8 @@ void ImplicitStep::forget_contraction()
   unseen_                           = 0;
 }
 
-/// Resets the contraction for another form: Newton converges more slowly in a longer step, and predictions have another
-/// error.
+/// Resets the contraction for another form: Newton converges more slowly in longer steps, and predictions err
+/// differently.
 void ImplicitStep::note_form(const StepForm &form)
 {
   if (form.time == form_time_)

@@ -27,8 +27,7 @@ void ImplicitStep::find_measures(const Eigen::VectorXd &x, const StepForm &form,
     xi_[h.measure] = (h.rate - base.v[h.measure]) / form.w_v;
 }
 
-/// Newton's correction y of x, the multipliers and the forces of sticking measures, which are linear and added
-/// completely.
+/// Newton's correction y of x, the multipliers and the forces of sticking measures, which are linear.
 bool ImplicitStep::correct_sparse(const StepForm &form, const Eigen::VectorXd &f, const Eigen::VectorXd &x,
                                   LocalState &local)
 {

@@ -223,8 +223,7 @@ std::vector<SaddleMatrix::Scattered> SaddleMatrix::scattered(const std::vector<P
   return scattered;
 }
 
-/// Order: motions, equations, motions with many equations, equations that involve only these; within each set little
-/// fill-in.
+/// Order: motions, equations, motions with many equations, equations that involve only these; in each set little fill.
 void SaddleMatrix::order()
 {
   const int       *begin = pattern_.outerIndexPtr(), *rows = pattern_.innerIndexPtr();

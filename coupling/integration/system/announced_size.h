@@ -24,8 +24,7 @@ constexpr bool stand_in(std::uint64_t left, std::uint64_t rows, std::uint64_t co
 constexpr std::int64_t most_empty_lines = 100'000;
 
 /// Whether a sparse matrix in a file of this number of bytes may have this number of rows or columns: up to the number
-/// of bytes, since a matrix of a frame has more bytes than rows; or up to `known`, the number of rows of a matrix read
-/// before.
+/// of bytes, since a matrix of a frame has more bytes than rows; or up to `known`, the rows of an earlier matrix.
 constexpr bool may_have_lines(std::int64_t lines, std::int64_t bytes, std::int64_t known)
 {
   return lines <= bytes || lines <= known || lines <= most_empty_lines;

@@ -96,8 +96,7 @@ private:
 /// x with A x = b, A square and regular, by LU with partial pivoting.
 Eigen::MatrixXd lu_solution(const Eigen::MatrixXd &A, const Eigen::MatrixXd &B);
 
-/// Orthonormal columns that span those of A; if k exceeds the number of columns of A, also orthogonal complements [n x
-/// k].
+/// Orthonormal columns that span those of A; if k exceeds the number of columns of A, also complements [n x k].
 Eigen::MatrixXd orthonormal_columns(const Eigen::MatrixXd &A, Eigen::Index k);
 
 } // namespace gestell::coupling

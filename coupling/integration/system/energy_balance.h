@@ -55,8 +55,7 @@ public:
   void step(const Instant &instant); ///< trapezoidal
   /// @param exchanged  [J] so far, the reference for an open balance of a step
   void step(const TimeIntegrator &integrator, const PowerRule &rule, double exchanged);
-  /// Forces have changed their branch at the instant of the last step: the loss of stored energy in elements is
-  /// dissipated.
+  /// Forces have changed their branch at the instant of the last step: the loss of stored energy is dissipated.
   void   jump(const Instant &instant);
   double at_begin() const { return stored_begin_; } ///< [J], reference of the stored energy
   /// At the end of the last step, or at an instant inside it: integrals by the cubic through both ends and their

@@ -103,8 +103,7 @@ private:
   };
   using Inverse = std::pair<double, double>; ///< 1 / scale of displacements and of velocities; 0: no error
 
-  /// Measure of a virtual coordinate, its time constant [s], and the dependence of its law on other measures, per u and
-  /// u' [n_u].
+  /// Measure of a virtual coordinate, its time constant [s], and its law's slopes by u and u' [n_u].
   struct Virtual
   {
     int             measure;

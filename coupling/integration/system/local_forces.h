@@ -67,8 +67,7 @@ public:
   virtual const std::vector<HeldMeasure> &held() const;
   /// Name in the scene of the element that owns a measure, for messages.  Default: "an element".
   virtual std::string element_of(int) const { return "an element"; }
-  /// Whether forces depend on the multipliers of joints (friction in them), which in turn depend on the forces: a start
-  /// then iterates.
+  /// Whether forces depend on the multipliers of joints (friction in them), which depend on forces: a start iterates.
   virtual bool need_multipliers() const { return false; }
 };
 

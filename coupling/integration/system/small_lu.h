@@ -136,8 +136,7 @@ private:
     return true;
   }
 
-  /// Sum of the magnitudes that elimination has subtracted from an entry so far, with arbitrary units of rows and
-  /// columns.
+  /// Sum of the magnitudes that elimination has subtracted from an entry so far, in arbitrary units.
   double terms(int row, int column) const
   {
     double sum = 0.;

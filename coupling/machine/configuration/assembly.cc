@@ -82,8 +82,7 @@ private:
     closing();
   }
 
-  /// Given values may separate bodies that are in contact or within a play in the scene; these bodies follow if joints
-  /// permit it.
+  /// Given values may separate bodies that are in contact or within a play in the scene; these follow if joints permit.
   void close_plays()
   {
     const InitialState joined = state_;

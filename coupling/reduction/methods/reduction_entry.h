@@ -34,8 +34,7 @@ struct ReductionEntry
   bool takes(const std::string &key) const { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
 };
 
-/// Computes T with its known structure.  Statics are consumed: their basis becomes that of the space, their factor is
-/// released.
+/// Computes T with its known structure.  Statics are consumed: their basis moves to the space, their factor is freed.
 using BasisFunction = ReductionSpace(const fem::FrameMatrices &frame, const ReductionOptions &options,
                                      InterfaceStatics &statics);
 

@@ -41,8 +41,7 @@ public:
   void release();
   void restore();
 
-  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; also available after
-  /// release().
+  /// Number of fixed-interface modes below omega [rad/s], by the inertia of C22 - omega^2 M22; also after release().
   Inertia below(double omega) const;
 
   /// The same for the free interface, including rigid-body modes; analyses its own pattern in the first call.

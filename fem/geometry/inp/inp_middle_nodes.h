@@ -22,8 +22,7 @@ class InpMiddleNodes
 public:
   explicit InpMiddleNodes(std::function<Vector3(std::size_t)> position) : position_(std::move(position)) {}
 
-  /// Orders the middle nodes of a cell, corners first; false: they are not on edges, or in another order than in
-  /// earlier cells.
+  /// Orders the middle nodes of a cell, corners first; false: not on edges, or in another order than before.
   bool order(int gmsh_type, std::vector<std::size_t> &nodes);
 
   /// Notes on kinds whose middle nodes were not in Abaqus's order.

@@ -13,8 +13,7 @@ namespace gestell::apps
 namespace
 {
 
-/// Refuses flexible interfaces: the mechanism acts on nodes with six DOFs, and an interface with fields over its face
-/// has none.
+/// Refuses flexible interfaces: the mechanism acts on nodes with six DOFs, which flexible faces lack.
 void refuse_flexible(const fem::FrameSpecification &frame)
 {
   for (const fem::InterfaceSpecification &interface : frame.interfaces)

@@ -264,8 +264,7 @@ double total_mass(const SceneTable &frame, const fem::FrameMatrices &matrices, b
   return frame.value_or("total_mass", mass.diagonal().maxCoeff());
 }
 
-/// Computes the rigid motions from the positions of all nodes that have rows; states the result and warns of
-/// contradictions.
+/// Computes the rigid motions from the positions of all nodes that have rows; states the result and warns.
 void prove_rigid_motions(const SceneTable &frame, fem::FrameMatrices &matrices, const GivenMatrices &given,
                          const FrameNodes &nodes)
 {
