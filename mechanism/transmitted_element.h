@@ -11,8 +11,7 @@ namespace gestell::mechanism
 
 /**
  * A law of one or a few measures s that acts through scalars s(u) of the motion: a spring between two points of
- * rotating bodies, a cylinder, a wheel under a chassis, the clearance between cam and follower, a journal in its
- * bearing.
+ * rotating bodies, a cylinder, a wheel under a chassis, clearance between cam and follower, a journal.
  *
  *     p = G^T P(s, s'),     G = ds/du,     s' = G u',     s'' = G u'' + u'^T s'' u'
  *

@@ -109,8 +109,7 @@ void require_writable(const fs::path &folder)
   require_folder(folder);
   // Missing folders are created together with their contents: other processes may create and remove the same folders.
   std::error_code failure;
-  // while other processes create and remove the folder; each attempt succeeds unless another process acts at the same
-  // moment
+  // while other processes create and remove the folder; each attempt succeeds if no other process interferes
   constexpr int most_looks = 1000;
   for (int tries = 0; tries < most_looks; ++tries)
     if (failure = probe(folder); failure != std::errc::no_such_file_or_directory)

@@ -59,8 +59,7 @@ struct Modes
 };
 
 /**
- * A scene as data: keys are set by their path, then the scene is computed.  Frames are reduced once and stored in the
- * cache.
+ * A scene as data: keys are set by their path, then the scene is computed.  Frames are reduced once and cached.
  *
  *     gestell::Scene scene("press_minimal.toml");
  *     scene.set("parameters.c_P", "950 kN/mm");

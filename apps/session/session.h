@@ -83,8 +83,7 @@ public:
   /// @param parts  additional answers of the run
   Result run(const RunParts &parts = {});
 
-  /// Periodic solutions of the scene's machine, with their stability; `run` of the result is one period of the first
-  /// stable one.
+  /// Periodic solutions of the scene's machine, with their stability; `run` is a period of the first stable one.
   Result periodic(const PeriodicRequest &request = {});
 
   /// Wall time [s] of all computations so far, by phase.

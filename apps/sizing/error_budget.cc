@@ -139,8 +139,7 @@ Comparison BudgetMaker::against(ModelVariant finer, std::string reason)
 }
 
 /// Geometry error of straight sides at curved faces: compared with the same mesh with sides that follow the faces.  It
-/// does not decrease with finer meshes while circles have the minimum number of sides, so that two element sizes do not
-/// reveal it.
+/// does not decrease with finer meshes while circles have the minimum number of sides, which two sizes do not reveal.
 Comparison BudgetMaker::sides()
 {
   if (scene_.frame.source != FrameSource::geometry && scene_.frame.source != FrameSource::parts)

@@ -36,8 +36,7 @@ struct MeshPoint
  *     degree ~ h^q,   coordinates ~ h^-r,   CPU time ~ coordinates^1.2,   sides constant
  *
  * with q between 1 (sharp corner) and 4 (smooth fields) and r between 1 and 3, both from the two finest points.  With
- * one point q = 3 and r = 2, and the mesh is refined at most by a factor of two, so that q and r can then be
- * determined.
+ * one point q = 3 and r = 2, and the mesh is refined by two at most, to determine q and r.
  *
  * @param points    of meshes of one kind
  * @param others    errors of modes and time of the next model, by output
@@ -47,8 +46,7 @@ struct MeshPoint
 std::optional<MeshPoint> coarsest_within(double aim, std::vector<MeshPoint> points, const std::vector<Shares> &others,
                                          double coarsest);
 
-/// Number of modes in mode_ladder() for which a share falls to `aim`: the error with m modes is assumed to fall at
-/// least like m^-2.
+/// Number of modes in mode_ladder() for which a share falls to `aim`: the error is assumed to fall like m^-2 or faster.
 int modes_for(double aim, int modes, double share);
 
 /// Numbers of modes that are tried.

@@ -10,8 +10,7 @@ constexpr int tile_rows = 8; ///< rows of L stored together: a cache line of dou
 
 /**
  * L in tiles: the rows of a front's panel (its own columns' rows first, ascending) are cut into tiles of eight, the
- * last one filled up with zeros.  Tile t contains, column by column, the eight entries of the columns 0 .. min(w, 8 t +
- * 8)
+ * last padded with zeros. Tile t contains, by columns, the eight entries of the columns 0 .. min(w, 8 t + 8)
  * - 1 of the front; entries above the diagonal are zero. A sweep through L reads these numbers sequentially.
  */
 struct TiledFactor

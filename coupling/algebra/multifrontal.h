@@ -44,8 +44,7 @@ struct Border
  * Cholesky factor A = L L^T by the multifrontal method: each front collects the entries of A and the contributions of
  * the fronts before it, is factored densely, and passes its contribution on.
  *
- * @param take  receives the panel of every front in turn: L's columns [rows x columns], of which the lower triangle is
- *   used.
+ * @param take  receives the panel of every front in turn: L's columns [rows x columns], lower triangle.
  * @return      -1, or the coordinate whose pivot is not positive.
  *
  * Source: Duff & Reid, ACM Trans. Math. Software 9 (1983) 302-325.

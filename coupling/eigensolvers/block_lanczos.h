@@ -138,8 +138,7 @@ class BlockLanczos final : public ModeSearch
 public:
   struct Options
   {
-    /// Number of right-hand sides at once, >= 1.  The total time with eight is that with twelve or sixteen, with fewer
-    /// vectors to store.
+    /// Number of right-hand sides at once, >= 1.  Eight take as long in total as twelve or sixteen, with less memory.
     int    block     = 8;
     double tolerance = 1e-8; ///< r / theta below which a mode is accepted
     int    room      = 0;    ///< largest number of vectors of the space; 0: 3.2 GB, and enough for the modes requested

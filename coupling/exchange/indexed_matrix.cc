@@ -12,8 +12,7 @@ namespace
 
 constexpr const char *form = "'row column value'";
 
-/// Whether the first line is a head: whole numbers, at least as large as all rows and columns, the third being the
-/// number of further lines.
+/// Whether the first line is a head: no row or column is larger, and the value is the number of further lines.
 bool is_head(std::string_view value, const std::vector<FileEntry> &entries)
 {
   const auto &first    = entries.front();

@@ -39,8 +39,7 @@ struct FaceReach
   bool far() const { return outside > limit * size; }
 };
 
-/// @param free  projector onto directions in which the point can be shifted without effect, as along the axis of a
-///   guide.
+/// @param free  projector onto directions in which the point can be shifted without effect, as along a guide.
 FaceReach reach_of(const FaceBox &box, const Eigen::Vector3d &point,
                    const Eigen::Matrix3d &free = Eigen::Matrix3d::Zero());
 

@@ -27,8 +27,7 @@ struct ModalRange
  *     q_N = A_red^-1 (f_N - A_NL A_LL^-1 f_L),     q_L = A_LL^-1 (f_L - A_LN q_N);
  *
  * N are then the leading coordinates (LinearSolver).  For loads M h + f of a step a single pass over M_LN suffices for
- * each of the two equations if A_LN is a multiple of it, as without damping between q_N and q_L or with Rayleigh
- * damping.
+ * each of the two equations if A_LN is a multiple of it, as with Rayleigh damping or none between q_N and q_L.
  *
  * If modal damping of the supported frame fills B_LL, the inverse of the whole A is stored: for about sixty coordinates
  * its product is faster than two triangular solutions.  A is scaled to unit diagonal before it is inverted, so that the

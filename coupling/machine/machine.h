@@ -153,8 +153,7 @@ public:
 
   /**
    * The same machine in modes p, q = V p: base matrices V^T M V, V^T B V, V^T C V, directions V^T W, loads V^T f_t; its
-   * coordinates are the modes (5.5.3/11).  Frame, bodies and pictures remain in this machine; the new one has its
-   * signals.
+   * coordinates are the modes (5.5.3/11).  Frame, bodies and pictures remain in this machine; the new one has signals.
    */
   Machine in_modes(const ModalCoordinates &modes) const;
   /// [m] rad/s, for modal coordinates; empty: coordinates are not modal.

@@ -160,8 +160,7 @@ void MachineParts::watch(const PlacedSwitch &own, const LocalState *state)
   side              = past < 0. ? -1. : past > 0. ? 1. : 0.;
 }
 
-/// Whether the signal follows from forces that are determined by the equations of the step instead of a law: at a start
-/// they are not known yet.
+/// Whether the signal follows from forces that follow from the step's equations, not from a law: unknown at a start.
 bool MachineParts::tells_found_force(const PlacedSwitch &own) const
 {
   double      rate = 0.;

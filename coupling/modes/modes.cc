@@ -19,8 +19,7 @@ namespace gestell::coupling
 
 namespace
 {
-/// @throws std::invalid_argument if a mass is so small, or a damper so large compared with it, that the state
-///   overflows.
+/// @throws std::invalid_argument if a mass is so small, or its damper so large, that the state overflows.
 GeneralEigenSolver solve_state(const Eigen::MatrixXd &state, const Eigen::VectorXd &omega)
 {
   if (!state.allFinite()) // the solver would leave its arrays
@@ -371,8 +370,7 @@ Eigen::MatrixXd state_matrix(const Linear &linear, const Eigen::VectorXd &omega,
   return A;
 }
 
-/// The coordinate that a solution (y', x) moves most, by kinetic energy; if it has none, the virtual coordinate with
-/// the largest amplitude.
+/// The coordinate that a solution (y', x) moves most, by kinetic energy, or else the largest virtual coordinate.
 std::string moved_most(const Machine &machine, const std::vector<int> &lags, const Eigen::MatrixXd &M,
                        const Eigen::MatrixXd &V, const Eigen::VectorXcd &y_rate, const Eigen::VectorXcd &x)
 {

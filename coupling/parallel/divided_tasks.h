@@ -8,8 +8,7 @@
 namespace gestell::coupling
 {
 
-// The tasks of Team with distributed factors.  Inputs of rank 0 are not read on other ranks; `number` identifies a
-// factor.
+// The tasks of Team with distributed factors.  Inputs of rank 0 are not read on other ranks; `number`: of a factor.
 
 /// The other ranks load their libraries while rank 0 reads and meshes; it does not wait for them.
 struct PrepareTask

@@ -16,8 +16,7 @@ struct Launch
 Launch launch();
 
 /**
- * The ranks of mpirun as a team: libgestell_team.so, found in the same way as the plugin of frame_service(); it loads
- * only MPI.
+ * The ranks of mpirun as a team: libgestell_team.so, found like the plugin of frame_service(); loads only MPI.
  *
  * The first call must be made by all ranks.
  *

@@ -298,8 +298,7 @@ void MotionLinearisation::differentiate(const MotionState &state, const std::vec
 }
 
 /// Marks blocks with a derivative that differs from the quotient of the forces, even if it is small compared with the
-/// others of its block: a stiff element on a measure that rotates has a large stiffness along it, and only force over
-/// length across it.
+/// others of its block: a stiff element on a measure that rotates is stiff along it, with force over length across it.
 void MotionLinearisation::find_inexact(const MotionState &state)
 {
   const Index n_u = state.local.u.size();

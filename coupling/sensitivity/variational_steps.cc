@@ -199,8 +199,7 @@ void VariationalSteps::settle_errors()
 }
 
 /// Splits s into a time shift tau q' and a rest: tau = (s . q' + s' . q'')/(q' . q' + q'' . q''), each coordinate and
-/// rate relative to its own motion. Applied only where the rest is small and tau is not too long: for a machine at rest
-/// q' is rounding.
+/// rate relative to its own motion. Applied only if the rest is small and tau not too long: at rest q' is rounding.
 void VariationalSteps::split()
 {
   shift_.setZero(columns_.q.cols());

@@ -62,8 +62,7 @@ struct VariationalAccuracy
  * scaled by the whole motion, and adds tau q' and tau q'' of the motion after the step.
  *
  * The accuracy also includes the error that the method of the run, with its step, would make in these derivatives (y''
- * and y''' by differences of the stages): the run computed the motion with that method, so that the motion has the same
- * error.
+ * and y''' by differences of the stages): the motion of the run has the same error.
  *
  * Source: Hairer, Wanner, Solving Ordinary Differential Equations II, 2nd ed., table IV.6.5; docs/sensitivities.md (6),
  * (6a).

@@ -274,8 +274,8 @@ MatrixXd stayed(const MatrixXd &rows, const WeldedCoordinates &welded)
   return kept_rows;
 }
 
-/// A with zeros at further entries of `other`: coordinates that only the mass couples must stay together, as modes with
-/// their interface.
+/// A with zeros at further entries of `other`: coordinates that only mass couples stay together, as modes and
+/// interface.
 Eigen::SparseMatrix<double> with_pattern(const MatrixXd &A, const MatrixXd &other)
 {
   std::vector<Eigen::Triplet<double>> entries;

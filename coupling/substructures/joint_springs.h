@@ -13,7 +13,7 @@ namespace gestell::coupling
  * relative to the first.
  *
  * Bolts: r [6] at the point x midway between the two interfaces; each bolt at x_i with stiffnesses k along the axes A
- * gives K += H_i^T A diag(k) A^T H_i,  where H_i is the motion of x_i with the point.  Tie rod: r its elongation, K = E
+ * gives K += H_i^T A diag(k) A^T H_i,  with H_i the motion of x_i. Tie rod: r its elongation, K = E
  * A / L.
  */
 struct JointSpring

@@ -81,8 +81,7 @@ void bisect(const CoupledPatch &coupled, const QuadraticMesh &mesh, std::vector<
   bisect(coupled, mesh, std::vector<int>(middle, nodes.end()), groups);
 }
 
-/// Order of columns by QR with column pivoting, with rotations scaled by `length`: the first six form a
-/// well-conditioned block.
+/// Order of columns by QR with column pivoting, with rotations scaled by `length`: the first six are well conditioned.
 std::vector<int> pivot_order(const Rows6 &W, double length)
 {
   Rows6 scaled = W;

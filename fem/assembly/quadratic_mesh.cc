@@ -63,8 +63,7 @@ dealii::Triangulation<3> triangulation(const Mesh &mesh)
   return result;
 }
 
-/// Prisms must come first: FE_WedgeP of deal.II 9.4 knows which of its functions coincide with those of the other
-/// cells; these do not.
+/// Prisms must come first: FE_WedgeP of deal.II 9.4 knows which functions it shares; the others do not.
 void distribute(dealii::DoFHandler<3> &nodes, const Mesh &mesh)
 {
   const dealii::FE_WedgeP<3>   prism(2);

@@ -142,8 +142,7 @@ Point with_cubics(const ReferenceCell::Points &points, int p, const std::vector<
   return point;
 }
 
-/// Quadrature, exact for the stiffness of straight cells and nearly exact for the mass, where cubic functions
-/// contribute little.
+/// Quadrature, exact for the stiffness of straight cells and nearly so for the mass, with small cubic terms.
 std::vector<Point> rule(CellKind kind, const std::vector<Local> &functions)
 {
   const ReferenceCell::Points &finer = reference_cell(kind).finer;

@@ -188,8 +188,7 @@ bool some_are_near(const CadModel &model, double distance)
   return false;
 }
 
-/// Requires that solids with another solid within the gap are much thicker than the gap: otherwise their own faces
-/// would be merged.
+/// Requires that solids with another solid within the gap are thick enough that their own faces are not merged.
 void require_small_gap(const CadModel &model, const FrameSpecification &specification)
 {
   const double gap = specification.mesh.gap;

@@ -14,8 +14,7 @@ namespace gestell::fem
  *
  * gmsh runs in a child process, see in_child().
  *
- * @throws std::invalid_argument as open_cad() does, if a surface of triangles is open or solids overlap, if the child
- *   dies.
+ * @throws std::invalid_argument as open_cad() does, if triangles are open, solids overlap or the child dies.
  */
 CadBody measure_part(const CadSource &source);
 

@@ -32,8 +32,7 @@ namespace gestell::mechanism
  * multiplies them like e: limit and friction follow the multipliers.
  *
  * The element needs an integrator that locates events.  Without history (by_history = false) force() has the sign of
- * the sliding speed u' - v_b and is zero at rest; with history it is zero while sticking, when holds() is true and it
- * is not used.
+ * the sliding speed u' - v_b and is zero at rest; with history it is zero and unused while sticking (holds()).
  *
  * Against ground (v_b = 0) its work is dissipated; a belt is a drive: its work, minus the loss by sliding, counts as
  * input.  For natural frequencies it has no stiffness.

@@ -38,8 +38,7 @@ public:
   using Value = CubicSpline::Value; ///< f, f', f''
 
   /// @param formula  of variable(0)
-  /// @throws std::invalid_argument if f is not continuous at the ends of its period; without kinks f' and f'' must also
-  ///   be
+  /// @throws std::invalid_argument if f is not continuous at the ends of its period; without kinks also f' and f''
   explicit PositionFunction(const Formula &formula, const std::optional<Period> &period = {});
   /// @throws std::invalid_argument as CubicSpline does
   explicit PositionFunction(const CubicSpline &spline) : formula_(0.), spline_(spline) {}

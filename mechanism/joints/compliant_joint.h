@@ -44,8 +44,7 @@ public:
 
   static constexpr int max_equations = 6;
 
-  /// @throws std::invalid_argument without equations, for more than six or driven ones, and for negative stiffness or
-  ///   damping
+  /// @throws std::invalid_argument without equations, for more than six or driven ones, negative stiffness or damping
   CompliantJoint(const Placement &first, const Placement &second, std::vector<Equation> equations);
 
   int  n_measures() const override { return first_.n_measures() + second_.n_measures(); }

@@ -199,8 +199,7 @@ RelativeMeasure::Value RelativeMeasure::ratio(Pair &pair) const
   return {s + centres.s, rate + centres.rate, centres.bias};
 }
 
-/// Meshing wheels have rotated with the line of centres up to a small difference: of all angles psi + 2 pi n the
-/// nearest is used.
+/// Meshing wheels have rotated with the line of centres up to a small difference: the nearest psi + 2 pi n is used.
 RelativeMeasure::Value RelativeMeasure::mesh(const Vector3d &d, const Vector3d &d_rate, const Vector3d &d_bias,
                                              double turned, Vector3d &of_d) const
 {

@@ -40,8 +40,7 @@ void add_bar(Shape &shape, const Eigen::Vector3d &a, const Eigen::Vector3d &b, d
 void add_sphere(Shape &shape, const Eigen::Vector3d &centre, double radius, int n_rings = 8);
 
 /// Adds a plate with round corners.  In the plane normal to the unit vector n it covers all points within `radius` of
-/// the convex hull of `points`; along n it extends from `half_width` below the lowest point to `half_width` above the
-/// highest.
+/// the convex hull of `points`; along n it extends `half_width` beyond the lowest and the highest point.
 void add_plate(Shape &shape, const std::vector<Eigen::Vector3d> &points, const Eigen::Vector3d &n, double radius,
                double half_width);
 

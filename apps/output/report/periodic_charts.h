@@ -24,8 +24,7 @@ Chart phase_plane_chart(const PhasePlane &plane);
 /// The same for a Poincare section: points only.
 Chart section_chart(const PhasePlane &plane, int periods);
 
-/// Basins of attraction: each cell has the colour of the solution it settles to; discs mark stable solutions at the
-/// start of a period.
+/// Basins of attraction: each cell has the colour of the solution it settles to; discs mark stable solutions.
 Chart basins_chart(const BasinMap &map);
 
 /// Largest and smallest value of a signal over the parameter; unstable motions dashed.

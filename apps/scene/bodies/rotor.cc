@@ -22,8 +22,7 @@ std::vector<Key> unbalance_keys()
           .by_default("`position`, or where its carrier is if there is none")};
 }
 
-/// @throws the error of the table for keys without an unbalance, and for an eccentric mass with more inertia than the
-///   rotor
+/// @throws the error of the table for keys without an unbalance, and for an eccentric mass with too much inertia
 std::optional<UnbalanceRequest> read_unbalance(const SceneTable &table)
 {
   if (!table.has("unbalance"))

@@ -33,8 +33,7 @@ coupling::Machine build_machine(const Scene &scene, fem::FrameMatrices frame);
 /// The machine without computations: a frame that must be made first is replaced by a placeholder with its interfaces.
 coupling::Machine machine_to_check(const Scene &scene);
 
-/// The signals of the scene; throws std::invalid_argument with location and most similar name for a path that does not
-/// exist.
+/// The signals of the scene; throws std::invalid_argument with location and most similar name for an unknown path.
 std::vector<coupling::Signal> scene_signals(const Scene &scene, const coupling::Machine &machine);
 
 /// State at the start of the run, by the rule of the scene.

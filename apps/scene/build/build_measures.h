@@ -9,8 +9,7 @@ namespace gestell::apps
 
 coupling::Measure measure_of(const MotionMeasure &motion, const coupling::MachineModel &machine);
 
-/// Measures of an element.  @throws std::invalid_argument if all of them are always zero, such as a rotation of a
-/// single node
+/// Measures of an element.  @throws std::invalid_argument if all are always zero, such as a node's rotation
 std::vector<coupling::Measure> measures_of(const std::vector<MotionMeasure> &motions,
                                            const coupling::MachineModel     &machine);
 

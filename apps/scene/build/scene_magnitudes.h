@@ -22,8 +22,7 @@ std::string key_place(const Scene &scene, const std::string &object, const std::
 
 /**
  * Largest plausible deflection of elastic parts, frame and supports under weights and loads, relative to the size of
- * the machine.  The softest parts, suspensions of vehicles and air springs, deflect by up to 0.05; metal is strained
- * below 0.005.
+ * the machine.  The softest parts, suspensions of vehicles and air springs, deflect by up to 0.05, metal below 0.005.
  */
 constexpr double most_yielding = 0.05;
 

@@ -21,8 +21,7 @@ struct SuperposedMachine
 /// @param q  [n] configuration whose engaged elements are included in the averaged system
 SuperposedMachine superposed(const Scene &scene, const coupling::Machine &whole, const Eigen::VectorXd &q);
 
-/// Converts an initial state of the whole machine to the machine in modes; a state at rest becomes an equilibrium of
-/// the latter.
+/// Converts an initial state of the whole machine to the machine in modes; a state at rest becomes its equilibrium.
 /// @param projection  of SuperposedMachine
 coupling::InitialState start_in_modes(const Scene &scene, coupling::Machine &machine, const coupling::Machine &whole,
                                       const Eigen::MatrixXd &projection, const coupling::InitialState &start);

@@ -9,8 +9,7 @@ namespace gestell::apps
 {
 
 /**
- * Why the value of a key is implausible: "is 1500 rad/s; expected: at most 400 rad/s, as ..."; empty if it is
- * plausible.
+ * Why the value of a key is implausible: "is 1500 rad/s; expected: at most 400 rad/s, as ..."; else "".
  *
  * Ranges of keys and, for all other keys, of kinds are in one table (docs/scene/magnitudes.md): typical values of
  * machines, not limits of the laws.  Zero is always plausible.

@@ -6,8 +6,7 @@
 namespace gestell::apps
 {
 
-/// Remedy for a typing error in a line that is not TOML, such as "text stands in quotes: \"bdf\""; empty if none is
-/// recognised.
+/// Remedy for a typing error in a line that is not TOML, "text stands in quotes: \"bdf\""; empty: none recognised.
 std::string toml_hint(const std::string &line);
 /// The same, or a remedy for the reason that the TOML library gives; never empty.
 std::string toml_hint(const std::string &line, const std::string &reason);

@@ -29,7 +29,7 @@ std::shared_ptr<const JointFrictionRequest> read_joint_friction(const SceneTable
 mechanism::RelativeMeasure rotation_of_pin(const Pair &pair, const mechanism::Vector3d &axis);
 
 /**
- * Adds friction in the free directions of the joint attached last, with normal forces from the multipliers of its
+ * Adds friction in the free directions of the joint attached last, with normal forces by the multipliers of
  * `equations`.
  *
  * @throws std::invalid_argument if the bodies have no such motion, or friction with sticking has no constant direction

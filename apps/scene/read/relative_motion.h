@@ -55,8 +55,7 @@ RelativeMotion read_load_motion(const SceneTable &table, const Names &names);
 
 /**
  * Reads the angle through which a motor drives its shaft.  `on` is a rotor or a planar body; the angle is relative to
- * `to`, the body with the stator: by default the carrier of the rotor, or the ground.  Or `on` is a measure that is an
- * angle.
+ * `to`, the body with the stator: by default the carrier of the rotor, or the ground.  Or `on` is an angle measure.
  */
 RelativeMotion read_shaft(const SceneTable &table, const Names &names);
 

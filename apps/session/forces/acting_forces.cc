@@ -63,8 +63,7 @@ MatrixXd rates(const PlacedPoint &place, const std::vector<int> &coordinates)
   return of;
 }
 
-/// For a free spatial body, from its rigid-body motions: a unit rotation about e through the point moves d_i by e x
-/// d_i.
+/// For a free spatial body, from its rigid-body motions: a unit rotation about e moves d_i by e x d_i.
 Wrench of_free_body(const PlacedPoint &place, const VectorXd &w, const VectorXd &g)
 {
   Wrench found{g.head<3>(), Vector3d::Zero(), 3};

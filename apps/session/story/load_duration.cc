@@ -93,8 +93,7 @@ void add_modes(const coupling::ElementPlacement &placement, const LocalModes &th
       load.modes.push_back(on_mode(load, placement, there, j));
 }
 
-/// The stored state closest to the start of the fall, during it or within a tenth of the load's duration; none: q is
-/// empty.
+/// The stored state closest to the start of the fall, in it or within a tenth of the load's duration; none: empty q.
 coupling::KeptState state_at_fall(const LoadDuration &load, const coupling::RunResult &run)
 {
   const double        reach = std::max(load.fall, 0.1 * (load.t_fall - load.begin));

@@ -223,8 +223,7 @@ void EventDriver::locate(int guard, double low, double g_low, double high, doubl
 
 /// Whether start, end and one instant between them show that no guard is near zero: the distance of the parabola
 /// through them is more than twice its variation, with the curvature weighted sixfold.  The instant is not the middle,
-/// where a rise in one half and a fall in the other would be missed: c s (s - 1/2) (s - 1) is at most 1.7 times its
-/// value there.
+/// where a rise in one half and a fall in the other would be missed: c s (s - 1/2) (s - 1) is at most 1.7 times that.
 bool EventDriver::far_from_zero() const
 {
   for (int i = 0; i < system_.events().n_guards(); ++i)

@@ -27,8 +27,7 @@ namespace gestell::coupling
 double guard_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard,
                       const LocalState &at, double h = std::numeric_limits<double>::infinity());
 
-/// Whether the values of a guard within a step are only rounding errors, so that their sign is meaningless: the guarded
-/// quantity is at rest.
+/// Whether the values of a guard within a step are only rounding errors, so that their sign means nothing.
 template <class Looks>
 bool is_rounding(const SecondOrderSystem &system, const TimeIntegrator &integrator, int guard, const LocalState &at,
                  const Looks &looks)

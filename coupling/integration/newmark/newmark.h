@@ -18,8 +18,7 @@ namespace gestell::coupling
  * the factor h^2 (1 - alpha_f)/(1 - alpha_m) in the condensed equation.
  *
  * Second order if gamma = 1/2 - alpha_m + alpha_f, otherwise first.  The acceleration in the state of generalised alpha
- * and HHT is that at t + (alpha_m - alpha_f) h; that of the measures, local().a, is shifted to t (also of second
- * order).
+ * and HHT is that at t + (alpha_m - alpha_f) h; that of the measures, local().a, is shifted to t (second order).
  *
  * Sources: Newmark, J. Eng. Mech. Div. ASCE 85, 1959; Hilber, Hughes & Taylor, Earthq. Eng. Struct. Dyn. 5, 1977;
  * Chung & Hulbert, J. Appl. Mech. 60, 1993; docs/theory/integration.md.

@@ -91,8 +91,7 @@ private:
   /// Updates the largest defects so far, relative to the largest forces.
   void note_defect();
 
-  /// Relative error of the forces that Newton may leave; up to order 4 the tolerance is small enough compared with the
-  /// local error.
+  /// Relative error of the forces that Newton may leave; up to order 4 the tolerance is small against the local error.
   double part_left() const;
 
   bool is_expected(double h) const { return begin_at_.t + h <= expected_until_; }

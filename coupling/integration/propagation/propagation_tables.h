@@ -78,8 +78,7 @@ private:
   Eigen::MatrixXd weighted_; ///< [2 n_p x n_u]
 };
 
-/// x at the time tau after the start of a step of length h, from x at its start and the p_j of the whole step [n_basis
-/// n_u].
+/// x at the time tau after the start of a step of length h, from x at its start and the p_j [n_basis n_u].
 void carry_inside(const ModalMeasures &system, const ForceBasis &basis, double tau, double h, const Eigen::VectorXd &p,
                   Eigen::VectorXd &x);
 

@@ -108,8 +108,7 @@ void ImplicitStep::forget_contraction()
   unseen_                           = 0;
 }
 
-/// Resets the contraction for another form: Newton converges more slowly in longer steps, and predictions err
-/// differently.
+/// Resets the contraction for another form: longer steps converge more slowly, and predictions err differently.
 void ImplicitStep::note_form(const StepForm &form)
 {
   if (form.time == form_time_)

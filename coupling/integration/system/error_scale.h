@@ -22,8 +22,7 @@ class StateArchive;
  *
  * with the maxima over the motion so far.  The second bound of E is the distance in the time scale of the slowest
  * elastic mode of the base system: a free rotation has no largest excursion.  The same applies to every measure u_j
- * alone, because forces depend on measures, and the deformation of a contact is a thousandth of the motion of its two
- * sides:
+ * alone, because forces depend on measures, and contacts deform by a thousandth of the motion of their sides:
  *
  *     e_u / U_j,   e_u' / U'_j,     U_j not below 1e-3 of the excursions of the coordinates it is made of.
  *

@@ -12,8 +12,7 @@ namespace gestell::coupling
  *         [ q2 ]                  [ -C22^-1 C21   V22 ]
  *
  * q1, the coordinates of all interfaces, remains physical, so that mechanisms can be attached to it directly; the
- * deflection under static interface loads is exact for any number of modes.  One Cholesky factor of C22 is used
- * throughout.
+ * deflection under static interface loads is exact for any number of modes.  One factor of C22 is used.
  *
  * Automatic number of modes (options.n_modes < 0): see select_modes().  Completeness is verified by inertia, see
  * SturmCheckedModes.

@@ -10,8 +10,7 @@ namespace gestell::coupling
 {
 
 /**
- * Compares the modes of the averaged system, of which a machine in modes consists, with those of the instantaneous
- * system,
+ * Compares the modes of the averaged system, which a machine in modes uses, with those of the instantaneous system,
  *
  *     (C + W K(t) W^T - omega^2 M) v = 0,     K = -dp/du,
  *

@@ -14,8 +14,7 @@ namespace gestell::apps
 /// "row 5", or "row 5 (node 12, uz)" if that is known.
 std::string row_text(Eigen::Index row, const std::vector<coupling::RowLabel> &rows);
 
-/// Reject matrices that no frame can have, with key and row: `key` is that of the matrix, `rows` the meaning of its
-/// rows, if known.
+/// Reject matrices that no frame can have, with key and row: `key` is that of the matrix, `rows` its rows, if known.
 /// @throws std::invalid_argument
 void check_symmetry(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
                     const std::vector<coupling::RowLabel> &rows);
@@ -33,8 +32,7 @@ double rounding_of(const Eigen::SparseMatrix<double> &A);
  * rotations of lumped masses.
  *
  * After scaling to unit diagonal, entries with the relative rounding e change eigenvalues by at most e max_i sum_j
- * |a_ij| (Gershgorin).  A matrix that is semidefinite within this limit is accepted, within 100 times the limit with a
- * warning.
+ * |a_ij| (Gershgorin).  A matrix that is semidefinite within this limit is accepted, up to 100 times with a warning.
  */
 void check_semidefinite(const SceneTable &frame, const std::string &key, const Eigen::SparseMatrix<double> &A,
                         double rounding, const std::vector<coupling::RowLabel> &rows);

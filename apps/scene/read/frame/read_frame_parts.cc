@@ -28,8 +28,7 @@ std::vector<Key> without_reduced(std::vector<Key> keys)
 
 } // namespace
 
-/// Keys of [frame] of several parts. Those of [frame.part.NAME], with the keys of a frame from geometry, and of
-/// [frame.joint.NAME] follow.
+/// Keys of [frame] of several parts, followed by those of [frame.part.NAME] and [frame.joint.NAME].
 const std::vector<Key> &parts_frame_keys()
 {
   static const std::vector<Key> keys = {
